@@ -31,7 +31,7 @@ HitMissTable outcomes_at(const GradedValues& values, double threshold) {
     return hit_miss_table(size, hit);
 }
 
-// Empty where no curve fits.
+// a90 with its bounds; empty where no curve fits.
 std::optional<SizeBounds> a90_of(const HitMissTable& table, const PodForm& form,
                                  double confidence) {
     if (table.empty() || total_hits(table) == 0.0) {
@@ -53,8 +53,8 @@ bool nearer(const SizeEstimate& a, const SizeEstimate& b) {
     return place_of(a) < place_of(b);
 }
 
-// How many times rarer than one in the sample, or in the gearboxes whose records are tilted; 0 if
-// it is not.
+// Rarity of the rate relative to one in the sample, or relative to one in the gearboxes if their
+// records are importance-sampled. 0 if the rate is not rarer.
 double extrapolation_of(const Threshold& threshold, double rate) {
     const auto rarer = [&](long sample) { return 1.0 / (rate * static_cast<double>(sample)); };
     if (threshold.tilted) {
@@ -75,8 +75,9 @@ RatePoint point_of(const HealthyThresholds& healthy, double rate, const Threshol
     return point;
 }
 
-// A threshold that is farther away finds no smaller fault: what bounds one of a nearer threshold
-// from below bounds its own too, however little the sample says of rarer alarms.
+// Makes estimates and bounds monotone. A threshold farther out finds no smaller fault, so a lower
+// bound at a nearer threshold also holds at a farther one, however little the sample tells about
+// rarer alarms.
 void make_monotone(std::vector<RatePoint>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const SizeBounds& before = points[i - 1].a90;
@@ -99,7 +100,7 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
                                   double confidence) {
     FalseAlarmCurve curve;
     const HealthyThresholds healthy(values.healthy, values.alarm);
-    // Both one-sided bounds of either kind: half the chance of error each.
+    // The bounds of the threshold and the bounds of a90 each get half of the error probability.
     const double half = 1.0 - 0.5 * (1.0 - confidence), two_sided = confidence;
     for (const double rate : kCurveRates) {
         const Threshold threshold = healthy.at(rate, two_sided);
@@ -107,7 +108,7 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
             break;
         }
         RatePoint point = point_of(healthy, rate, threshold, two_sided);
-        // The side towards the healthy ones finds more.
+        // The bound on the side of the healthy values finds more faults.
         const bool high = values.alarm == Alarm::high;
         const Interval& bounds = point.threshold_bounds;
         const double near = high ? bounds.lower : bounds.upper,
@@ -133,8 +134,8 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
         }
     }
     if (curve.points.empty()) {
-        curve.refusal = curve.unfitted.empty() ? "too few healthy ones for a threshold"
-                                               : "the curve fits at none of the rates";
+        curve.refusal = curve.unfitted.empty() ? "too few healthy values for a threshold"
+                                               : "no curve fits at any of the rates";
         curve.unfitted.clear();
     }
     make_monotone(curve.points);
@@ -167,7 +168,7 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
     least.cost = std::numeric_limits<double>::infinity();
     least.without = cost(0.0, 0.0);
     double rarest = 1.0;
-    bool counted = true;  // the least's is an order statistic
+    bool counted = true;  // the minimum is at an order statistic
     const auto consider = [&](double value, double rate, bool order_statistic) {
         const double pd = share_beyond(faulty, value), expected = cost(rate, pd);
         rarest = std::min(rarest, rate);
@@ -187,7 +188,7 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
             consider(sign * beyond.value, rate, false);
         }
     }
-    // At a rate between two whole ranks the order statistic is the same one.
+    // A rate between two whole ranks has the same order statistic.
     const Threshold chosen =
         counted ? alarm_threshold(all.plain(), values.alarm, least.false_alarm_rate)
                 : all.at(least.false_alarm_rate, half);

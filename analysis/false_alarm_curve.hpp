@@ -1,6 +1,6 @@
-// What a rarer false alarm costs in size: a90 at thresholds for false-alarm rates from 0.1 down to
-// 1e-6, as far as the healthy sample carries them (detection/tail.hpp); and in money, where an
-// alarm and a miss have a price.
+// Detectable size against false-alarm rate: a90 at thresholds for rates from 0.1 down to 1e-6, as
+// far as the healthy sample supports them (detection/tail.hpp). Also the threshold of least
+// expected cost, where an alarm and a miss have a price.
 #pragma once
 
 #include <array>
@@ -21,58 +21,64 @@ inline constexpr std::array kCurveRates{1e-1, 5e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3
                                         2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6};
 
 struct RatePoint {
-    double false_alarm_rate = 0.0;  // asked for
+    double false_alarm_rate = 0.0;  // requested
     double threshold = 0.0;
-    double extrapolation = 0.0;  // so many times beyond the sample; 0: an order statistic
-    bool tilted = false;         // of tilted records, beyond as many gearboxes
-    Interval threshold_bounds;   // an infinite side: the sample does not fix it
-    // The bounds also hold the threshold's own scatter: a90's at the threshold's, each with half
-    // the chance of error.
+    // Ratio of the tail's rarity to the sample's: 1 / (rate x sample size); 0: an order statistic.
+    double extrapolation = 0.0;
+    // Threshold from importance sampling; `extrapolation` then counts gearboxes.
+    bool tilted = false;
+    Interval threshold_bounds;  // an infinite bound means that the sample does not determine it
+    // Bounds that include the uncertainty of the threshold: a90's bounds at the bounds of the
+    // threshold, each with half of the error probability.
     SizeBounds a90;
 };
 
 struct FalseAlarmCurve {
-    std::vector<RatePoint> points;  // falling rates, the last the rarest that the sample carries
-    std::vector<double> unfitted;   // rates between them at which no curve fits
-    std::string refusal;            // why there are none, or ""
+    // In order of falling rate, the last at the rarest rate that the sample supports.
+    std::vector<RatePoint> points;
+    std::vector<double> unfitted;  // rates within that range at which no curve fits
+    std::string refusal;           // reason why there are no points, or ""
 };
 
-// One feature at one noise level.
+// Values of one feature at one noise level.
 struct GradedValues {
     Alarm alarm = Alarm::high;
     HealthyValues healthy;  // threshold sample
     std::span<const double> size, value;
 };
 
-// With the forms of the curves that the data support at the request's own rate, the one taken there
-// first: estimates are its own, bounds the widest, as in a POD (hit_miss_pod.hpp); floors follow
-// the rates. A rarer alarm finds no smaller fault, so neither a90 nor its bounds fall with the
-// rate: estimate and upper bound are at least those of any higher rate, the lower bound at most
-// that of any lower one.
+// Computes a90 at every rate of kCurveRates. Uses the curve forms that the data support at the
+// requested rate, the chosen one first: estimates come from the first form, bounds are the widest
+// of all forms, as in a POD (hit_miss_pod.hpp). The floor of a curve follows the false-alarm rate.
+// A rarer false alarm cannot find a smaller fault, so a90 and both of its bounds are made monotone:
+// none of them falls as the rate falls.
 FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const PodForm> forms,
                                   double confidence);
 
-// In any unit of money, the same for both; the share of records of machines with a fault.
+// Costs of a false alarm and of a miss in the same unit of money, and the share of records that
+// come from machines with a fault.
 struct Costs {
     double alarm = 0.0, miss = 0.0, fault_share = 0.0;
 };
 
 struct LeastCost {
     double threshold = 0.0;
-    double extrapolation = 0.0;  // as above
+    double extrapolation = 0.0;  // as in RatePoint
     bool tilted = false;
     double false_alarm_rate = 0.0;
     Interval rate_bounds;
-    double pd = 0.0;  // of the study's faults, all sizes as they were drawn
+    double pd = 0.0;  // for the study's faults, over all sizes as drawn
     Interval pd_bounds;
-    double cost = 0.0;     // expected, of a record
-    Interval bounds;       // from both, each with half the chance of error
-    double without = 0.0;  // without any alarm
-    bool rarest = false;   // the least lies at the rarest rate that the sample carries, or beyond
+    double cost = 0.0;  // expected cost per record
+    Interval bounds;    // from rate_bounds and pd_bounds, each with half of the error probability
+    double without = 0.0;  // expected cost without any alarm
+    // The minimum lies at the rarest rate that the sample supports, or beyond it.
+    bool rarest = false;
 };
 
-// (1 - share) rate alarm + share (1 - Pd) miss, the least over the thresholds for the curve's rates
-// and for every order statistic of the healthy sample. None without healthy or faulty values.
+// Minimises the expected cost (1 - share) rate alarm + share (1 - Pd) miss over the thresholds for
+// the rates of kCurveRates and over every order statistic of the healthy sample. Empty without
+// healthy or without faulty values.
 std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& costs,
                                     double confidence);
 

@@ -66,7 +66,7 @@ void add_hit_miss(const Inspections& data, const InspectionRequest& request,
     asked.confidence = request.confidence;
     asked.band_points = kBandPoints;
     asked.rule = rule_of(request);
-    // Outcomes of one specimen hang together, which only the robust covariance knows.
+    // Outcomes of one specimen are correlated. Only the robust covariance accounts for this.
     if (result.repeats > 0) {
         asked.rule->method = BoundMethod::wald;
     }
@@ -83,7 +83,8 @@ double threshold_of(const NoiseLaw& noise, double false_call_rate, Alarm alarm) 
     return noise.exceeded_by(alarm == Alarm::high ? false_call_rate : 1.0 - false_call_rate);
 }
 
-// Thresholds that the noise exceeds with these probabilities, else some over the responses.
+// Thresholds for the trade-off: those that the noise exceeds with probabilities from 0.5 to 1e-4,
+// or without noise values some quantiles of the responses.
 std::vector<double> thresholds(const std::vector<double>& responses, const NoiseLaw* noise,
                                const InspectionRequest& request) {
     constexpr int kPoints = 33;
@@ -142,8 +143,8 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
             threshold_of(result.noise.front(), *request.false_call_rate, request.alarm);
     } else {
         result.refusal =
-            "no threshold: give one, or a false-call rate and lines of size 0 (three at least) "
-            "to find it from";
+            "no threshold: give one, or a false-call rate and at least three lines of size 0 to "
+            "derive it from";
         return;
     }
     for (const double value : without) {

@@ -1,6 +1,6 @@
-// What a table of inspections says: POD by size from hits and misses or from responses, false
-// calls, what another threshold would trade, and how many more specimens a bound takes. By the same
-// statistics as a study's detection.
+// Evaluates a table of inspections by the same statistics as a study's detection: POD by size from
+// hits and misses or from responses, false calls, the trade-off over thresholds, and the number of
+// specimens that a bound needs.
 #pragma once
 
 #include <optional>
@@ -13,56 +13,58 @@
 
 namespace gearpod::analysis {
 
-// A line each; sizes of 0 are places without a flaw.
+// Columns of the table, one entry per line. A size of 0 is a place without a flaw.
 struct Inspections {
     std::vector<double> size;
-    std::vector<double> value;   // 1 hit and 0 miss, or the response
-    std::vector<long> specimen;  // equal for repeated measurements of one
+    std::vector<double> value;   // 1 for a hit and 0 for a miss, or the response
+    std::vector<long> specimen;  // equal for repeated measurements of one specimen
 };
 
 enum class BoundConvention { handbook, one_sided, two_sided, joint };
 
 struct InspectionRequest {
-    bool responses = false;  // else hits and misses
+    bool responses = false;  // values are responses, otherwise hits and misses
     double confidence = 0.95;
     BoundConvention convention = BoundConvention::handbook;
-    std::optional<BoundMethod> method;  // none: the convention's own
+    std::optional<BoundMethod> method;  // none: the default of the convention
     std::vector<bool> log_sizes = {false, true};
-    std::optional<double> target;  // size
-    // Of hits and misses.
+    std::optional<double> target;  // size at which the POD is requested
+    // Options for hits and misses.
     std::vector<Link> links = {kLinks, kLinks + 4};
-    std::optional<double> floor;  // none: the rate without flaw, with and without it
+    // None: the false-call rate of places without a flaw; fits with and without it are compared.
+    std::optional<double> floor;
     bool fit_ceiling = false;
     bool firth = false;
-    // Of responses.
+    // Options for responses.
     Alarm alarm = Alarm::high;
-    std::optional<double> threshold;        // none: from the false calls
-    std::optional<double> false_call_rate;  // to set the threshold by
+    std::optional<double> threshold;        // none: derived from false_call_rate
+    std::optional<double> false_call_rate;  // sets the threshold if none is given
     CensoringLimits limits;
     std::vector<double> powers = {1.0, 0.0};
     bool insist = false;
 };
 
-// At a threshold.
+// False calls and detectable sizes at one threshold.
 struct TradeOffPoint {
     double threshold = 0.0;
-    double false_calls = 0.0;  // probability by the noise's law; NaN without noise
+    double false_calls = 0.0;  // probability from the noise distribution; NaN without noise values
     SizeBounds a50, a90;
 };
 
 struct InspectionResult {
-    std::string refusal;  // why there is nothing
+    std::string refusal;  // reason why there is no result, or ""
     HitMissTable table;
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
-    double threshold = 0.0;       // of responses
-    long without_flaw = 0;        // values of size 0
-    long false_calls = 0;         // of these
-    Interval false_call_bounds;   // Clopper-Pearson, at the confidence
-    std::vector<NoiseLaw> noise;  // of responses without flaw, the best first
+    double threshold = 0.0;       // for responses
+    long without_flaw = 0;        // number of values of size 0
+    long false_calls = 0;         // number of hits among them
+    Interval false_call_bounds;   // Clopper-Pearson, at the requested confidence
+    std::vector<NoiseLaw> noise;  // fits to the responses without flaw, in order of AIC
     std::vector<TradeOffPoint> trade_off;
-    long specimens = 0, repeats = 0;  // with a flaw; lines beyond one each
-    // Specimens of one size of which all must be found for Pd 0.9 at the confidence.
+    long specimens = 0, repeats = 0;  // specimens with a flaw; lines in excess of one per specimen
+    // Number of specimens of one size that must all be found to demonstrate Pd 0.9 at the
+    // confidence.
     long all_found = 0;
 };
 

@@ -20,12 +20,12 @@ std::vector<double> column(std::span<const double> values, std::size_t level, st
     return out;
 }
 
-// The values of one feature at one noise level.
+// Values of one feature at one noise level.
 struct LevelValues {
-    std::vector<double> healthy, faulty;       // for areas and ranking
+    std::vector<double> healthy, faulty;       // for AUC and ranking
     std::vector<double> thresholds;            // of the threshold sample
     std::vector<double> graded;                // all graded gearboxes in order
-    std::vector<std::vector<double>> by_size;  // faulty ones by size group
+    std::vector<std::vector<double>> by_size;  // faulty gearboxes by size group
 };
 
 LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feature,
@@ -79,7 +79,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
             level.pd.push_back(cell.pd);
         }
     }
-    // Thresholds are set by the threshold sample alone.
+    // Only the threshold sample sets thresholds.
     HealthyValues sample{values.thresholds, data.record_gearbox};
     if (!feature.records.empty()) {
         sample.weights = feature.weights;
@@ -137,7 +137,7 @@ Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
                                const DetectionRequest& request, int threads) {
     if (detections.size() != data.features.size()) {
-        throw std::invalid_argument("reliability: one detection a feature is needed");
+        throw std::invalid_argument("reliability: needs one detection per feature");
     }
     const std::size_t levels = request.noise_levels.size();
     const std::vector<std::size_t> group = groups_of(data.graded_size, request.groups);
@@ -159,7 +159,7 @@ Reliability assess_reliability(const ReliabilityData& data,
                 level_values(data, data.features[f], group, request.groups.size(), n, levels);
         }
     }
-    // Each entry on its own: the same numbers whatever the threads.
+    // Entries are independent, so the results do not depend on the number of threads.
     machine::for_each_index(values.size(), threads, [&](std::size_t i) {
         const std::size_t f = i / levels, n = i % levels;
         result.features[f].levels[n] = assess_level(data, data.features[f], values[i],

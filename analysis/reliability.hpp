@@ -1,5 +1,5 @@
-// What a study says of its features as detectors: POD curves, areas under the ROC, ranking and what
-// decides the misses, for every feature and noise level.
+// Evaluates the features of a study as detectors, for every feature and noise level: POD curves,
+// areas under the ROC curve, ranking, and the influence of the inputs on misses.
 #pragma once
 
 #include <optional>
@@ -24,40 +24,44 @@ namespace gearpod::analysis {
 
 struct LevelReliability {
     double noise_level = 0.0;
-    bool has_threshold = true;  // without one nothing is known of what is found
+    // False: no threshold could be set, so the detection rates are unknown.
+    bool has_threshold = true;
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
     Auc auc;  // all faulty gearboxes against all healthy ones
     std::vector<Auc>
-        auc_by_size;            // in the order of the request's groups; no faulty ones in one at 0
+        // In the order of the request's groups; without faulty gearboxes for a group at size 0.
+        auc_by_size;
     std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     InputEffects inputs;
     UncertainBand uncertain;
-    std::vector<double> pd;   // of the size groups above 0, ascending; NaN where none was tested
-    FalseAlarmCurve by_rate;  // a90 at other false-alarm rates
-    std::optional<LeastCost> least_cost;  // if costs are asked for
-    // The size that the rates alone vouch for, without a curve; NaN: none.
+    // Detection rates of the size groups above 0, ascending; NaN where none was tested.
+    std::vector<double> pd;
+    FalseAlarmCurve by_rate;              // a90 at other false-alarm rates
+    std::optional<LeastCost> least_cost;  // if costs were requested
+    // Smallest size demonstrated by the tested rates alone, without a curve; NaN if there is none.
     double tested_size = kNan;
 };
 
 struct FeatureReliability {
     std::string feature;
     Alarm alarm = Alarm::high;
-    std::vector<LevelReliability> levels;  // ascending noise
+    std::vector<LevelReliability> levels;  // by ascending noise level
 };
 
 struct Reliability {
     std::vector<FeatureReliability> features;
-    std::vector<FeatureRanking> rankings;    // one a noise level
-    std::vector<CombinedDetector> combined;  // one a noise level
+    std::vector<FeatureRanking> rankings;    // one per noise level
+    std::vector<CombinedDetector> combined;  // one per noise level
     std::vector<LevelSensitivity>
-        sensitivities;  // one a noise level, of its best ranked feature; without a name if none
+        // One per noise level, for its best ranked feature; without a name if there is none.
+        sensitivities;
     std::vector<ConditionDetection>
-        conditions;  // one a feature; empty if no condition was asked for
+        conditions;  // one per feature; empty if no condition was requested
 };
 
-// Places of the features at a noise level, the best ranked first, those without a rank last.
+// Indices of the features at a noise level in order of rank. Features without a rank come last.
 std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size_t level);
 
 struct FeatureColumns {
@@ -65,8 +69,9 @@ struct FeatureColumns {
     Alarm alarm = Alarm::high;
     std::span<const double> healthy;  // threshold sample, gearboxes x noise levels
     std::span<const double> graded;
-    // Of several records of each gearbox of the threshold sample all of them, records x noise
-    // levels, and the weights of tilted ones: for thresholds. `healthy` has the first of each.
+    // All records of the threshold sample (records x noise levels) if each gearbox has several, and
+    // the importance-sampling weights of the records. Used for thresholds; `healthy` holds the
+    // first record of each gearbox.
     std::span<const double> records = {};
     std::span<const double> weights = {};
 };
@@ -75,17 +80,18 @@ struct ReliabilityData {
     std::span<const double> healthy_size;  // threshold sample
     std::span<const double> graded_size;
     std::vector<FeatureColumns> features;
-    std::vector<InputColumn> inputs;         // of the graded gearboxes
-    std::vector<InputColumn> uncertain;      // those of them that are (uncertain_inputs.hpp)
+    std::vector<InputColumn> inputs;         // inputs of the graded gearboxes
+    std::vector<InputColumn> uncertain;      // epistemic inputs among them (uncertain_inputs.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
-    // Of the features' records, or without these of the threshold sample; empty: each its own.
+    // Gearbox of each row of the features' `records`, or of the threshold sample if there are none.
+    // Empty if every row is a gearbox of its own.
     std::vector<std::size_t> record_gearbox = {};
 };
 
-// `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the
-// threshold sample and the graded ones of size 0. The same numbers whatever the
-// threads.
+// Evaluates all features. `detections` are the results of detect() in the order of data.features.
+// Healthy gearboxes are the threshold sample and the graded ones of size 0. Results do not depend
+// on the number of threads.
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
                                const DetectionRequest& request, int threads);

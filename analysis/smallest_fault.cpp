@@ -22,7 +22,8 @@ std::optional<SmallestFault> own_fault(const std::string& feature, const LevelRe
     return SmallestFault{feature, at.tested_size, false, source};
 }
 
-// In every group of sizes at least as many found, of groups that both tested or none did.
+// True if `a` finds at least as many faults as `b` in every size group, and both tested the same
+// groups, at least one.
 bool finds_no_less(const LevelReliability& a, const LevelReliability& b) {
     bool any = false;
     for (std::size_t i = 0; i < a.pd.size(); ++i) {

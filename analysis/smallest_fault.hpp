@@ -1,10 +1,11 @@
-// The headline: the smallest fault found with a probability of 90 % at the confidence asked for.
+// Headline result: the smallest fault found with a probability of 90 % at the requested confidence.
 //
-// A feature's own: a90's upper bound where the curve fits, else the size that the rates alone vouch
-// for. A fitted curve may read off a larger size after a miss has become a hit (its slope falls),
-// and perfect detection has no curve: so what a feature vouches for at some noise level holds for
-// every feature and level all the more that finds at least as many faults in every group of sizes.
-// Thus the size never grows where no rate falls, and no feature loses to one that finds fewer.
+// For one feature alone this is the upper bound of a90 where the curve fits, otherwise the smallest
+// size demonstrated by the tested rates. Two effects make this bound erratic: a fitted curve may
+// give a larger size after a miss has become a hit (its slope falls), and perfect detection has no
+// curve. A size demonstrated by one feature at one noise level therefore also holds for every
+// feature and level that finds at least as many faults in every size group. As a result the size
+// never grows where no rate falls, and no feature ranks below one that finds fewer faults.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,8 @@
 namespace gearpod::analysis {
 
 struct SmallestFault {
-    // Whose bound it is: the feature and noise level themselves, or ones that find no more.
+    // Feature and noise level whose bound is used: the requested ones, or ones that find no more
+    // faults.
     struct Source {
         std::string feature;
         double noise_level = 0.0;
@@ -23,19 +25,21 @@ struct SmallestFault {
     };
     std::string feature;
     double size = 0.0;
-    bool from_curve = false;  // the bound is a90's; else a tested size
+    bool from_curve = false;  // the bound is a90's, otherwise a demonstrated size
     Source source;
-    bool own = true;  // the source is the feature at this noise level
+    bool own = true;  // the source is the feature itself at this noise level
 };
 
-// Of a feature (by its place in `reliability.features`) at a noise level.
+// Smallest fault of one feature (index in `reliability.features`) at a noise level.
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature);
 
-// No feature has a threshold at the noise level: that there is no smallest fault says nothing.
+// True if no feature has a threshold at the noise level. A missing smallest fault then carries no
+// information.
 bool without_threshold(const Reliability& reliability, std::size_t level);
 
-// Of all features, the least; of equal ones the one that finds most, then the better ranked.
+// Smallest fault over all features. Of equal sizes, the feature that finds most comes first, then
+// the better ranked.
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
 
 }  // namespace gearpod::analysis

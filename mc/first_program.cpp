@@ -1,6 +1,6 @@
-// The program that a fresh tree runs its first study with: `run` alone, by the integrators that
-// src/CMakeLists.txt names, which takes two thirds of the time to build. For everything else it
-// starts the launcher, which builds the whole program in its place.
+// Program with which a fresh source tree runs its first study: only `run`, with the integrators
+// that src/CMakeLists.txt lists. It builds in two thirds of the time of the whole program. For
+// everything else it starts the launcher, which replaces it by the whole program.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -25,7 +25,8 @@ namespace {
 using namespace gearpod;
 using namespace gearpod::mc;
 
-// Whether integrator or steps are searched for, or the integrator is none of this program's.
+// True if integrator or steps have to be searched for, or if this program does not have the
+// integrator.
 bool is_for_others(const Numerics& numerics) {
     const auto keys = lockstep::kernel_table().keys();
     return !numerics.integrator || numerics.grid != StepGrid::uniform ||
@@ -35,8 +36,8 @@ bool is_for_others(const Numerics& numerics) {
            });
 }
 
-// A study that cannot be read is refused here as the whole program refuses it; of one that can be
-// read only once that program is to do it.
+// True if the whole program is needed. A study that cannot be read is rejected here in the same way
+// as by the whole program.
 bool is_for_others(const StudyOptions& options) {
     std::error_code none;
     if (std::filesystem::exists(options.path, none) &&
@@ -47,12 +48,12 @@ bool is_for_others(const StudyOptions& options) {
     return reading.study && is_for_others(reading.study->numerics);
 }
 
-// Does not return if it succeeds.
+// Replaces this process by the launcher; returns only on failure.
 int start_launcher(char** argv) {
     if (Ranks::launched()) {
         fmt::print(stderr,
-                   "gearpod: what was built so far is `run`, by the integrators of the first "
-                   "study; {} --help builds the rest\n",
+                   "gearpod: so far only `run` with the integrators of the first study has been "
+                   "built; {} --help builds the rest\n",
                    GEARPOD_LAUNCHER);
         return kBadInput;
     }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace gearpod::mc;
 
-// Says that `name` is no command, if so.
+// True if `name` is a command; otherwise prints an error.
 bool is_command(CLI::App& app, const std::string& name) {
     std::string names;
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -37,7 +37,7 @@ void add_descriptions(CLI::App& app) {
         "print the man page (gearpod --man | man -l -)");
     app.add_flag_callback(
         "--completion", [&app, print] { print(bash_completion(app)); },
-        "print bash's completion (source <(gearpod --completion))");
+        "print the bash completion (source <(gearpod --completion))");
     app.add_flag_callback(
         "--reference", [&app, print] { print(reference_json(app, version_text())); },
         "print commands, study keys, distributions and features as JSON");
@@ -45,9 +45,9 @@ void add_descriptions(CLI::App& app) {
 
 int run_program(int argc, char** argv) {
     CLI::App app{
-        "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
-        "found, and how surely?"};
-    app.set_version_flag("--version", build_text(), "version, and what the program was built with");
+        "gearpod: which gear-tooth cracks do a sensor, a feature and a threshold detect, and with "
+        "what probability?"};
+    app.set_version_flag("--version", build_text(), "print the version and the build settings");
     add_descriptions(app);
     app.require_subcommand(1);
     int code = kDone;
@@ -66,13 +66,13 @@ int run_program(int argc, char** argv) {
 
     MergeOptions merge;
     auto* merge_app = app.add_subcommand(
-        "merge", "one results file from those of a study's parts, as one run writes it");
-    merge_app->add_option("results", merge.results, "results files of run --part 1/N to N/N")
+        "merge", "join the results files of all parts of a study into one, as one run writes it");
+    merge_app->add_option("results", merge.results, "results files of `run --part` 1/N to N/N")
         ->required();
-    needs_name(merge_app->add_option("--out", merge.out, "results file")->required());
+    needs_name(merge_app->add_option("--out", merge.out, "results file to write")->required());
     merge_app->add_flag("--force", merge.force,
-                        "overwrite the results of another study, or a file that is none");
-    merge_app->add_flag("--quiet", merge.quiet, "print nothing but problems");
+                        "overwrite the results of another study or any other file");
+    merge_app->add_flag("--quiet", merge.quiet, "print problems only");
     merge_app->callback([&] { code = merge_command(merge); });
 
     ReportOptions report;
@@ -90,15 +90,16 @@ int run_program(int argc, char** argv) {
     DescribeOptions describe;
     auto* describe_app = app.add_subcommand(
         "describe",
-        "what a study would simulate, and what a run would take: computes some gearboxes "
-        "for a few seconds, writes nothing");
+        "print a study's settings, the effects simulated and omitted, and the estimated time and "
+        "memory of a run; computes for a few seconds and writes nothing");
     add_study(*describe_app, describe.study)->required(false);
     describe_app->add_flag("--keys", describe.keys,
-                           "all keys of study files, or those with a word: describe --keys sensor");
+                           "print all keys of study files, or those with a word: describe --keys "
+                           "sensor");
     describe_app
         ->add_option("--ranks", describe.ranks,
-                     "also what a run of so many ranks takes: time, memory of each, disk, and from "
-                     "how many on the first one holds the others up")
+                     "also forecast a run with this many MPI ranks: time, memory per rank, disk, "
+                     "and the number of ranks from which rank 0 limits the speed")
         ->check(CLI::Range(1, 1000000));
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
@@ -108,54 +109,64 @@ int run_program(int argc, char** argv) {
     });
 
     StiffnessOptions stiffness;
-    auto* stiffness_app = app.add_subcommand("stiffness", "mesh stiffness over one mesh period");
+    auto* stiffness_app =
+        app.add_subcommand("stiffness", "print the mesh stiffness over one mesh period");
     add_study(*stiffness_app, stiffness.study);
-    needs_name(
-        stiffness_app->add_option("--csv", stiffness.csv, "write curves to a file, or to -"));
-    stiffness_app->add_option("--points", stiffness.points, "phases in the table")
+    needs_name(stiffness_app->add_option("--csv", stiffness.csv,
+                                         "write the curves to a file, or - for standard output"));
+    stiffness_app->add_option("--points", stiffness.points, "phases of the curves (default: 1000)")
         ->check(CLI::Range(2, 1000000));
     stiffness_app->add_flag(
         "--te", stiffness.te,
-        "static transmission error of the meshes under the nominal load, relief "
-        "included, in place of their stiffness");
+        "print the static transmission error under nominal load, including tooth relief, instead "
+        "of the stiffness");
     stiffness_app->callback([&] { code = stiffness_command(stiffness); });
 
     ModesOptions modes;
-    auto* modes_app = app.add_subcommand("modes", "natural frequencies at mean mesh stiffness");
+    auto* modes_app =
+        app.add_subcommand("modes", "print the natural frequencies at mean mesh stiffness");
     add_study(*modes_app, modes.study);
-    needs_name(modes_app->add_option("--json", modes.json, "write JSON to a file, or to -"));
+    needs_name(modes_app->add_option("--json", modes.json,
+                                     "write JSON to a file, or - for standard output"));
     modes_app->callback([&] { code = modes_command(modes); });
 
     AccuracyOptions accuracy;
     auto* accuracy_app = app.add_subcommand(
-        "accuracy", "what accuracy costs: every way to march a study, its time and its error");
+        "accuracy",
+        "compare solver settings for a study: numerical error and computing time of each");
     add_study(*accuracy_app, accuracy.study);
-    needs_name(accuracy_app->add_option("--json", accuracy.json, "write JSON to a file, or to -"));
+    needs_name(accuracy_app->add_option("--json", accuracy.json,
+                                        "write JSON to a file, or - for standard output"));
     accuracy_app->add_option("--peers", accuracy.peers,
-                             "table (CSV) of other programs' results to show beside ours");
-    accuracy_app->add_option("--repeats", accuracy.repeats, "how often every rung is timed")
+                             "table (CSV) with results of other programs, for comparison");
+    accuracy_app
+        ->add_option("--repeats", accuracy.repeats,
+                     "number of timings of each solver setting (default: 3)")
         ->check(CLI::Range(1, 1000));
     accuracy_app
         ->add_option("--gearboxes", accuracy.gearboxes,
-                     "gearboxes whose detection rates are compared, 0 for none; by default 480, or "
-                     "as many as the time allows")
+                     "number of gearboxes whose detection rates are compared; 0: none (default: "
+                     "480, or as many as the time allows)")
         ->check(CLI::Range(0L, 1000000L));
     accuracy_app
         ->add_option("--seconds", accuracy.seconds,
-                     "processor seconds after which no part is begun, and said to be left out; 0: "
-                     "as long as it takes")
+                     "processor time in seconds after which remaining parts are omitted; 0: no "
+                     "limit (default: 300)")
         ->check(CLI::Range(0.0, 1e9));
-    accuracy_app->add_flag("--quiet", accuracy.quiet, "no progress");
+    accuracy_app->add_flag("--quiet", accuracy.quiet, "show no progress");
     accuracy_app->callback([&] { code = accuracy_command(accuracy); });
 
     SimulateOptions simulate;
-    auto* simulate_app = app.add_subcommand("simulate", "one gearbox's signals and features");
+    auto* simulate_app =
+        app.add_subcommand("simulate", "compute the signals and features of one gearbox");
     add_study(*simulate_app, simulate.study);
     simulate_app->add_option("--instance", simulate.instance, "row of the results file, from 0")
         ->required();
-    needs_name(simulate_app->add_option("--out", simulate.out, "signals as .h5 or .csv"));
+    needs_name(
+        simulate_app->add_option("--out", simulate.out, "file for the signals, .h5 or .csv"));
     simulate_app
-        ->add_option("--meshes", simulate.meshes, "mesh periods to write (default: a planet turn)")
+        ->add_option("--meshes", simulate.meshes,
+                     "number of mesh periods (default: one planet turn)")
         ->check(CLI::PositiveNumber);
     simulate_app->callback([&] { code = simulate_command(simulate); });
 

@@ -1,4 +1,4 @@
-# Writes OUTPUT with the project's version and the sources' git hash, only when they changed.
+# Writes the header OUTPUT with the project's version and the sources' git hash, if they have changed.
 execute_process(COMMAND git -C ${SOURCE} rev-parse HEAD
   OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT hash)

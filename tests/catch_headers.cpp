@@ -1,1 +1,1 @@
-// Compiles the headers that all test programs share (cmake/quick_build.cmake).
+// Headers shared by all test programs, compiled in advance (cmake/quick_build.cmake).

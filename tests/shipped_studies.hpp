@@ -1,4 +1,4 @@
-// The studies that are shipped, by their names below studies/.
+// Names of the shipped studies below studies/.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ inline std::string study_path(const std::string& name) {
     return std::string(GEARPOD_SOURCE_DIR) + "/studies/" + name;
 }
 
-// As in "planet-crack.toml" and "published/yang-fig-15.toml", in order.
+// Sorted names such as "planet-crack.toml" and "published/yang-fig-15.toml".
 inline std::vector<std::string> shipped_studies() {
     const std::filesystem::path folder = study_path("");
     std::vector<std::string> names;

@@ -20,8 +20,8 @@ using Rows =
 
 constexpr int kFolds = 5;
 
-// Centre and scale of each summary over the draws, by which they become of order 1; far ones are
-// drawn in, or their squares would rule the regression.
+// Robust centre and scale of each summary over the samples, so that summaries are of order 1.
+// Outliers are clipped; otherwise their squares would dominate the regression.
 class Scaling {
   public:
     explicit Scaling(const Matrix& summaries)
@@ -36,7 +36,7 @@ class Scaling {
             scale_(k) = deviation > 0.0 ? 1.0 / deviation : 0.0;
         }
     }
-    // 1, the summaries, and their squares if there are draws enough.
+    // Design row: 1, the summaries, and with `squares` their squares.
     Vector row(const Vector& summary, bool squares) const {
         constexpr double kFar = 5.0;
         const Vector scaled = ((summary - centre_).array() * scale_.array()).max(-kFar).min(kFar);
@@ -59,7 +59,7 @@ Matrix ridge_fit(const Matrix& design, const Matrix& response, const Vector& wei
     return normal.ldlt().solve(design.transpose() * weight.asDiagonal() * response);
 }
 
-// Each parameter's mean given the summaries: of the draws, and of the observation.
+// Conditional mean of each parameter given the summaries: for the samples, and for the observation.
 struct Means {
     Matrix draws;
     Vector observed;
@@ -97,7 +97,7 @@ Means conditional_means(const AbcDraws& draws, const Matrix& unit, const Matrix&
     return means;
 }
 
-// The nearest draws with Epanechnikov's weights.
+// Keeps the nearest samples with Epanechnikov weights.
 void keep_nearest(const Means& means, double share, AbcPosterior& posterior) {
     const Vector distance = (means.draws.rowwise() - means.observed.transpose()).rowwise().norm();
     std::vector<std::size_t> order(static_cast<std::size_t>(distance.size()));
@@ -128,7 +128,7 @@ double logit(double u) {
     return std::log(inside / (1.0 - inside));
 }
 
-// Moves what was kept to the observation.
+// Adjusts the samples kept to the observation.
 void adjust(const Means& means, const Matrix& unit, AbcPosterior& posterior) {
     const auto kept = static_cast<Eigen::Index>(posterior.draw.size());
     const Eigen::Index parameters = unit.cols();
@@ -151,7 +151,8 @@ void adjust(const Means& means, const Matrix& unit, AbcPosterior& posterior) {
     posterior.unit.resize(static_cast<std::size_t>(kept * parameters));
     for (Eigen::Index i = 0; i < kept; ++i) {
         for (Eigen::Index p = 0; p < parameters; ++p) {
-            // Half of the logarithm of a square; within what extrapolation can be trusted with.
+            // Half of the difference of log squares is the log ratio of the spreads, limited to a
+            // safe extrapolation.
             const double scale = std::exp(std::clamp(0.5 * (fit(0, p) - fitted(i, p)), -1.0, 1.0));
             const double moved = line(0, p) + scale * residual(i, p);
             posterior.unit[static_cast<std::size_t>(i * parameters + p)] =
@@ -196,10 +197,10 @@ AbcPosterior regression_abc(const AbcDraws& draws, std::span<const double> obser
     if (draws.unit.size() != draws.size() * draws.parameters ||
         draws.summary.size() != draws.size() * draws.summaries ||
         observed.size() != draws.summaries || draws.parameters == 0 || draws.summaries == 0) {
-        throw std::invalid_argument("abc: draws and observation disagree in shape");
+        throw std::invalid_argument("abc: samples and observation differ in shape");
     }
     if (draws.size() < kFewest * draws.parameters) {
-        throw std::invalid_argument("abc: fewer than ten draws for a parameter");
+        throw std::invalid_argument("abc: fewer than ten samples per parameter");
     }
     const auto count = static_cast<Eigen::Index>(draws.size());
     const Matrix unit = Rows(draws.unit.data(), count, static_cast<Eigen::Index>(draws.parameters));

@@ -1,13 +1,15 @@
-// Approximate Bayesian computation with regression adjustment: what parameters made the summaries
-// that were observed, from draws of the parameters and what was simulated with each.
+// Approximate Bayesian computation (ABC) with regression adjustment: posterior of the parameters
+// that explain the observed summaries, from prior samples of the parameters and the summaries
+// simulated with each.
 //
-// 1. Summaries are many; each parameter's mean given them, by ridge regression on them and their
-//    squares, takes their place: P. Fearnhead, D. Prangle, J. R. Stat. Soc. B 74 (2012), 419-474.
-//    It is fitted without the draw's own fifth of the simulations, so that it knows no noise.
-// 2. Of the draws the nearest are kept, with Epanechnikov's weights, and moved to the observation
-//    along a weighted regression line: M. A. Beaumont, W. Zhang, D. J. Balding, Genetics 162
-//    (2002), 2025-2035; residuals are scaled as their spread varies: M. G. B. Blum, O. Francois,
-//    Stat. Comput. 20 (2010), 63-73. On the scale of the logit, so that nothing leaves the prior.
+// 1. The many summaries are replaced by each parameter's conditional mean given them, by ridge
+//    regression on the summaries and their squares: P. Fearnhead, D. Prangle, J. R. Stat. Soc. B 74
+//    (2012), 419-474. Cross-fitting without the sample's own fifth of the simulations avoids
+//    overfitting.
+// 2. The nearest samples are kept with Epanechnikov weights and adjusted to the observation along a
+//    weighted regression line: M. A. Beaumont, W. Zhang, D. J. Balding, Genetics 162 (2002),
+//    2025-2035. Residuals are rescaled where their spread varies: M. G. B. Blum, O. Francois, Stat.
+//    Comput. 20 (2010), 63-73. Both work on the logit scale, so that no value leaves the prior.
 #pragma once
 
 #include <cstddef>
@@ -18,27 +20,28 @@ namespace gearpod::analysis {
 
 struct AbcDraws {
     std::size_t parameters = 0, summaries = 0;
-    std::vector<double> unit;        // [draw][parameter], the prior is uniform from 0 to 1
-    std::vector<double> summary;     // [draw][summary], finite
-    std::vector<std::size_t> group;  // [draw]: draws that share a simulation have the same
+    std::vector<double> unit;        // [sample][parameter], uniform prior from 0 to 1
+    std::vector<double> summary;     // [sample][summary], finite
+    std::vector<std::size_t> group;  // [sample]: equal for samples that share a simulation
 
     std::size_t size() const { return group.size(); }
 };
 
 struct AbcPosterior {
-    std::vector<std::size_t> draw;  // those kept
-    std::vector<double> weight;     // of each, sum 1
-    std::vector<double> unit;       // [kept][parameter], moved to the observation
-    // [parameter][summary]: how the draws kept go with it, Spearman's rank correlation
+    std::vector<std::size_t> draw;  // samples kept
+    std::vector<double> weight;     // weights of the samples kept, sum 1
+    std::vector<double> unit;       // [kept][parameter], adjusted to the observation
+    // Spearman's rank correlation [parameter][summary] over the samples kept.
     std::vector<double> correlation;
 };
 
-// `share` of the draws are kept, from 0 to 1. Throws std::invalid_argument if the shapes disagree
-// or there are fewer than ten draws for a parameter.
+// Computes the posterior. `share`: share of the samples to keep, from 0 to 1. Throws
+// std::invalid_argument if the shapes disagree or if there are fewer than ten samples per
+// parameter.
 AbcPosterior regression_abc(const AbcDraws& draws, std::span<const double> observed, double share);
 
-// Of weighted values: the smallest with at least that much weight at or below it, between them in
-// proportion.
+// Quantile of weighted values: the value at which the cumulative weight reaches the probability,
+// with half of each value's own weight, interpolated linearly.
 double weighted_quantile(std::span<const double> values, std::span<const double> weights,
                          double probability);
 

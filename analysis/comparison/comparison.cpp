@@ -18,7 +18,7 @@
 namespace gearpod::analysis {
 namespace {
 
-// Detection of one sample as the report has it.
+// Detection of one sample with the methods of the report.
 struct Detected {
     LevelDetection level;
     std::vector<int> hit;
@@ -43,7 +43,7 @@ Detected detected(const ComparedSample& sample, const ComparisonRequest& request
     return result;
 }
 
-// Values that resamples give both samples, differences among them.
+// Differences between the two samples over the resamples.
 struct Resampled {
     std::vector<std::vector<double>> rates;  // by group
     std::vector<double> a90;
@@ -78,7 +78,7 @@ Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detec
     return result;
 }
 
-// Of the values that are numbers; infinite ones count.
+// Percentiles of the values that are not NaN; infinite values count.
 Interval percentiles(std::vector<double> values, double confidence) {
     std::erase_if(values, [](double value) { return std::isnan(value); });
     if (values.empty()) {
@@ -103,7 +103,7 @@ PairedCounts paired_counts(const Detected& a, const Detected& b,
     return counts;
 }
 
-// Of a count of pairs, the rates that belong to it.
+// Sets the rates, for paired samples from the counts of pairs.
 void add_rates(RateDifference& rate, const DetectionCell& a, const DetectionCell& b,
                const ComparisonRequest& request, const Interval& resampled) {
     long found_a = a.detected, found_b = b.detected;
@@ -140,7 +140,7 @@ std::string a90_refusal(const HitMissPod& pod, const char* which) {
         case SizeEstimate::Where::reached:
             return "";
         case SizeEstimate::Where::below_tested:
-            return name + ": a90 lies below the sizes tested";
+            return name + ": a90 is below the tested sizes";
         case SizeEstimate::Where::not_reached:
             break;
     }
@@ -229,7 +229,7 @@ Comparison compare_detection(const ComparedSample& a, const ComparedSample& b,
     if (request.paired && (a.healthy.size() != b.healthy.size() ||
                            !std::equal(a.graded_size.begin(), a.graded_size.end(),
                                        b.graded_size.begin(), b.graded_size.end()))) {
-        throw std::invalid_argument("comparison: paired samples are not the same gearboxes");
+        throw std::invalid_argument("comparison: paired samples have different gearboxes");
     }
     const Detected of_a = detected(a, request), of_b = detected(b, request);
     const Resampled resampled = resample(a, b, of_a, of_b, request, threads);

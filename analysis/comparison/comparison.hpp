@@ -1,6 +1,6 @@
-// What a change of sensor, feature or design does to detection: differences of detection rates, a90
-// and areas under the ROC, each with an interval. On the same gearboxes where they are (paired),
-// which takes out of a difference what the gearboxes have in common.
+// Effect of a change of sensor, feature or design on detection: differences of detection rates, a90
+// and areas under the ROC curve, each with an interval. If both samples have the same gearboxes
+// (paired), the variation common to both is removed from the difference.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@
 
 namespace gearpod::analysis {
 
-// One feature at one noise level. Paired samples have the same gearboxes in the same places.
+// Values of one feature at one noise level. Paired samples have the same gearboxes at the same
+// indices.
 struct ComparedSample {
     Alarm alarm = Alarm::high;
     std::span<const double> healthy;  // threshold sample; NaN: no value
@@ -32,30 +33,30 @@ struct RateDifference {
     SizeGroup size;
     long tested_a = 0, tested_b = 0;
     double a = 0.0, b = 0.0;  // detection rates; NaN if none was tested
-    // Of b - a: the wider of Newcombe's, which takes the thresholds as given, and the percentiles
-    // of the resamples, which set them anew.
+    // Interval of b - a: the wider of Newcombe's, which takes the thresholds as given, and the
+    // percentiles of the resamples, which set new thresholds.
     Interval bounds;
-    PairedCounts pairs;    // of those with a value in both; none if not paired
+    PairedCounts pairs;    // gearboxes with a value in both; empty if not paired
     double p_value = 1.0;  // McNemar, or the pooled test
 };
 
 struct NumberDifference {
     double a = 0.0, b = 0.0;
     Interval bounds;        // of b - a; infinite: open
-    double p_value = kNan;  // of the areas: DeLong's
-    std::string refusal;    // why there is none, else empty
+    double p_value = kNan;  // DeLong's test, for areas only
+    std::string refusal;    // reason why there is no difference, or ""
 
     double difference() const { return b - a; }
 };
 
 struct Comparison {
     std::vector<RateDifference> rates;  // by group
-    NumberDifference a90;               // the curve's estimate; percentiles of the resamples
+    NumberDifference a90;  // estimates of the curves; interval from percentiles of the resamples
     NumberDifference auc;
 };
 
-// Both samples' thresholds are their own. Throws std::invalid_argument if paired samples differ in
-// length or sizes. The same numbers whatever the threads.
+// Compares two samples, each with its own threshold. Throws std::invalid_argument if paired samples
+// differ in length or sizes. Results do not depend on the number of threads.
 Comparison compare_detection(const ComparedSample& a, const ComparedSample& b,
                              const ComparisonRequest& request, int threads);
 

@@ -161,15 +161,14 @@ std::string comparison_text(const ComparisonReport& report) {
         for (std::size_t n = 0; n < file.noise_levels.size(); ++n) {
             if (file.noise_levels[n] == report.noise_level && n < file.smallest.size()) {
                 const auto& found = file.smallest[n];
-                out += found
-                           ? fmt::format("   smallest fault found at noise x {:g}: {} by {}\n",
-                                         report.noise_level, with_unit(found->size, report.size),
-                                         found->feature)
-                           : fmt::format("   {} at noise x {:g}\n",
-                                         file.without_threshold[n]
-                                             ? "no threshold: nothing is known of the faults found"
-                                             : "no tested fault found",
-                                         report.noise_level);
+                out += found ? fmt::format("   smallest fault found at noise x {:g}: {} by {}\n",
+                                           report.noise_level, with_unit(found->size, report.size),
+                                           found->feature)
+                             : fmt::format("   {} at noise x {:g}\n",
+                                           file.without_threshold[n]
+                                               ? "no threshold, so detection is unknown"
+                                               : "no tested fault found",
+                                           report.noise_level);
             }
         }
     }
@@ -180,8 +179,8 @@ std::string comparison_text(const ComparisonReport& report) {
                 0);
     if (report.first_records) {
         add_wrapped(out,
-                    "Thresholds of these differences are those of the first record of each healthy "
-                    "gearbox; what stands above rests on all records.",
+                    "These differences use thresholds set by the first record of each healthy "
+                    "gearbox; the results above use all records.",
                     0);
     }
     for (std::size_t f = 1; f < report.files.size(); ++f) {

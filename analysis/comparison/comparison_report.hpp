@@ -1,5 +1,5 @@
-// A comparison of results files, as the terminal, JSON and the page have it. Everything is held
-// against the first file, A; the others are B, C, ...
+// Comparison of results files, as shown in the terminal, in JSON and on the page. Every file (B, C,
+// ...) is compared with the first, A.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,7 @@ namespace gearpod::analysis {
 struct ComparedFeature {
     std::string feature;
     double noise_level = 0.0;
-    bool same = false;  // pairs have the same values, every one
+    bool same = false;  // every pair of values is equal
     Comparison comparison;
 };
 
@@ -23,13 +23,14 @@ struct ComparedFile {
     long gearboxes = 0;
     std::vector<double> noise_levels;
     std::vector<std::optional<SmallestFault>> smallest;  // by noise level
-    std::vector<bool> without_threshold;                 // the same: then none says nothing
-    std::string shortage;                                // as sample_shortage() has it
-    // Against A; for A itself empty.
-    long pairs = 0;                      // graded gearboxes that are the same ones
-    std::string unpaired;                // why none are, else empty
+    // By noise level; a missing smallest fault then carries no information.
+    std::vector<bool> without_threshold;
+    std::string shortage;  // result of sample_shortage()
+    // Comparison with A; empty for A itself.
+    long pairs = 0;                      // number of graded gearboxes common to both
+    std::string unpaired;                // reason why gearboxes are not paired, or ""
     std::vector<std::string> differing;  // inputs whose values differ in the pairs
-    std::vector<std::string> left_out;   // features that only one of both has
+    std::vector<std::string> left_out;   // features that only one of the two files has
     std::vector<ComparedFeature> features;
 };
 
@@ -37,22 +38,24 @@ struct ComparisonReport {
     std::vector<ComparedFile> files;
     SizeUnit size;
     double confidence = 0.95;
-    double noise_level = 1.0;  // that the terminal shows
-    // Healthy gearboxes have several records, and thresholds are compared that the first ones set.
+    double noise_level = 1.0;  // noise level shown in the terminal
+    // Healthy gearboxes have several records, and the comparison uses thresholds set by the first
+    // record of each.
     bool first_records = false;
 };
 
 std::string comparison_text(const ComparisonReport& report);
 
+// JSON form:
 // {"kind": "comparison", "size", "confidence", "noise_level", "first_records",
 //  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...},
 //    "without_threshold"}],
-//    "shortage": what sample_shortage() says or null, "pairs", "unpaired", "differing_inputs",
+//    "shortage": result of sample_shortage() or null, "pairs", "unpaired", "differing_inputs",
 //    "left_out", "features": [{"name", "noise_level", "same",
 //      "sizes": [{"size_low", "size_high", "tested": [A, B], "pd": [A, B], "difference", "lower",
 //        "upper", "p_value", "only": [A, B] of pairs}],
 //      "a90", "auc": {"values": [A, B], "difference", "lower", "upper", "p_value", "refusal"}}]}]}
-// Differences are this file's less A's; an open bound is null.
+// Differences are this file minus A; an open bound is null.
 nlohmann::json comparison_json(const ComparisonReport& report);
 
 }  // namespace gearpod::analysis

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kPod = 0.9;
 
-// Of a table whose curve cannot be fitted: all found means below the smallest size, else nothing is
-// known.
+// a90 of a table. Where the curve cannot be fitted: the smallest size if all are detected, infinite
+// if none is, otherwise NaN.
 double a90_of(const HitMissTable& table, const PodForm& form) {
     const double hits = total_hits(table), tests = total_tests(table);
     if (table.empty() || hits == 0.0) {
@@ -38,7 +38,7 @@ double a90_of(const HitMissTable& table, const PodForm& form) {
 std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine) {
     std::vector<int> times(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
-        // The product's upper half: even to count / 2^32, and the same with every library.
+        // Upper half of the product: uniform to count / 2^32, and the same with every library.
         ++times[static_cast<std::size_t>((engine() >> 32) * count >> 32)];
     }
     return times;

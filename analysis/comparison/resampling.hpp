@@ -1,6 +1,6 @@
-// How detection would scatter over other samples of gearboxes: thresholds, rates and a90 of
-// gearboxes drawn again with replacement, each gearbox with all that belongs to it (the cluster
-// bootstrap: B. Efron, R. J. Tibshirani, An Introduction to the Bootstrap (1993), section 8.5).
+// Scatter of detection over repeated samples of gearboxes: thresholds, rates and a90 of gearboxes
+// drawn with replacement, each gearbox with all its values (cluster bootstrap: B. Efron, R. J.
+// Tibshirani, An Introduction to the Bootstrap (1993), section 8.5).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace gearpod::analysis {
 
-// How often every gearbox of a sample is drawn. The same for the same seed and count, everywhere.
+// Number of times every gearbox of a sample is drawn. The same for the same seed and count on every
+// platform.
 std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine);
 
 struct ResampledDetection {
@@ -21,14 +22,15 @@ struct ResampledDetection {
     double a90 = 0.0;        // infinite: not reached; NaN: no curve
 };
 
-// One feature at one noise level, sorted once for many samples.
+// One feature at one noise level, sorted once for many resamples.
 class Resampling {
   public:
     Resampling(Alarm alarm, std::span<const double> healthy, std::span<const double> graded_size,
                std::span<const double> graded, const std::vector<SizeGroup>& groups,
                double false_alarm_rate);
 
-    // By the gearboxes' numbers; the curve of `form`, none without.
+    // Detection of one resample, given the number of times each gearbox is drawn. Fits the curve of
+    // `form`; none if null.
     ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& graded,
                               const PodForm* form) const;
 
@@ -40,7 +42,7 @@ class Resampling {
     double threshold(const std::vector<int>& times) const;
     double beyond(const std::vector<int>& times, long sample) const;
 
-    double sign_;  // values times it alarm where they are large
+    double sign_;  // factor that makes large values alarm
     double false_alarm_rate_;
     std::size_t groups_;
     std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending

@@ -36,7 +36,8 @@ Totals totals(const Gearboxes& gearboxes) {
     return all;
 }
 
-// Scatter of the alarms between gearboxes over that of as many independent recordings.
+// Design effect: variance of the alarms between gearboxes relative to that of as many independent
+// recordings.
 double design_effect(const Gearboxes& gearboxes) {
     const Totals all = totals(gearboxes);
     const double rate = std::max(0.5, all.alarms) / all.recordings;
@@ -50,7 +51,8 @@ double design_effect(const Gearboxes& gearboxes) {
     return std::clamp(effect, 1.0, all.recordings / all.gearboxes);
 }
 
-// As many gearboxes that all had as many alarms would tell as much of their scatter.
+// Effective number of alarming gearboxes: the number of gearboxes with equal counts that would
+// determine the scatter equally well.
 double alarming(const Gearboxes& gearboxes) {
     double alarms = 0.0, squares = 0.0;
     for (const auto& [number, gearbox] : gearboxes) {
@@ -60,7 +62,7 @@ double alarming(const Gearboxes& gearboxes) {
     return squares > 0.0 ? alarms * alarms / squares : 0.0;
 }
 
-// The gearboxes' share of the variance of normal scores, by the analysis of variance of some
+// Share of the gearboxes in the variance of normal scores, by analysis of variance of the first
 // recordings of each (S. R. Searle, G. Casella, C. E. McCulloch, Variance Components (1992),
 // section 3.6).
 double share_of_gearboxes(const Gearboxes& gearboxes) {
@@ -84,7 +86,7 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
             sum2 += score * score;
         }
         const auto count = static_cast<double>(own);
-        between += sum * sum / count;  // the scores' mean is 0
+        between += sum * sum / count;  // the mean of the scores is 0
         within += sum2 - sum * sum / count;
         squares += count * count;
     }
@@ -97,7 +99,8 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
     return variance > 0.0 ? variance / (variance + mean_within) : 0.0;
 }
 
-// By an effective sample size; `telling`: of how many gearboxes its scatter is known.
+// Interval from an effective sample size; `telling`: number of gearboxes that determine the
+// scatter.
 Interval effective_interval(double recordings, double effect, double telling, double rate,
                             double tail) {
     const double narrower =
@@ -107,9 +110,9 @@ Interval effective_interval(double recordings, double effect, double telling, do
     return {beta_quantile(a, b, tail), beta_quantile(a, b, 1.0 - tail)};
 }
 
-// Where alarms are rarer than gearboxes: the scatter between these is that of the normal scores, or
-// what is seen of it. Empty where few gearboxes have the alarms, or they scatter more than normal
-// ones.
+// Interval where alarms are rarer than gearboxes. The scatter between gearboxes is the larger of
+// that of normal scores and the observed one. Empty where few gearboxes have the alarms, or where
+// they scatter more than normal scores.
 std::optional<Interval> rare_interval(const Gearboxes& gearboxes, double rate, double tail) {
     constexpr double kTelling = 20.0, kLeastAlarming = 15.0, kAlike = 1.3;
     const Totals all = totals(gearboxes);
@@ -148,8 +151,8 @@ Interval clustered_rate_interval(std::span<const double> values,
     if (const auto rare = rare_interval(gearboxes, false_alarm_rate, tail)) {
         return *rare;
     }
-    // As if all recordings of a gearbox were one: the order statistic is then one of gearboxes,
-    // from which fewer may lie beyond than the rate asks for, or more.
+    // Counts all recordings of a gearbox as one: the order statistic is then one of gearboxes. The
+    // share beyond it may be below or above the requested rate.
     const double rank = std::ceil(
         static_cast<double>(threshold_rank(std::lround(all.recordings), false_alarm_rate)) /
         all.recordings * all.gearboxes);

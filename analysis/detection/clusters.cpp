@@ -11,8 +11,8 @@
 namespace gearpod::analysis {
 namespace {
 
-// Records of one gearbox without noise are the same: that they share the threshold does not make
-// the feature a constant.
+// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
+// gearbox are equal, which does not make the feature a constant.
 bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
                      double threshold) {
     std::set<std::size_t> tied;
@@ -47,9 +47,7 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
         }
         if (tied_within_one(values, gearbox, level.threshold)) {
             const std::string tie = fmt::format(
-                "noise level {:g}: healthy ones share the "
-                "threshold's value",
-                level.noise_level);
+                "noise level {:g}: healthy records equal the threshold", level.noise_level);
             std::erase_if(result.warnings,
                           [&](const std::string& warning) { return warning.starts_with(tie); });
         }
@@ -58,7 +56,7 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
             level.tail ? Interval{kNan, kNan}
                        : clustered_rate_interval(values, gearbox, alarm, level.threshold,
                                                  request.false_alarm_rate, request.confidence);
-        // Never narrower than of independent ones.
+        // Never narrower than the interval of independent values.
         level.threshold_rate = {std::min(own.lower, clustered.lower),
                                 std::max(own.upper, clustered.upper)};
         const bool tested = !level.cells.empty() && level.cells.front().size.high == 0.0 &&
@@ -75,19 +73,18 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
         }
         result.warnings.push_back(
             level.tail
-                ? fmt::format("noise level {:g}: {} healthy ones are of {} gearboxes, what lies "
-                              "beyond them is not known: the false-alarm rate of the extrapolated "
-                              "threshold may be anything",
+                ? fmt::format("noise level {:g}: {} healthy records come from only {} gearboxes, "
+                              "so the false-alarm rate of the extrapolated threshold is unknown",
                               level.noise_level, level.threshold_sample, count)
-                : fmt::format("noise level {:g}: {} healthy ones are of {} gearboxes, which fix "
-                              "the false-alarm rate of {:g} to within [{:.2g}, {:.2g}]",
-                              level.noise_level, level.threshold_sample, count,
-                              request.false_alarm_rate, level.threshold_rate.lower,
-                              level.threshold_rate.upper));
+                : fmt::format(
+                      "noise level {:g}: {} healthy records come from only {} gearboxes, so the "
+                      "false-alarm rate of {:g} is known only to within [{:.2g}, {:.2g}]",
+                      level.noise_level, level.threshold_sample, count, request.false_alarm_rate,
+                      level.threshold_rate.lower, level.threshold_rate.upper));
     }
-    // What independent ones would have fixed.
+    // Removes the warnings that assume independent values.
     std::erase_if(result.warnings, [](const std::string& warning) {
-        return warning.find("healthy ones fix the false-alarm rate") != std::string::npos;
+        return warning.find("healthy records determine the false-alarm rate") != std::string::npos;
     });
     return result;
 }

@@ -1,4 +1,4 @@
-// Detection from healthy samples of two levels: several recordings of each of fewer gearboxes
+// Detection from two-level healthy samples: several recordings of each of fewer gearboxes
 // (clustered_rate.hpp).
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace gearpod::analysis {
 
-// detect() of healthy rows whose gearboxes are given; as many of them as rows, or of tilted
-// records: the same as without.
+// Calls detect() and widens the intervals for healthy rows grouped by gearbox. With one row per
+// gearbox, or with importance-sampled records, the result is that of detect().
 FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                                   const FeatureSample& healthy,
                                   std::span<const std::size_t> gearbox, const FeatureSample& graded,

@@ -41,18 +41,18 @@ void warn(const ConditionLevel& level, const ConditionColumn& column,
             return !(threshold.rate.upper <= 2.0 * request.false_alarm_rate);
         });
     if (small > 0) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: {} of {} conditions of {} have too few healthy gearboxes for a "
-            "false-alarm rate of {:g}; it takes {} each",
-            level.noise_level, small, level.thresholds.size(), column.name,
-            request.false_alarm_rate,
-            sample_for_rate(request.false_alarm_rate, request.confidence)));
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} of {} values of {} have too few healthy gearboxes "
+                        "for a false-alarm rate of {:g}; each needs {}",
+                        level.noise_level, small, level.thresholds.size(), column.name,
+                        request.false_alarm_rate,
+                        sample_for_rate(request.false_alarm_rate, request.confidence)));
     }
     if (level.without > 0) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: {} graded gearboxes run in conditions of {} without a threshold and "
-            "do not count",
-            level.noise_level, level.without, column.name));
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} graded gearboxes have a value of {} without a "
+                        "threshold and are not counted",
+                        level.noise_level, level.without, column.name));
     }
 }
 
@@ -65,15 +65,16 @@ ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
     const std::size_t levels = request.noise_levels.size();
     if (column.healthy.size() * levels != healthy.values.size() ||
         column.graded.size() * levels != graded.values.size()) {
-        throw std::invalid_argument("condition detection: one condition a gearbox is needed");
+        throw std::invalid_argument("condition detection: needs one condition per gearbox");
     }
     ConditionDetection result{feature, column.name, column.unit, alarm, {}, {}, {}};
     const std::set<double> conditions(column.healthy.begin(), column.healthy.end());
     if (conditions.empty() || conditions.size() > kMostConditions) {
-        result.refusal = conditions.empty()
-                             ? "no healthy gearboxes"
-                             : fmt::format("{} has {} values, conditions are levels that repeat",
-                                           column.name, conditions.size());
+        result.refusal = conditions.empty() ? "no healthy gearboxes"
+                                            : fmt::format(
+                                                  "{} has {} different values; an operating "
+                                                  "condition must have few levels that repeat",
+                                                  column.name, conditions.size());
         return result;
     }
     const std::vector<std::size_t> group = groups_of(graded.fault_size, request.groups);

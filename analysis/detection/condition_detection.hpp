@@ -1,6 +1,6 @@
-// Detection with a threshold of its own for every operating condition (a torque level, say), beside
-// the one for all conditions: a feature that follows the torque hides faults behind it. Park (2017)
-// finds the RMS of transmission error to grow with the torque.
+// Detection with a separate threshold for every operating condition (a torque level, for example),
+// in addition to the common one. A feature that follows the torque hides faults in its variation.
+// Park (2017) finds that the RMS of transmission error grows with the torque.
 #pragma once
 
 #include <span>
@@ -12,39 +12,40 @@
 namespace gearpod::analysis {
 
 struct ConditionThreshold {
-    double condition = 0.0;  // value of the input that sets it
+    double condition = 0.0;  // value of the input that defines the condition
     double threshold = 0.0;  // NaN if the condition has too few healthy gearboxes
     long sample = 0;
     long alarms = 0;
-    Interval rate;  // of its false alarms, as LevelDetection::threshold_rate
+    Interval rate;  // false-alarm rate, as LevelDetection::threshold_rate
 };
 
 struct ConditionLevel {
     double noise_level = 0.0;
-    std::vector<ConditionThreshold> thresholds;  // ascending condition
-    std::vector<DetectionCell> cells;  // every gearbox against its own condition's threshold
-    long without = 0;  // graded gearboxes whose condition has no threshold; in no cell
+    std::vector<ConditionThreshold> thresholds;  // by ascending condition
+    std::vector<DetectionCell> cells;  // every gearbox against the threshold of its condition
+    long without = 0;  // graded gearboxes whose condition has no threshold; they are in no cell
 };
 
 struct ConditionDetection {
     std::string feature;
-    std::string input;  // its column's name
+    std::string input;  // column name
     std::string unit;
     Alarm alarm = Alarm::high;
     std::vector<ConditionLevel> levels;
     std::vector<std::string> warnings;
-    std::string refusal;  // why there is none, else empty
+    std::string refusal;  // reason why there is no result, or ""
 };
 
 struct ConditionColumn {
     std::string name;
     std::string unit;
-    std::span<const double> healthy;  // value a gearbox
+    std::span<const double> healthy;  // one value per gearbox
     std::span<const double> graded;
-    std::span<const std::size_t> gearbox = {};  // of `healthy`; empty: each its own
+    // Gearbox of each value of `healthy`; empty: one each.
+    std::span<const std::size_t> gearbox = {};
 };
 
-// Refused if the input has more than 50 values: conditions are levels, not a continuous input.
+// Refuses an input with more than 50 values: conditions must be levels, not a continuous input.
 ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
                                        const FeatureSample& healthy, const FeatureSample& graded,
                                        const ConditionColumn& column,

@@ -44,14 +44,14 @@ std::vector<double> column(const FeatureSample& sample, std::size_t level, std::
     return values;
 }
 
-// The cell of the graded gearboxes without a fault, or nullptr.
+// Cell of the graded gearboxes without a fault, or nullptr.
 const DetectionCell* healthy_cell(const LevelDetection& level) {
     return !level.cells.empty() && level.cells.front().size.high == 0.0 ? &level.cells.front()
                                                                         : nullptr;
 }
 
-// Healthy values that equal the threshold raise no alarm: the rate is then below the order
-// statistic's, by an amount that the sample does not tell.
+// True if healthy values equal the threshold. They raise no alarm, so the rate is below that of the
+// order statistic by an unknown amount.
 bool tied(const LevelDetection& level, const DetectionRequest& request) {
     if (level.tilted) {
         return false;
@@ -60,7 +60,7 @@ bool tied(const LevelDetection& level, const DetectionRequest& request) {
     return level.threshold_alarms < level.threshold_sample - rank;
 }
 
-// What fewer of the largest values would have said.
+// Fits to fewer of the largest values, to check that the threshold does not depend on their number.
 TailThreshold tail_threshold(const std::vector<double>& healthy, Alarm alarm,
                              const Threshold& threshold, const DetectionRequest& request) {
     const double sign = alarm_sign(alarm);
@@ -121,13 +121,13 @@ void rate_healthy(LevelDetection& level, const Threshold& threshold, Alarm alarm
     }
 }
 
-// Of a threshold beyond its sample, or from tilted records; how far it lies stands with it.
+// Warnings for a threshold beyond its sample or from importance sampling.
 void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
     if (level.tail && !level.tail->steady) {
         warnings.push_back(fmt::format(
-            "noise level {:g}: fewer of the most extreme healthy ones give the threshold a rate "
-            "outside its interval: the law does not hold, do not trust the threshold",
+            "noise level {:g}: the extrapolated threshold depends on how many extreme healthy "
+            "values are fitted; the Pareto tail does not fit, do not trust the threshold",
             level.noise_level));
     }
     const DetectionCell* healthy = healthy_cell(level);
@@ -135,8 +135,8 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
         !(clopper_pearson_interval(healthy->detected, healthy->tested, request.confidence).lower <=
           level.threshold_rate.upper)) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} graded healthy ones alarm, more than its "
-                        "interval explains",
+            fmt::format("noise level {:g}: {} of {} graded healthy records alarm, more than the "
+                        "threshold's interval allows",
                         level.noise_level, healthy->detected, healthy->tested));
     }
 }
@@ -148,21 +148,21 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
         return warn_of_tail(level, request, warnings);
     }
     if (level.threshold_rate.upper > 2.0 * rate) {
-        warnings.push_back(
-            fmt::format("noise level {:g}: {} healthy ones fix the false-alarm rate of {:g} "
-                        "only to within "
-                        "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
-                        level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
-                        level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} healthy records determine the false-alarm rate of {:g} only to "
+            "within [{:.2g}, {:.2g}]; {} are needed for an upper bound of twice the rate",
+            level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
+            level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
     }
     if (!std::isnan(level.threshold) && tied(level, request)) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: healthy ones share the threshold's value, the feature is "
-            "constant there or nearly so; the false-alarm rate is below {:g}",
-            level.noise_level, rate));
+        warnings.push_back(
+            fmt::format("noise level {:g}: healthy records equal the threshold, so the feature is "
+                        "constant or nearly so; the false-alarm rate is below {:g}",
+                        level.noise_level, rate));
         return;
     }
-    // A warning in a thousand tables, not in twenty.
+    // Confidence such that the warning appears by chance in one of a thousand tables, not in one of
+    // twenty.
     constexpr double kSurprising = 0.999;
     const DetectionCell* healthy = healthy_cell(level);
     if (healthy == nullptr || std::isnan(level.threshold)) {
@@ -171,13 +171,12 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
     const Interval expected = expected_rate_interval(level.threshold_sample, healthy->detected,
                                                      healthy->tested, kSurprising);
     if (expected.lower > rate || expected.upper < rate) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: {} of {} graded healthy ones alarm, which a false-alarm rate "
-            "of "
-            "{:g} does not explain even with the threshold's own scatter (it would be in "
-            "[{:.2g}, {:.2g}])",
-            level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
-            expected.upper));
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} of {} graded healthy records alarm, which does not "
+                        "agree with a false-alarm rate of {:g} even within the threshold's "
+                        "uncertainty (expected rate in [{:.2g}, {:.2g}])",
+                        level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
+                        expected.upper));
     }
 }
 
@@ -185,19 +184,19 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
           std::vector<std::string>& warnings) {
     if (std::isnan(level.threshold)) {
         const bool tied_tail = tail_reaches(level.threshold_sample, rate);
-        warnings.push_back(fmt::format(
-            "noise level {:g}: no threshold, {} healthy ones are too few for a false-alarm "
-            "rate of {:g}{}; it takes {}",
-            level.noise_level, level.threshold_sample, rate,
-            tied_tail ? ", and the most extreme are equal" : "",
-            tied_tail ? sample_for_threshold(rate)
-                      : std::min(sample_for_threshold(rate), sample_for_tail(rate))));
+        warnings.push_back(
+            fmt::format("noise level {:g}: no threshold, because {} healthy records are too few "
+                        "for a false-alarm rate of {:g}{}; at least {} are needed",
+                        level.noise_level, level.threshold_sample, rate,
+                        tied_tail ? ", and the most extreme are equal" : "",
+                        tied_tail ? sample_for_threshold(rate)
+                                  : std::min(sample_for_threshold(rate), sample_for_tail(rate))));
     }
     const long without = static_cast<long>(healthy) - level.threshold_sample;
     if (without > 0) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} healthy ones gave no value and do not count "
-                        "in the threshold",
+            fmt::format("noise level {:g}: {} of {} healthy records have no value and are not used "
+                        "for the threshold",
                         level.noise_level, without, healthy));
     }
 }
@@ -253,7 +252,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     }
     if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {
         result.warnings.push_back(fmt::format(
-            "{} of {} gearboxes have a fault size outside all size groups and do not count",
+            "{} of {} gearboxes have a fault size outside all size groups and are not counted",
             outside, group.size()));
     }
     return result;

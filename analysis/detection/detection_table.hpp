@@ -1,5 +1,5 @@
-// What is asked of a detection, and what it gives: thresholds, counts and rates by feature, noise
-// level and fault size.
+// Request and results of a detection: thresholds, counts and rates by feature, noise level and
+// fault size.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace gearpod::analysis {
 
-// One group of gearboxes whose fault sizes lie in [low, high], in the request's unit; both are
+// Group of gearboxes whose fault sizes lie in [low, high], in the unit of the request. Both are
 // equal for a fixed level.
 struct SizeGroup {
     double low = 0.0;
@@ -22,54 +22,56 @@ struct SizeGroup {
 struct DetectionCell {
     SizeGroup size;
     long tested = 0;     // gearboxes with a finite feature value
-    long detected = 0;   // of these, alarms
+    long detected = 0;   // number of alarms among them
     long failed = 0;     // gearboxes without a value (diverged, or the feature is not a number)
     double pd = 0.0;     // detected / tested; NaN if none was tested
-    double lower = 0.0;  // Wilson bounds at the confidence asked for
+    double lower = 0.0;  // Wilson bounds at the requested confidence
     double upper = 0.0;
     Interval exact = {};  // Clopper-Pearson bounds, wider
 };
 
-// One fit of a generalised Pareto law to the largest healthy values (of a low alarm: the smallest).
+// Fit of a generalised Pareto distribution to the largest healthy values (the smallest for a low
+// alarm).
 struct TailChoice {
-    long exceedances = 0;  // values that it is fitted to
-    double above = 0.0;    // the value that they lie beyond, in the feature's unit
+    long exceedances = 0;  // number of values that it is fitted to
+    double above = 0.0;    // value that they exceed, in the feature's unit
     double shape = 0.0, scale = 0.0;
-    double threshold = 0.0;  // that this fit would set
-    double rate = 0.0;       // that it expects beyond the threshold that was set
+    double threshold = 0.0;  // threshold from this fit
+    double rate = 0.0;       // expected rate of this fit beyond the threshold in use
 };
 
-// A threshold beyond its healthy sample (tail.hpp).
+// Threshold extrapolated beyond the healthy sample (tail.hpp).
 struct TailThreshold {
-    double extrapolation = 1.0;       // so many times rarer than one in the sample is the rate
+    double extrapolation = 1.0;       // 1 / (rate x sample size)
     std::vector<TailChoice> choices;  // the first set the threshold; the others fit fewer values
-    bool steady = true;  // the others' rates lie in the interval of the threshold's rate
+    bool steady = true;  // the rates of the other fits lie in the interval of the threshold's rate
 };
 
-// A threshold from tilted records (tilted_sample.hpp).
+// Threshold from importance-sampled records (tilted_sample.hpp).
 struct TiltedThreshold {
     long gearboxes = 0;
-    double carrying = 0.0;       // gearboxes that have the alarms
-    double extrapolation = 1.0;  // so many times rarer than one in the gearboxes is the rate
+    double carrying = 0.0;       // effective number of gearboxes that contribute to the rate
+    double extrapolation = 1.0;  // 1 / (rate x number of gearboxes)
 };
 
-// One feature at one noise level.
+// Results of one feature at one noise level.
 struct LevelDetection {
     double noise_level = 0.0;           // factor on the sensor and encoder noise
     double threshold = 0.0;             // in the feature's unit; NaN if the sample was too small
     long threshold_sample = 0;          // healthy gearboxes that set it
-    long threshold_alarms = 0;          // of these, how many lie beyond it
-    std::optional<TailThreshold> tail;  // else the threshold is an order statistic of the sample
-    std::optional<TiltedThreshold> tilted = {};  // or from weighted records
-    std::vector<DetectionCell> cells;            // ascending size
-    // What the healthy sample alone says of this threshold's false-alarm rate, whatever the
-    // feature's distribution (false_alarm_rate.hpp, tail.hpp).
+    long threshold_alarms = 0;          // number of them beyond the threshold
+    std::optional<TailThreshold> tail;  // set if the threshold was extrapolated
+    std::optional<TiltedThreshold> tilted = {};  // set if the threshold is from importance sampling
+    std::vector<DetectionCell> cells;            // by ascending size
+    // Interval of the false-alarm rate of this threshold from the healthy sample alone, whatever
+    // the feature's distribution (false_alarm_rate.hpp, tail.hpp).
     Interval threshold_rate = {};
-    // The same with the graded healthy gearboxes, and the expected rate over repeated studies that
-    // they speak for, with the threshold's own scatter; NaN without graded healthy gearboxes and
-    // beyond the sample. Where
-    // healthy values tie with the threshold, only the upper end of the first holds, the second is
-    // the graded ones' Clopper-Pearson interval and the third is NaN.
+    // False-alarm rate of this threshold with the graded healthy gearboxes included, its interval,
+    // and the interval of the expected rate over repeated studies, threshold scatter included. The
+    // last is NaN without graded healthy gearboxes and for an extrapolated threshold. Where healthy
+    // values tie with the threshold, only the upper bound of threshold_rate is valid,
+    // healthy_rate_bounds is the Clopper-Pearson interval of the graded gearboxes and expected_rate
+    // is NaN.
     double healthy_rate = 0.0;
     Interval healthy_rate_bounds = {};
     Interval expected_rate = {};
@@ -78,14 +80,15 @@ struct LevelDetection {
 struct FeatureDetection {
     std::string feature;
     Alarm alarm = Alarm::high;
-    std::vector<LevelDetection> levels;  // ascending noise
-    std::vector<std::string> warnings;   // e.g. a threshold sample too small for the rate asked for
+    std::vector<LevelDetection> levels;  // by ascending noise level
+    // For example a threshold sample too small for the requested rate.
+    std::vector<std::string> warnings;
 };
 
-// What a fault size is and how it is shown: metres in mm, others as they are.
+// Name, unit and displayed unit of the fault size: metres are shown in mm, other units unchanged.
 struct SizeUnit {
-    std::string name = "fault_size";  // the parameter that holds a gearbox's fault size
-    std::string unit = "m";           // of its values: "m", or "1" for a pure number
+    std::string name = "fault_size";  // parameter that holds a gearbox's fault size
+    std::string unit = "m";           // unit of its values: "m", or "1" for a pure number
 
     std::string shown_unit() const { return unit == "m" ? "mm" : unit == "1" ? "" : unit; }
     double per_unit() const { return unit == "m" ? 1e-3 : 1.0; }  // shown = value / per_unit
@@ -97,12 +100,12 @@ struct DetectionRequest {
     std::vector<double> noise_levels;
     std::vector<SizeGroup> groups;  // ascending; from levels or from edges
     SizeUnit size = {};
-    // Inputs (columns of the gearboxes) whose distribution is what is known of one value that all
-    // gearboxes have.
+    // Epistemic inputs (columns of the gearboxes): their distribution describes the knowledge of
+    // one value that all gearboxes share.
     std::vector<std::string> uncertain = {};
-    // Rows of a gearbox that sets thresholds, one after another: records that differ in noise.
+    // Number of consecutive rows per gearbox of the threshold sample: records that differ in noise.
     std::size_t threshold_records = 1;
-    bool threshold_tilt = false;  // those of the accelerometer's features are tilted
+    bool threshold_tilt = false;  // importance sampling for the records of accelerometer features
 };
 
 }  // namespace gearpod::analysis

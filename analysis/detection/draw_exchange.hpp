@@ -1,15 +1,15 @@
-// What a gearbox that is split (splitting.hpp) has taken from another one.
+// Exchange of random inputs between gearboxes in multilevel splitting (splitting.hpp).
 #pragma once
 
 #include <cstdint>
 
 namespace gearpod::analysis {
 
-// A share s of the other's draws: a normal number becomes (1 - s) own + sqrt(1 - (1 - s)^2) other,
-// and what is not made of normal numbers is the other's with probability s. Both leave draws the
-// law that they have, and are as likely the other way round.
+// Replaces a share s of the random inputs by those of another gearbox. A normal number becomes (1 -
+// s) own + sqrt(1 - (1 - s)^2) other; an input that is not built from normal numbers is replaced
+// with probability s. Both keep the distribution of the inputs and are reversible.
 struct DrawExchange {
-    std::uint64_t index = 0;  // of the other gearbox
+    std::uint64_t index = 0;  // number of the other gearbox
     double share = 0.0;
 };
 

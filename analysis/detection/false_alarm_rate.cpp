@@ -11,7 +11,7 @@
 namespace gearpod::analysis {
 namespace {
 
-// (n+1)(1-rate) is a whole number for the usual rates: keep rounding from adding one to it.
+// (n+1)(1-rate) is a whole number for the usual rates; this keeps rounding from adding one to it.
 constexpr double kRounding = 1e-9;
 
 Interval equal_tails(double a, double b, double confidence) {
@@ -19,8 +19,8 @@ Interval equal_tails(double a, double b, double confidence) {
     return {beta_quantile(a, b, tail), beta_upper_quantile(a, b, tail)};
 }
 
-// P(count <= k) of the beta-binomial law, summed on k's side of the mean, where terms fall
-// outwards.
+// P(count <= k) of the beta-binomial distribution, summed on k's side of the mean, where terms
+// decrease outwards.
 double beta_binomial_cdf(long k, long tested, double a, double b) {
     const auto m = static_cast<double>(tested);
     const bool below = static_cast<double>(k) < m * a / (a + b);
@@ -81,8 +81,8 @@ long sample_for_rate(double false_alarm_rate, double confidence) {
         return threshold_rate_interval(sample, false_alarm_rate, confidence).upper <=
                2.0 * false_alarm_rate;
     };
-    // With k values beyond the threshold the bound falls with the sample, and jumps where k grows:
-    // the smallest sample of every k is its worst.
+    // With k values beyond the threshold the bound falls with the sample, and it jumps where k
+    // grows. The smallest sample of every k is therefore its worst.
     const auto smallest = [&](long beyond) {
         return static_cast<long>(
             std::ceil(static_cast<double>(beyond) / false_alarm_rate - 1.0 - kRounding));

@@ -1,4 +1,4 @@
-// The side of the threshold on which a feature raises its alarm.
+// Side of the threshold on which a feature raises its alarm.
 #pragma once
 
 #include "analysis/detection/detection.hpp"
@@ -9,7 +9,7 @@ namespace gearpod::analysis {
 constexpr Alarm alarm_of(const features::Feature& feature) {
     return feature.alarm == features::AlarmSide::low ? Alarm::low : Alarm::high;
 }
-// The other one, on which it misses.
+// Opposite side, on which a fault is missed.
 constexpr Alarm miss_of(const features::Feature& feature) {
     return alarm_of(feature) == Alarm::high ? Alarm::low : Alarm::high;
 }

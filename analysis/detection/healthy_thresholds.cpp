@@ -56,7 +56,8 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
     if (gearbox_.empty()) {
         return threshold_interval(plain_, alarm_, false_alarm_rate, confidence);
     }
-    // A value's true rate is that of its rank times what the interval leaves open.
+    // The true rate of a value is the rate of its rank times the ratio of the interval's bound to
+    // the rate.
     const Interval rate = rate_bounds(threshold, false_alarm_rate, confidence);
     const std::vector<double> ascending =
         largest_values(plain_, alarm_, static_cast<long>(plain_.size()));

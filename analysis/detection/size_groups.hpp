@@ -1,4 +1,4 @@
-// Which size group a gearbox belongs to, and what its group counts.
+// Assignment of gearboxes to size groups, and the counts of a group.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,15 @@ namespace gearpod::analysis {
 
 inline constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
 
-// A fixed level takes its own size (up to a unit conversion's rounding). A range takes its lower
-// edge and leaves the upper one to the next group, unless no group begins there.
+// Group of a size. A fixed level holds its own size up to the rounding of a unit conversion. A
+// range holds its lower edge; its upper edge belongs to the next group, unless no group begins
+// there.
 std::optional<std::size_t> group_of(double size, const std::vector<SizeGroup>& groups);
-// The same for every gearbox, kNoGroup for none.
+// Group of every gearbox; kNoGroup for none.
 std::vector<std::size_t> groups_of(std::span<const double> sizes,
                                    const std::vector<SizeGroup>& groups);
 
-// Adds one gearbox; a value that is not finite counts as failed.
+// Adds one gearbox. A value that is not finite counts as failed.
 void count(DetectionCell& cell, double value, double threshold, Alarm alarm);
 
 // Sets the rate and its bounds from the counts; NaN if none was tested or without a threshold.

@@ -10,11 +10,11 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr std::size_t kPart = 4;  // of so many members one goes on
-constexpr int kExchanges = 2;     // of each member, one after another
+constexpr std::size_t kPart = 4;  // one of kPart members is continued
+constexpr int kExchanges = 2;     // successive exchanges per member
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-// That of the next exchange, in steps towards 44 % kept.
+// Share of the next exchange, adapted in steps towards an acceptance rate of 44 %.
 double next_share(double share, double kept) {
     constexpr double kWanted = 0.44, kStep = 1.4, kLeast = 0.005;
     return std::clamp(share * std::clamp(kept / kWanted, 1.0 / kStep, kStep), kLeast, 1.0);
@@ -55,7 +55,7 @@ SplitTail SplitTail::until(const Settings& settings, const SplitValues& of,
     for (double rate = 1.0;;) {
         tail.add_level(rate, values);
         const Level& level = tail.levels_.back();
-        // Those that equal the limit are not beyond it.
+        // Members equal to the limit are not beyond it.
         const double limit = level.falling[count / kPart].value;
         const auto beyond = std::ranges::count_if(values, [&](double v) { return v > limit; });
         if (last(level) || beyond == 0) {
@@ -103,7 +103,7 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
     std::size_t all_kept = 0;
     for (int exchange = 0; exchange < kExchanges; ++exchange) {
         std::vector<SplitMember> tried = members;
-        // Every value is one of a gearbox that gives its draws to no other exchange.
+        // Every value uses a gearbox that takes part in no other exchange.
         for (std::size_t i = 0; i < tried.size(); ++i) {
             tried[i].exchanged.push_back({static_cast<std::uint64_t>(computed_) + i, share_});
         }
@@ -125,7 +125,7 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
     return own;
 }
 
-// Of the families, of so many members together.
+// Sum of the squared shares of the families among the members.
 double SplitTail::squared_shares(std::span<const Place> places) {
     std::map<std::uint64_t, double> shares;
     for (const Place& place : places) {
@@ -147,7 +147,7 @@ SplitTail::Beyond SplitTail::beyond_rate(double rate) const {
     const auto all = static_cast<double>(falling.size());
     auto count = static_cast<std::size_t>(rate / levels_[level].rate * all * (1.0 + 1e-12));
     count = std::min(count, falling.size() - 1);
-    // Members that equal the threshold do not alarm.
+    // Members equal to the threshold do not alarm.
     while (count > 0 && falling[count - 1].value == falling[count].value) {
         --count;
     }
@@ -177,7 +177,8 @@ std::optional<SplitTail::Estimate> SplitTail::estimate(const Beyond& beyond, dou
     found.variance = std::max(
         0.0, 1.0 - std::pow(members / (members - 1.0), static_cast<double>(beyond.level + 1)) *
                        (1.0 - squares));
-    // The estimate's mean is the rate, so its logarithm's mean is half a variance less.
+    // The mean of the estimate is the rate, so the mean of its logarithm is lower by half the
+    // variance.
     const double variance = std::log1p(found.variance);
     const double middle = found.expected * std::exp(0.5 * variance);
     const double factor =
@@ -196,7 +197,7 @@ std::optional<SplitTail::Estimate> SplitTail::threshold(double rate, double conf
 
 std::optional<SplitTail::Estimate> SplitTail::at(double threshold, double confidence) const {
     const double limit = alarm_sign(settings_.alarm) * threshold;
-    // Of a level whose members all lie beyond the value an earlier one tells the rate.
+    // If all members of a level lie beyond the value, an earlier level determines the rate.
     for (std::size_t level = levels_.size(); level-- > 0;) {
         const std::vector<Place>& falling = levels_[level].falling;
         const auto count = static_cast<std::size_t>(

@@ -1,16 +1,17 @@
-// How rare values are of which gearboxes make the rare ones, not noise: multilevel splitting
-// (H. Kahn, T. E. Harris 1951; F. Cerou, A. Guyader, Stoch. Anal. Appl. 25 (2007), 417-443). Of a
-// sample the quarter nearest to an alarm goes on: each member four times, each time with a share of
-// its draws exchanged for those of another gearbox, kept where it stays beyond the quarter's limit.
-// That leaves gearboxes as they are beyond the limit, so their share beyond the next is a share of
-// the first one's, and so on. The share exchanged follows what the last exchange kept
-// (I. Papaioannou et al., Probab. Eng. Mech. 41 (2015), 89-103): small ones are kept more often,
-// large ones lead further.
+// Probability of rare values caused by rare gearboxes rather than by noise: multilevel splitting
+// (H. Kahn, T. E. Harris 1951; F. Cerou, A. Guyader, Stoch. Anal. Appl. 25 (2007), 417-443), also
+// known as subset simulation. The quarter of a sample nearest to an alarm is continued: each member
+// is copied four times, and each copy exchanges a share of its random inputs for those of another
+// gearbox. An exchange is accepted if the value stays beyond the quarter's limit. This preserves
+// the distribution of gearboxes beyond the limit, so the rate of each level is a product of the
+// levels' fractions. The share exchanged adapts to the last acceptance rate (I. Papaioannou et al.,
+// Probab. Eng. Mech. 41 (2015), 89-103): small exchanges are accepted more often, large ones move
+// further.
 //
-// Members that come from the same one of the first sample, a family, are not independent. The
-// variance of a rate follows from how it is shared among families (A. Lee, N. Whiteley, Biometrika
-// 105 (2018), 609-625); its interval is lognormal, wider for few families by Student's t. There is
-// none from fewer than kLeastFamilies.
+// Members descended from the same initial member, a family, are not independent. The variance of a
+// rate follows from its division among families (A. Lee, N. Whiteley, Biometrika 105 (2018),
+// 609-625). Its interval is lognormal, widened for few families by Student's t. There is no
+// estimate from fewer than kLeastFamilies families.
 #pragma once
 
 #include <cstdint>
@@ -27,65 +28,66 @@ namespace gearpod::analysis {
 
 inline constexpr double kLeastFamilies = 5.0;
 
-// A gearbox of its own draws and those exchanged, in this order.
+// Gearbox with its own random inputs and the exchanges applied to them, in this order.
 struct SplitMember {
-    std::uint64_t index = 0;  // also its family
+    std::uint64_t index = 0;  // also the number of its family
     std::vector<DrawExchange> exchanged;
 };
-// A value of every member; what is not finite raises no alarm.
+// Computes the value of every member. A value that is not finite raises no alarm.
 using SplitValues = std::function<std::vector<double>(std::span<const SplitMember>)>;
 
 class SplitTail {
   public:
     struct Settings {
-        long members = 0;  // of a level; at least 8
+        long members = 0;  // per level; at least 8
         Alarm alarm = Alarm::high;
     };
-    // Levels until a quarter or more of the last one's members makes up the rate.
+    // Adds levels until at least a quarter of the last level's members corresponds to the rate.
     static SplitTail to_rate(const Settings& settings, double rate, const SplitValues& values);
-    // Levels until a quarter or more of the last one's members lies beyond the value, or the rate
-    // of a level is below `rarest`.
+    // Adds levels until at least a quarter of the last level's members lies beyond the value, or
+    // the rate of a level is below `rarest`.
     static SplitTail to_value(const Settings& settings, double value, double rarest,
                               const SplitValues& values);
-    // Values that to_rate() and to_value() ask for at most, for a rate.
+    // Upper bound on the number of values that to_rate() computes for a rate.
     static long values_for(const Settings& settings, double rate);
 
     struct Estimate {
         double threshold = 0.0;
-        double expected = 0.0;  // rate beyond it
-        Interval rate;          // of the same
-        double families = 0.0;  // that make it up, (sum n)^2 / sum n^2 of their members
-        double variance = 0.0;  // of `expected`, relative
+        double expected = 0.0;  // estimated rate beyond the threshold
+        Interval rate;          // interval of that rate
+        // Effective number of families beyond it, (sum n)^2 / sum n^2 over their members.
+        double families = 0.0;
+        double variance = 0.0;  // relative variance of `expected`
     };
-    // The value with the largest estimated rate that is not above `rate`. Empty where too few
-    // families reach it.
+    // Value with the largest estimated rate that does not exceed `rate`. Empty if too few families
+    // reach it.
     std::optional<Estimate> threshold(double rate, double confidence) const;
-    // Of any threshold. Empty likewise.
+    // Estimate at a given threshold. Empty if too few families reach it.
     std::optional<Estimate> at(double threshold, double confidence) const;
-    // Where the value may lie whose rate is exactly `rate`; `estimate` is threshold()'s.
+    // Interval of the value whose rate is exactly `rate`; `estimate` is the result of threshold().
     Interval threshold_interval(double rate, const Estimate& estimate) const;
 
     std::size_t levels() const { return levels_.size(); }
-    long computed() const { return computed_; }  // values
-    // The last level: of how many gearboxes its members are typical, how many families they are,
-    // and they themselves.
+    long computed() const { return computed_; }  // number of values
+    // Last level: the rate of gearboxes represented by its members, the effective number of
+    // families, and the members.
     double last_rate() const { return levels_.back().rate; }
     double last_families() const;
     std::span<const SplitMember> last() const { return members_; }
-    // Share of a level's exchanges; 1 without any.
+    // Smallest acceptance rate of a level's exchanges; 1 without any.
     double least_kept() const { return least_kept_; }
 
   private:
     static constexpr double kFirstShare = 0.1;
     struct Place {
-        double value;  // away from the alarm negated
+        double value;  // times alarm_sign()
         std::uint64_t family;
     };
     struct Level {
-        double rate;                 // of gearboxes like these
-        std::vector<Place> falling;  // by value
+        double rate;                 // probability of gearboxes beyond the level's limit
+        std::vector<Place> falling;  // by falling value
     };
-    // How many of a level's members lie beyond a rate or a value.
+    // Number of a level's members beyond a rate or a value.
     struct Beyond {
         std::size_t level, count;
     };
@@ -95,14 +97,15 @@ class SplitTail {
                            const std::function<bool(const Level&)>& last);
     // Adds the members' values as the next level.
     void add_level(double rate, const std::vector<double>& values);
-    // Makes the next level's members and their values out of the last one's beyond `limit`.
+    // Creates the next level's members from those of the last level beyond `limit`, and returns
+    // their values.
     std::vector<double> split(double limit, const std::vector<double>& values,
                               const SplitValues& of);
     std::vector<double> signed_values(const SplitValues& of, std::span<const SplitMember> members);
 
     static double squared_shares(std::span<const Place> places);
     Beyond beyond_rate(double rate) const;
-    // The threshold that so many lie beyond, away from the alarm negated.
+    // Threshold exceeded by that many members, times alarm_sign().
     double value_before(const Beyond& beyond) const;
     std::optional<Estimate> estimate(const Beyond& beyond, double threshold,
                                      double confidence) const;
@@ -111,7 +114,7 @@ class SplitTail {
     std::vector<Level> levels_;
     std::vector<SplitMember> members_;  // of the last level
     long computed_ = 0;
-    double share_ = kFirstShare;  // of draws, in the next exchange
+    double share_ = kFirstShare;  // share of random inputs in the next exchange
     double least_kept_ = 1.0;
 };
 

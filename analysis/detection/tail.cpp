@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kTailRounding = 1e-9;
 constexpr long kShare = 10;  // a tenth of the sample
-// Where the posterior is looked for first, in units of the median excess: a shape of 2 has a scale
-// of 2/3 there, one of -1/2 of 1.7.
+// Initial search range of the posterior, in units of the median excess: a shape of 2 has a scale of
+// 2/3 there, a shape of -1/2 one of 1.7.
 constexpr double kLargestPace = 3.0, kLogScales = 2.0;
 constexpr int kNodes = 81;
-constexpr double kReach = 6.0;  // standard deviations of the posterior that the nodes cover
+constexpr double kReach = 6.0;  // standard deviations of the posterior covered by the nodes
 
-// The survivors beyond x, of shape = pace * scale.
+// Survival function at x, with shape = pace * scale.
 double survivors(double pace, double scale, double x) {
     const double argument = pace * x;
     if (argument <= -1.0) {
@@ -52,7 +52,8 @@ struct Weighted {
     double value, weight;
 };
 
-// Where the cumulated weight, half of each value's own counted, passes a share of all.
+// Value at which the cumulative weight, with half of each value's own weight, passes a share of the
+// total.
 double quantile(const std::vector<Weighted>& ascending, double share) {
     double sum = 0.0, before = 0.0, last = ascending.front().value;
     for (const Weighted& at : ascending) {
@@ -109,7 +110,7 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     for (double& value : excess) {
         value /= unit_;
     }
-    // Beyond the largest value the law must go on: 1 + pace * largest > 0.
+    // The distribution must extend beyond the largest value: 1 + pace * largest > 0.
     const double least = -1.0 / *std::max_element(excess.begin(), excess.end());
     nodes_ = posterior(excess, least, kLargestPace, -kLogScales, kLogScales);
     const Moments pace = moments(nodes_, [](const Node& node) { return node.pace; });
@@ -121,7 +122,7 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     scale_ = unit_ * moments(nodes_, [](const Node& node) { return node.scale; }).mean;
 }
 
-// In pace and log scale the sum over the excesses depends on the pace alone. The prior there is
+// In pace and log scale, the sum over the excesses depends on the pace alone. The prior is then
 // scale / ((1 + shape) sqrt(1 + 2 shape)).
 std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess, double pace_low,
                                               double pace_high, double log_scale_low,
@@ -132,7 +133,7 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
     std::vector<double> logs;
     double most = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < kNodes; ++i) {
-        // Between the ends: at the least pace the likelihood is 0.
+        // Midpoints, because the likelihood is 0 at the smallest pace.
         const double pace = pace_low + (i + 0.5) / kNodes * (pace_high - pace_low);
         double sum = 0.0;
         for (const double y : excess) {
@@ -173,7 +174,7 @@ double TailFit::rate(double value) const {
 }
 
 std::vector<double> TailFit::shares() const {
-    constexpr int kShares = 9;  // it varies little beside the law
+    constexpr int kShares = 9;  // few are enough: it varies little compared with the fit
     const auto above = static_cast<double>(exceedances_ + 1);
     const auto below = static_cast<double>(sample_ - exceedances_);
     std::vector<double> shares;
@@ -186,7 +187,7 @@ std::vector<double> TailFit::shares() const {
 HealthyRate TailFit::rate(double value, long alarms, long tested, double confidence) const {
     const std::vector<double> shares = this->shares();
     const auto hits = static_cast<double>(alarms), misses = static_cast<double>(tested - alarms);
-    // Relative to the count's own rate, where the likelihood is largest.
+    // Likelihood relative to its maximum, at the count's own rate.
     const double own = tested > 0 ? hits / static_cast<double>(tested) : 0.0;
     const auto likelihood = [&](double p) {
         const double of_hits = hits > 0.0 ? hits * std::log(p / own) : 0.0;
@@ -205,7 +206,7 @@ HealthyRate TailFit::rate(double value, long alarms, long tested, double confide
             mean += rates.back().weight * p;
         }
     }
-    if (!(weight > 0.0)) {  // the count contradicts the law
+    if (!(weight > 0.0)) {  // the count contradicts the distribution
         return {kNan, {kNan, kNan}};
     }
     return {mean / weight, middle_of(rates, weight, confidence)};
@@ -230,7 +231,7 @@ Interval TailFit::threshold_interval(double rate, double confidence) const {
 
 double TailFit::threshold(double rate) const {
     const auto log_miss = [&](double x) {
-        constexpr double kNever = 1e-300;  // beyond the end of every law
+        constexpr double kNever = 1e-300;  // beyond the end of every distribution
         return std::log(std::max(kNever, this->rate(above_ + unit_ * x) / rate));
     };
     if (log_miss(0.0) <= 0.0) {
@@ -244,7 +245,7 @@ double TailFit::threshold(double rate) const {
     const auto bracket = boost::math::tools::toms748_solve(
         log_miss, 0.5 * (high > 1.0 ? high : 0.0), high,
         boost::math::tools::eps_tolerance<double>(40), steps, QuietPolicy());
-    // The end that does not exceed the rate.
+    // The end of the bracket that does not exceed the rate.
     return above_ + unit_ * bracket.second;
 }
 

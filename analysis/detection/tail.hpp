@@ -1,14 +1,14 @@
-// Alarm thresholds beyond a healthy sample: peaks over threshold. What lies above a high order
-// statistic of the sample follows nearly a generalised Pareto law, whatever the feature's
-// distribution: J. Pickands, Ann. Stat. 3 (1975), 119-131; A. C. Davison, R. L. Smith,
-// J. R. Stat. Soc. B 52 (1990), 393-442.
+// Alarm thresholds beyond a healthy sample by peaks over threshold. Values above a high order
+// statistic approximately follow a generalised Pareto distribution, whatever the feature's
+// distribution: J. Pickands, Ann. Stat. 3 (1975), 119-131; A. C. Davison, R. L. Smith, J. R. Stat.
+// Soc. B 52 (1990), 393-442.
 //
-// Shape and scale have their posterior under Jeffreys' prior, 1 / (scale (1 + shape)
-// sqrt(1 + 2 shape)), shape > -1/2: M. E. Castellanos, S. Cabras, J. Stat. Plan. Inference 137
-// (2007), 473-483. The share above the order statistic has its own law, Beta(k + 1, n - k) with k
-// of n values above (false_alarm_rate.hpp). So the *expected* rate of a threshold, the law granted,
-// is the one asked for, as with an order statistic, and its interval is that of this very
-// threshold. Both are integrals over a grid: no random numbers.
+// Shape and scale have their posterior under Jeffreys' prior, 1 / (scale (1 + shape) sqrt(1 + 2
+// shape)), shape > -1/2: M. E. Castellanos, S. Cabras, J. Stat. Plan. Inference 137 (2007),
+// 473-483. The share above the order statistic is Beta(k + 1, n - k) distributed with k of n values
+// above (false_alarm_rate.hpp). If the distribution holds, the *expected* rate of a threshold is
+// the requested one, as with an order statistic, and the interval is that of the given threshold.
+// Both are integrals over a grid, without random numbers.
 #pragma once
 
 #include <span>
@@ -20,39 +20,41 @@
 
 namespace gearpod::analysis {
 
-// The law is fitted to the largest tenth of a sample, at most so many, where more would bend it
-// faster than they narrow it; fewer than the least leave its shape open. It is trusted for rates so
-// many times rarer than one in the sample. Within these, intervals cover what they promise
-// (tests/analysis/detection/test_tail.cpp).
+// Limits of the fit. The distribution is fitted to the largest tenth of a sample, at most
+// kMostExceedances values; more would add bias faster than they reduce variance. Fewer than
+// kLeastExceedances do not determine the shape. Extrapolation is limited to rates
+// kFarthestExtrapolation times rarer than one in the sample. Within these limits, intervals keep
+// their nominal coverage (tests/analysis/detection/test_tail.cpp).
 inline constexpr long kMostExceedances = 200;
 inline constexpr long kLeastExceedances = 100;
 inline constexpr double kFarthestExtrapolation = 5.0;
 
 long exceedances_of(long sample);
 bool tail_reaches(long sample, double false_alarm_rate);
-// The smallest sample whose tail reaches the rate.
+// Smallest sample whose tail reaches the rate.
 long sample_for_tail(double false_alarm_rate);
 
 class TailFit {
   public:
-    // `largest`: the values that exceed an order statistic, and that statistic before them,
-    // ascending, of `sample` finite values in all.
+    // Fits the tail. `largest`: an order statistic followed by the values that exceed it,
+    // ascending, out of `sample` finite values.
     TailFit(std::span<const double> largest, long sample);
 
-    // Why there is no fit, or "": healthy ones share values.
+    // Reason why there is no fit (equal healthy values), or "".
     const std::string& refusal() const { return refusal_; }
     long exceedances() const { return exceedances_; }
     double above() const { return above_; }  // the order statistic
     double shape() const { return shape_; }  // posterior means
     double scale() const { return scale_; }
 
-    // Of a value from the order statistic on: its expected rate, and with `alarms` of `tested`
-    // further healthy gearboxes beyond it the rate and interval that they leave.
+    // Rate beyond a value at or above the order statistic: its expected rate, and its rate and
+    // interval updated by `alarms` of `tested` further healthy gearboxes.
     double rate(double value) const;
     HealthyRate rate(double value, long alarms, long tested, double confidence) const;
-    // The value whose expected rate is `rate`, at most that of the order statistic.
+    // Value whose expected rate is `rate`. The rate must not exceed that of the order statistic;
+    // for a larger one, returns the order statistic.
     double threshold(double rate) const;
-    // Where the value may lie whose rate is exactly `rate`.
+    // Interval of the value whose rate is exactly `rate`.
     Interval threshold_interval(double rate, double confidence) const;
 
   private:
@@ -62,12 +64,12 @@ class TailFit {
     std::vector<Node> posterior(const std::vector<double>& excess, double pace_low,
                                 double pace_high, double log_scale_low,
                                 double log_scale_high) const;
-    // Of the share above the order statistic, some values that are equally likely.
+    // Equally likely values of the share above the order statistic.
     std::vector<double> shares() const;
 
     long sample_ = 0, exceedances_ = 0;
     double above_ = 0.0, unit_ = 1.0, shape_ = kNan, scale_ = kNan;
-    std::vector<Node> nodes_;  // weights add to 1
+    std::vector<Node> nodes_;  // weights sum to 1
     std::string refusal_;
 };
 

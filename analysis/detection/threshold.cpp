@@ -58,8 +58,9 @@ HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_
 
 namespace {
 
-// The smallest rank whose probability beyond stays below the rate with the confidence, or, from
-// below, the largest whose probability exceeds it; 0 or n + 1 if there is none.
+// Smallest rank whose probability beyond stays below the rate with the confidence; with `below`,
+// the largest rank whose probability exceeds the rate with the confidence. n + 1 or 0 if there is
+// none.
 long rank_within(long sample, double rate, double tail, bool below) {
     long low = 0, high = sample + 1;
     while (high - low > 1) {

@@ -9,7 +9,7 @@
 namespace gearpod::analysis {
 namespace {
 
-// Rates of a gearbox beyond which its normal score is not known.
+// Range of the rates of a gearbox for which its normal score is used.
 constexpr double kRarest = 1e-12, kMostFrequent = 0.999;
 
 // Normal scores of the gearboxes' own rates, the most alarming first.
@@ -22,7 +22,8 @@ std::vector<double> scores_of(const std::vector<double>& rates) {
     return scores;
 }
 
-// Their scatter towards alarms, as a share of their variance and that of noise, 1.
+// Variance of the scores on the alarm side of the median, relative to its sum with the noise
+// variance of 1.
 double share_towards_alarms(const std::vector<double>& scores) {
     const std::size_t half = scores.size() / 2;
     double squares = 0.0;
@@ -33,7 +34,7 @@ double share_towards_alarms(const std::vector<double>& scores) {
     return variance / (1.0 + variance);
 }
 
-// The mean excess of the last tenth of the scores over where it begins.
+// Mean excess of the most alarming tenth of the scores over its limit.
 double last_excess(const std::vector<double>& scores) {
     constexpr std::size_t kLeast = 5;
     const std::size_t last = std::min(scores.size() - 1, std::max(kLeast, scores.size() / 10));
@@ -44,8 +45,8 @@ double last_excess(const std::vector<double>& scores) {
     return excess;
 }
 
-// The rate that gearboxes add which are rarer than one in the sample, if their scores go on beyond
-// the most alarming one as those of the last tenth do, exponentially.
+// Rate contributed by gearboxes rarer than one in the sample, if the exponential tail fitted to the
+// last tenth of the scores continues beyond the most alarming one.
 double missing_rate(const std::vector<double>& scores) {
     constexpr int kSteps = 400;
     const double excess = last_excess(scores);
@@ -56,8 +57,8 @@ double missing_rate(const std::vector<double>& scores) {
     return sum / kSteps / static_cast<double>(scores.size());
 }
 
-// How much like an exponential law's the last tenth's excess is beside the scatter, 1, and not like
-// a normal law's, 0, whose scores end sooner.
+// Similarity of the last tenth to an exponential tail, from its mean excess relative to the
+// scatter: 1 for exponential, 0 for normal, whose scores end sooner.
 double exponential_share(const std::vector<double>& scores, double share) {
     constexpr double kNormal = 0.4735, kExponential = 0.7071;
     const double scatter = std::sqrt(share / std::max(1e-12, 1.0 - share));
@@ -102,7 +103,7 @@ TiltedSample::TiltedSample(std::span<const double> values, std::span<const doubl
 std::size_t TiltedSample::beyond(double rate) const {
     auto count = static_cast<std::size_t>(
         std::upper_bound(cumulative_.begin(), cumulative_.end(), rate) - cumulative_.begin() - 1);
-    // Records that equal the threshold do not alarm.
+    // Records equal to the threshold do not alarm.
     while (count > 0 && count < falling_.size() &&
            falling_[count - 1].value == falling_[count].value) {
         --count;
@@ -136,7 +137,7 @@ std::optional<TiltedSample::Estimate> TiltedSample::at(double threshold, double 
         falling_.begin(), falling_.end(),
         [value = sign_ * threshold](const Record& record) { return record.value > value; });
     const auto count = static_cast<std::size_t>(end - falling_.begin());
-    // Weights have the mean 1, and of frequent records their sum may come out larger.
+    // Weights have the mean 1; for frequent values their sum may exceed it.
     auto found = estimate(count, std::min(1.0, cumulative_[count]), confidence);
     if (found) {
         found->threshold = threshold;
@@ -183,7 +184,8 @@ std::optional<TiltedSample::Estimate> TiltedSample::estimate(std::size_t count, 
 }
 
 Interval TiltedSample::threshold_interval(double rate, const Estimate& estimate) const {
-    // A value's true rate is the estimated one times what the interval leaves open.
+    // The true rate of a value is its estimated rate times the ratio of the interval's bound to the
+    // rate.
     const auto value = [&](double bound) {
         const double wanted = rate * rate / bound;
         const std::size_t count = std::min(beyond(wanted), falling_.size() - 1);

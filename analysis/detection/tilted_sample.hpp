@@ -1,18 +1,21 @@
-// Alarm thresholds from weighted records of healthy gearboxes: several of each, most of them drawn
-// towards an alarm, with weights that undo it (signals/windowing/noise_tilt.hpp). The mean over the
-// gearboxes of what each one's records say of the rate beyond a value is that of plain records,
-// without the scatter of counting alarms: with some tens of records a gearbox the rate's error is
-// that of how gearboxes differ.
+// Alarm thresholds by importance sampling from weighted records of healthy gearboxes. Each gearbox
+// has several records, most of them drawn towards an alarm by exponential tilting, with weights
+// that correct for it (signals/windowing/noise_tilt.hpp). The rate beyond a value is the mean over
+// gearboxes of the weighted rate of each gearbox's records. It estimates the rate of plain records
+// without the scatter of counting alarms: with some tens of records per gearbox, its error is that
+// of the scatter between gearboxes.
 //
-// How much they do limits how rare a rate they carry: the interval is that of as many independent
-// alarms as have the same relative variance (gamma law, cluster by cluster, less for few
-// gearboxes by Student's t: E. L. Korn, B. I. Graubard, Survey Methodology 24 (1998), 193-201), and
-// there is none where fewer than kLeastCarrying gearboxes carry the rate, (sum p)^2 / sum p^2 of
-// the gearboxes' own rates p. Rare gearboxes that have the most alarms may be missing from a sample
-// that looks well carried, so the number is also not taken larger than normal scores would have
-// it, with the scatter of the gearboxes that alarm more often than the median one; and the upper
-// end has what gearboxes rarer than one in the sample add if the scores' tail goes on
-// exponentially, so far as it looks like that: at most kMostUnseen of the rate.
+// This scatter limits how rare a rate the sample supports. The interval is that of as many
+// independent alarms as have the same relative variance (gamma distribution for clusters, fewer
+// alarms for few gearboxes by Student's t: E. L. Korn, B. I. Graubard, Survey Methodology 24
+// (1998), 193-201). There is no estimate if the effective number of contributing gearboxes, (sum
+// p)^2 / sum p^2 of the gearboxes' own rates p, is below kLeastCarrying.
+//
+// Rare gearboxes with the most alarms may be missing from a sample that looks sufficient. Two
+// corrections account for this. First, the effective number is limited to that of normal scores
+// with the scatter of the gearboxes that alarm more often than the median one. Second, the upper
+// bound includes the rate of gearboxes rarer than one in the sample under an exponential tail of
+// the scores, weighted by how exponential the tail looks; at most kMostUnseen of the rate.
 #pragma once
 
 #include <optional>
@@ -29,25 +32,25 @@ inline constexpr double kMostUnseen = 0.3;
 
 class TiltedSample {
   public:
-    // One value, weight and gearbox a record; the records of a gearbox follow one another. Values
-    // that are not finite raise no alarm; gearboxes without any finite one are left out.
+    // Takes one value, weight and gearbox per record; the records of a gearbox are consecutive.
+    // Values that are not finite raise no alarm. Gearboxes without any finite value are left out.
     TiltedSample(std::span<const double> values, std::span<const double> weights,
                  std::span<const std::size_t> gearbox, Alarm alarm);
 
     struct Estimate {
         double threshold = 0.0;
-        double expected = 0.0;  // rate beyond it
-        Interval rate;          // of the same
-        double carrying = 0.0;  // gearboxes
-        double variance = 0.0;  // of `expected`, relative
+        double expected = 0.0;  // estimated rate beyond the threshold
+        Interval rate;          // interval of that rate
+        double carrying = 0.0;  // effective number of contributing gearboxes
+        double variance = 0.0;  // relative variance of `expected`
         long alarms = 0;        // records beyond it, whatever their weight
     };
-    // The value with the largest estimated rate that is not above `rate`. Empty where too few
-    // gearboxes carry it.
+    // Value with the largest estimated rate that does not exceed `rate`. Empty if too few gearboxes
+    // contribute.
     std::optional<Estimate> threshold(double rate, double confidence) const;
-    // Of any threshold. Empty likewise.
+    // Estimate at a given threshold. Empty if too few gearboxes contribute.
     std::optional<Estimate> at(double threshold, double confidence) const;
-    // Where the value may lie whose rate is exactly `rate`; `estimate` is threshold()'s.
+    // Interval of the value whose rate is exactly `rate`; `estimate` is the result of threshold().
     Interval threshold_interval(double rate, const Estimate& estimate) const;
 
     long records() const { return records_; }  // with a finite value
@@ -55,19 +58,20 @@ class TiltedSample {
 
   private:
     struct Record {
-        double value, share;  // away from the alarm negated; weight over the gearbox's records
+        // Value times alarm_sign(); weight over the number of the gearbox's records.
+        double value, share;
         std::size_t gearbox;  // numbered from 0
     };
-    // How many of the largest have an estimated rate of at most `rate`.
+    // Number of the largest values with an estimated rate of at most `rate`.
     std::size_t beyond(double rate) const;
     std::vector<double> own_rates(std::size_t beyond) const;
-    // Of a threshold with so many records beyond it, for what is taken for their rate.
+    // Estimate at a threshold with the given number of records beyond it and the given rate.
     std::optional<Estimate> estimate(std::size_t beyond, double rate, double confidence) const;
 
     double sign_;
     long records_ = 0, gearboxes_ = 0;
-    std::vector<Record> falling_;     // by value
-    std::vector<double> cumulative_;  // rate of the first so many
+    std::vector<Record> falling_;     // by falling value
+    std::vector<double> cumulative_;  // estimated rate of the first records
 };
 
 }  // namespace gearpod::analysis

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Error against time of every rung that `gearpod accuracy STUDY --json F` measured.
+"""Error against time of every solver setting measured by `gearpod accuracy STUDY --json F`.
 
     python3 analysis/figures/accuracy.py F.json figure.svg      # or .png; Debian's python3-matplotlib
 
-Left the worst feature, right the sensor's signal (filled) and the transmission error (open), all
-relative. The line is the frontier: nothing measured is both faster and closer."""
+The left chart shows the worst feature, the right one the sensor signal (filled) and the
+transmission error (open), all as relative errors. The line is the Pareto frontier: no measured
+setting is both faster and more accurate."""
 import json
 import sys
 
@@ -41,7 +42,8 @@ def draw_frontier(axis, report):
 
 
 def draw_others(axes, report):
-    """What is no rung of the ladder: the study as it is, all meshes marched, peers, the limit."""
+    """Draws the results outside the candidate list: the study's own setting, full integration of
+    all meshes, other programs, and the stability limit."""
     def place(label, seconds, worst, sensor, mark):
         for axis, error in zip(axes, (worst, sensor)):
             if error:
@@ -52,9 +54,10 @@ def draw_others(axes, report):
             continue
         error = rung["error"]
         if rung["name"] == report["own"]:
-            place("the study as it is", rung["gearbox_s"], error["worst_feature"], error["sensor"], "s")
+            place("setting of the study", rung["gearbox_s"], error["worst_feature"],
+                  error["sensor"], "s")
         elif any("horizon=march" in key for key in rung["overrides"]):
-            place("the same, every mesh marched", rung["gearbox_s"], error["worst_feature"],
+            place("the same, full integration", rung["gearbox_s"], error["worst_feature"],
                   error["sensor"], "D")
     for peer, mark in zip(report.get("peers", []), "ov^<>"):
         place(peer["name"], peer["gearbox_s"], peer["worst_feature"], peer["sensor"], mark)
@@ -87,7 +90,8 @@ def main():
         axes[0].plot([], [], mark, color=colour, label=name)
     axes[0].plot([], [], "o", ms=12, mfc="none", color="#C00000", label="chosen for a tolerance")
     axes[0].plot([], [], color="0.25", lw=1.2, label="frontier")
-    axes[0].plot([], [], "o", color="0.3", ms=3, alpha=0.45, label="small: settled more loosely")
+    axes[0].plot([], [], "o", color="0.3", ms=3, alpha=0.45,
+                 label="small: looser convergence tolerance")
     axes[0].set_title("worst feature")
     axes[1].set_title("sensor signal (filled), transmission error (open)")
     agreement = report["reference"]["agreement"]["sensor"]
@@ -95,7 +99,8 @@ def main():
     axes[1].annotate("agreement of the two references, sensor", (0.02, agreement), fontsize=7,
                      xycoords=("axes fraction", "data"), va="bottom")
     for axis in axes:
-        axis.set(xscale="log", yscale="log", xlabel="processor time of the march, us a gearbox")
+        axis.set(xscale="log", yscale="log",
+                 xlabel="processor time of the integration, us per gearbox")
         axis.grid(True, which="major", color="0.93")
     axes[0].set_ylabel("relative error")
     figure.suptitle(report["title"])

@@ -20,7 +20,7 @@ constexpr double kLeastUnit = std::numeric_limits<double>::min();
 struct Variances {
     double count = 0.0, bins = 0.0;
     double between = 0.0, within = 0.0;  // sums of squares
-    std::vector<double> fitted;          // bin mean of each
+    std::vector<double> fitted;          // bin mean of each value
 
     double total() const { return between + within; }
     double noise() const { return within / (count - bins); }
@@ -48,7 +48,7 @@ Variances variances_of(std::span<const double> x, std::span<const double> y, std
     return v;
 }
 
-// The noncentrality at which a value of F or less has this probability, as a share of variance.
+// Share of variance whose noncentrality gives the observed F or less with this probability.
 double share_at(const Variances& v, double probability) {
     const auto beyond = [&](double share) {
         const double noncentrality = v.count * share / (1.0 - share);
@@ -68,7 +68,8 @@ double share_at(const Variances& v, double probability) {
     return 0.5 * (bracket.first + bracket.second);
 }
 
-// Standard deviation of the estimate from its influence function over the normal law's, at least 1.
+// Standard deviation of the estimate from its influence function relative to that under a normal
+// distribution, at least 1.
 double widening(const Variances& v, std::span<const double> y) {
     const double n = v.count, variance = v.total() / n;
     const double raw = v.between / v.total();
@@ -79,13 +80,15 @@ double widening(const Variances& v, std::span<const double> y) {
         square += influence * influence;
     }
     const double noise = std::pow(v.noise() / variance, 2);
-    const double chance = 2.0 * (v.bins - 1.0) * noise / (n * n);  // of bins without influence
+    // Variance from bins without influence.
+    const double chance = 2.0 * (v.bins - 1.0) * noise / (n * n);
     const double own = std::max(0.0, square / (n * n) - 2.0 * chance) + chance;
     const double share = std::max(0.0, v.share());
     return std::sqrt(std::max(1.0, own / (2.0 * noise * share * (2.0 - share) / n + chance)));
 }
 
-// Near the largest value, so that squares neither overflow nor vanish; exact to divide by.
+// Power of two near the largest value, by which division is exact, so that squares neither overflow
+// nor underflow.
 double power_of_two(std::span<const double> values) {
     double largest = 0.0;
     for (const double value : values) {
@@ -120,7 +123,7 @@ CorrelationRatio correlation_ratio(std::span<const double> x, std::span<const do
     }
     constexpr double kRounding = 1e-24;
     if (!(v.within > kRounding * v.total())) {
-        return {1.0, {kNan, 1.0}};  // no scatter within bins: no scatter to judge by
+        return {1.0, {kNan, 1.0}};  // no scatter within bins, so no lower bound
     }
     result.share = v.share();
     const double wide = widening(v, centred);

@@ -1,7 +1,7 @@
-// The share of an output's variance that one input explains alone, Var(E[Y | X]) / Var(Y):
-// Pearson's correlation ratio, the first-order index of I. M. Sobol, Math. Model. Comput. Exp. 1
-// (1993), 407-414. Estimated from any sample (given-data estimator: E. Plischke, E. Borgonovo, C.
-// L. Smith, Eur. J. Oper. Res. 226 (2013), 536-550) in bins of equal counts, less what bins without
+// Share of an output's variance that one input explains alone, Var(E[Y | X]) / Var(Y): Pearson's
+// correlation ratio, the first-order index of I. M. Sobol, Math. Model. Comput. Exp. 1 (1993),
+// 407-414. Estimated from any sample (given-data estimator: E. Plischke, E. Borgonovo, C. L. Smith,
+// Eur. J. Oper. Res. 226 (2013), 536-550) in bins of equal counts, less the share that bins without
 // influence would explain by chance (T. L. Kelley, Proc. Natl. Acad. Sci. 21 (1935), 554-559).
 #pragma once
 
@@ -12,14 +12,16 @@
 namespace gearpod::analysis {
 
 struct CorrelationRatio {
-    double share = 0.0;  // slightly negative by chance where there is no influence; NaN if y or x
-                         // is constant or fewer than 20 values
-    Interval bounds;     // two-sided, within 0 and 1
+    // May be slightly negative by chance without influence. NaN if y or x is constant, or with
+    // fewer than 20 values.
+    double share = 0.0;
+    Interval bounds;  // two-sided, within 0 and 1
 };
 
-// Bounds from the noncentral F law (J. H. Steiger, Psychol. Methods 9 (2004), 164-182), widened
-// about the estimate by the ratio of the standard deviation from the ratio's influence function,
-// which takes the outputs' own law into account, to the normal law's. With 2 n^(1/3) bins.
+// Estimates the share in 2 n^(1/3) bins. Bounds are from the noncentral F distribution (J. H.
+// Steiger, Psychol. Methods 9 (2004), 164-182). They are widened about the estimate by the ratio of
+// two standard deviations: the one from the ratio's influence function, which accounts for the
+// distribution of the output, to that under a normal distribution.
 CorrelationRatio correlation_ratio(std::span<const double> x, std::span<const double> y,
                                    double confidence);
 

@@ -1,4 +1,4 @@
-// Values of an input in bins of equal counts.
+// Division of an input's values into bins of equal counts.
 #pragma once
 
 #include <span>
@@ -6,9 +6,9 @@
 
 namespace gearpod::analysis {
 
-// Bin of each value, 0 to bins - 1 in ascending order of the values. An input of few distinct
-// values, `bins` or fewer, has a bin for each; otherwise equal values share a bin and the counts
-// are as equal as that allows. Values must be finite.
+// Bin of each value, 0 to bins - 1 in ascending order of the values. With at most `bins` distinct
+// values, each has its own bin. Otherwise equal values share a bin and the counts are as equal as
+// that allows. Values must be finite.
 struct InputBins {
     std::vector<std::size_t> of;
     std::size_t bins = 0;

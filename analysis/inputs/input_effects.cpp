@@ -16,7 +16,7 @@ namespace {
 
 using Where = SizeEstimate::Where;
 constexpr std::size_t kBins = 5;
-constexpr std::size_t kFewValues = 9;  // an input with no more has an a90 at each of them
+constexpr std::size_t kFewValues = 9;  // an input with at most this many values has an a90 at each
 constexpr double kPod = 0.9;
 
 // Faulty gearboxes with an outcome.
@@ -83,7 +83,7 @@ std::vector<InputBin> bins_of(const std::vector<double>& values, const Outcomes&
     return result;
 }
 
-// A covariate to mean 0 and standard deviation 1.
+// Standardisation of a covariate to mean 0 and standard deviation 1.
 struct Scale {
     double centre = 0.0, spread = 1.0;
 
@@ -102,14 +102,14 @@ Eigen::VectorXd scaled_sizes(const Outcomes& outcomes, const PodForm& form) {
     return x;
 }
 
-// The curve of all gearboxes with one input as a covariate.
+// Curve of all gearboxes with one input as a covariate.
 struct CovariateCurve {
     const PodForm& form;
     Scale size, input;
     BinaryFit fit;
     double target = 0.0;  // eta at POD 0.9
 
-    // Sizes at which the POD is 0.9, for a value of the input.
+    // Size at which the POD is 0.9, for a value of the input.
     SizeBounds a90(double value, double smallest, double largest, double confidence) const;
 };
 
@@ -180,7 +180,7 @@ std::vector<double> quantiles_of(const std::vector<double>& ascending) {
     return out;
 }
 
-// The test and a90 of one input.
+// Computes the test and a90 of one input.
 void fit_input(InputEffect& effect, const std::vector<double>& values, const Outcomes& outcomes,
                const Eigen::VectorXd& x, const HitMissPod& pod, const BinaryFit& without,
                const BinaryModel& model, double confidence) {

@@ -1,13 +1,13 @@
-// How the probability of detection depends on every random input beside the fault's size: rates in
+// Dependence of the probability of detection on every random input besides the fault size: rates in
 // bins of the input, and the hit/miss curve with the input as a second covariate,
 //
 //   POD(a, z) = floor + (ceiling - floor) F(b0 + b1 x(a) + b2 z + b3 z^2),
 //
 // in the form (link, scale of size, floor, ceiling) of the feature's own curve. b2 = b3 = 0 is
 // tested by the likelihood ratio (McCullagh and Nelder (1989), section 4.4), adjusted over the
-// inputs (Holm). Its a90 follows as a function of z, with bounds after E. C. Fieller, J. R. Stat.
-// Soc. B 16 (1954), 175-185: sizes at which POD 0.9 is not refuted. The curve's slope over size
-// is taken as the same at all values of the input.
+// inputs (Holm). a90 follows as a function of z, with bounds after E. C. Fieller, J. R. Stat. Soc.
+// B 16 (1954), 175-185: the sizes at which POD 0.9 is not rejected. The slope over size is assumed
+// equal at all values of the input.
 #pragma once
 
 #include <span>
@@ -26,42 +26,44 @@ struct InputBin {
     double middle = 0.0;  // median
     long tested = 0, detected = 0;
     double pd = 0.0;
-    Interval bounds;  // Wilson
+    Interval bounds;  // Wilson interval
 };
 
 struct InputEffect {
     std::string name;
     std::string unit;
-    std::vector<InputBin> bins;  // of equal counts, or the input's values if they are few
+    std::vector<InputBin> bins;  // of equal counts, or one per value if the values are few
     double statistic = 0.0;      // likelihood ratio; NaN without a curve
     int degrees = 0;
-    double p_value = 0.0;         // adjusted over the inputs; NaN without a curve
-    std::vector<double> values;   // of the input, at kInputQuantiles or its few values
-    std::vector<SizeBounds> a90;  // one a value
-    std::string refusal;          // why there are no test and no a90, else empty
+    double p_value = 0.0;  // adjusted over the inputs; NaN without a curve
+    // Values of the input at kInputQuantiles, or all its values if they are few.
+    std::vector<double> values;
+    std::vector<SizeBounds> a90;  // one per value
+    std::string refusal;          // reason why there are no test and no a90, or ""
 };
 
 struct InputEffects {
     double smallest = 0.0, largest = 0.0;  // fault sizes of the bins; NaN if there are none
-    std::vector<InputEffect> inputs;       // in the order given
+    std::vector<InputEffect> inputs;       // in the given order
     std::vector<std::string> left_out;     // inputs that do not vary
 };
 
 inline constexpr double kInputQuantiles[] = {0.05, 0.25, 0.5, 0.75, 0.95};
 
 // `sizes` and `hit` per gearbox (1 detected, 0 missed, -1 no value). Bins count the gearboxes with
-// sizes in [range.low, range.high]; the test and a90 rest on all faulty gearboxes. `pod` is the
-// feature's hit/miss analysis of the same gearboxes; `confidence` is that of the bins (two-sided)
-// and of each one-sided bound of a90.
+// sizes in [range.low, range.high]; the test and a90 use all faulty gearboxes. `pod` is the
+// feature's hit/miss analysis of the same gearboxes. `confidence` applies to the bins (two-sided)
+// and to each one-sided bound of a90.
 InputEffects input_effects(std::span<const double> sizes, std::span<const int> hit,
                            const std::vector<InputColumn>& inputs, const HitMissPod& pod,
                            const SizeGroup& range, double confidence);
 
-// The sizes at which detection is neither certain nor absent: those groups of faulty gearboxes with
-// a rate of 0.1 to 0.95, without any the one nearest to 1/2. NaN without a tested group.
+// Range of sizes at which detection is neither certain nor impossible: the groups of faulty
+// gearboxes with a rate of 0.1 to 0.95, or, if there are none, the group with the rate nearest to
+// 1/2. NaN without a tested group.
 SizeGroup transition_sizes(const std::vector<DetectionCell>& cells);
 
-// Up to a unit conversion's rounding; false for a range of NaN.
+// True within the range up to the rounding of a unit conversion; false for a range of NaN.
 bool in_range(double size, const SizeGroup& range);
 
 }  // namespace gearpod::analysis

@@ -1,6 +1,6 @@
-// Which random inputs decide whether a feature finds a crack: Sobol indices of its misses and of
-// its value over the faulty gearboxes of sizes at which detection is neither certain nor absent.
-// The fault's size is one of the inputs.
+// Influence of the random inputs on whether a feature finds a fault: Sobol indices of its misses
+// and of its value over the faulty gearboxes of sizes at which detection is neither certain nor
+// impossible. The fault size is one of the inputs.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ struct LevelSensitivity {
     std::string feature;
     SizeGroup sizes;      // NaN if there are none
     SobolIndices misses;  // of the outcome missed or detected
-    SobolIndices values;  // of the value's normal score, so that no tail outweighs the rest
+    SobolIndices values;  // of the normal score of the value, so that no tail dominates
 };
 
 // `values` of the feature at one noise level and `hit` (outcomes()) per gearbox; `size` is the

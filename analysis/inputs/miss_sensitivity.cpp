@@ -15,13 +15,13 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr std::size_t kNeighbours = 100;
-constexpr long kFewestOutcomes = 10;  // misses, and hits, for the law of large samples to hold
+constexpr long kFewestOutcomes = 10;  // fewest misses, and hits, for the large-sample approximation
 
 struct Stratum {
     std::vector<std::size_t> hits, misses;  // gearboxes
 };
 
-// Faulty gearboxes with a value by size: equal sizes together, else neighbours.
+// Faulty gearboxes with a value, in strata of equal size or else of neighbouring sizes.
 std::vector<Stratum> strata_of(std::span<const double> sizes, std::span<const int> hit) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < sizes.size(); ++i) {

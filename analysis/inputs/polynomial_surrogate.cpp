@@ -10,13 +10,13 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr int kDegree = 8;      // of a term of one input
-constexpr int kPairDegree = 5;  // of a term of two, in all
+constexpr int kDegree = 8;      // highest degree of a term of one input
+constexpr int kPairDegree = 5;  // highest total degree of a term of two
 constexpr int kMostTerms = 40;
 constexpr int kRowsPerTerm = 10;
 
 // Polynomials of the ranks of an input, orthonormal over the sample: column k - 1 has degree k.
-// Fewer if the input has fewer values.
+// Fewer columns if the input has fewer values.
 Eigen::MatrixXd orthonormal_powers(const std::vector<double>& input) {
     const std::vector<double> ranks = midranks(input);
     const auto n = static_cast<Eigen::Index>(input.size());

@@ -1,10 +1,10 @@
-// An output as a polynomial of the ranks of its inputs: terms of one input up to degree 8 and of
-// two inputs up to a total degree of 5, orthonormal over the sample in each input, taken in one at
-// a time while the best of those left correlates with the rest beyond chance (5 % over all terms).
-// Its variance splits into the shares of its terms: B. Sudret, Reliab. Eng. Syst. Saf. 93 (2008),
-// 964-979; selection as G. Blatman, B. Sudret, J. Comput. Phys. 230 (2011), 2345-2367, with
-// orthogonal matching pursuit. What no term explains is noise, higher interaction, or too small an
-// influence for the sample.
+// Polynomial surrogate of an output in the ranks of its inputs. Terms of one input have degrees up
+// to 8, terms of two inputs a total degree up to 5; they are orthonormal over the sample in each
+// input. Terms are added one at a time while the best remaining one correlates with the residual
+// beyond chance (5 % over all terms). The variance is the sum of the shares of the terms: B.
+// Sudret, Reliab. Eng. Syst. Saf. 93 (2008), 964-979. Selection follows G. Blatman, B. Sudret, J.
+// Comput. Phys. 230 (2011), 2345-2367, with orthogonal matching pursuit. The unexplained part is
+// noise, higher interactions, or influence too small for the sample.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,14 +26,14 @@ struct SurrogateTerm {
 struct PolynomialSurrogate {
     std::vector<SurrogateTerm> terms;
     Eigen::MatrixXd columns;   // outputs x terms
-    Eigen::VectorXd residual;  // outputs less the polynomial
+    Eigen::VectorXd residual;  // output minus the polynomial
     double variance = 0.0;     // of the output
     double explained = 0.0;    // R^2, adjusted for the number of terms
     // Share of the variance that a single term must have to be found with a probability of 95 %.
     double resolution = 0.0;
 };
 
-// Every input must vary; the output as well.
+// Fits the surrogate. The output and every input must vary.
 PolynomialSurrogate fit_surrogate(const std::vector<std::vector<double>>& inputs,
                                   std::span<const double> output);
 

@@ -20,7 +20,7 @@ bool varies(std::span<const double> values) {
                        [&](double value) { return value != values.front(); });
 }
 
-// The rank correlation (Spearman's) that differs most from 0.
+// Spearman's rank correlation of largest magnitude.
 struct Dependence {
     std::size_t first = 0, second = 0;
     double rank = 0.0;
@@ -46,7 +46,7 @@ Dependence strongest_dependence(const std::vector<std::vector<double>>& columns)
     return most;
 }
 
-// The terms that have the input, as a share of the variance.
+// Sets the total index: the share of the terms that contain the input in the variance.
 void add_total(SobolIndex& index, int input, const PolynomialSurrogate& surrogate,
                std::span<const double> output, double mean, double confidence) {
     const double variance = surrogate.variance;
@@ -86,11 +86,11 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
     output = output.first(std::min(output.size(), kMost));
     result.count = static_cast<long>(output.size());
     if (output.size() < kFewest) {
-        result.refusal = fmt::format("{} gearboxes, {} are needed", output.size(), kFewest);
+        result.refusal = fmt::format("only {} gearboxes, {} are needed", output.size(), kFewest);
         return result;
     }
     if (!varies(output)) {
-        result.refusal = "all gearboxes give the same";
+        result.refusal = "all gearboxes have the same value";
         return result;
     }
     std::vector<std::vector<double>> columns;
@@ -108,13 +108,13 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
         result.refusal = "no input varies";
         return result;
     }
-    // Of independent inputs one pair in 100,000 seems as dependent by chance.
+    // One in 100,000 pairs of independent inputs exceeds this limit by chance.
     constexpr double kChance = 4.5, kSlight = 0.1;
     const Dependence most = strongest_dependence(columns);
     if (std::abs(most.rank) >
         std::max(kSlight, kChance / std::sqrt(static_cast<double>(output.size())))) {
         result.refusal = fmt::format(
-            "{} and {} go together (rank correlation {:.2f}), and the indices are of independent "
+            "{} and {} are correlated (rank correlation {:.2f}), but the indices need independent "
             "inputs",
             result.inputs[most.first].name, result.inputs[most.second].name, most.rank);
         result.inputs.clear();

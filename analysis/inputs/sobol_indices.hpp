@@ -1,8 +1,8 @@
-// Shares of an output's variance that its independent inputs explain: first-order indices (alone,
-// correlation_ratio.hpp) and total ones (alone and together with others: T. Homma, A. Saltelli,
-// Reliab. Eng. Syst. Saf. 52 (1996), 1-17), the latter from a polynomial surrogate of the sample
-// (polynomial_surrogate.hpp), of which they can only see what it explains. An output with noise of
-// its own has indices that sum to less than 1.
+// Sobol indices: shares of an output's variance that its independent inputs explain. First-order
+// indices (input alone) follow correlation_ratio.hpp. Total indices (alone and in interaction with
+// others: T. Homma, A. Saltelli, Reliab. Eng. Syst. Saf. 52 (1996), 1-17) are computed from a
+// polynomial surrogate of the sample (polynomial_surrogate.hpp), so they include only what it
+// explains. For an output with noise of its own, the indices sum to less than 1.
 #pragma once
 
 #include <span>
@@ -19,24 +19,24 @@ struct SobolIndex {
     std::string unit;
     CorrelationRatio first;
     double total = 0.0;
-    // Two-sided, from the influence function over the surrogate's terms as selected; without a term
-    // of the input from 0 to the surrogate's resolution.
+    // Two-sided bounds from the influence function over the selected terms of the surrogate. If no
+    // term contains the input, from 0 to the surrogate's resolution.
     Interval total_bounds;
 };
 
 struct SobolIndices {
-    long count = 0;                     // gearboxes it rests on
-    std::vector<SobolIndex> inputs;     // falling total, then falling first-order index
+    long count = 0;                     // number of gearboxes used
+    std::vector<SobolIndex> inputs;     // by falling total, then first-order index
     double explained = 0.0;             // adjusted R^2 of the surrogate
     double resolution = 0.0;            // share that a single term needs to be found
-    int terms = 0;                      // of the surrogate
+    int terms = 0;                      // number of terms of the surrogate
     std::vector<std::string> left_out;  // inputs that do not vary
-    std::string refusal;                // why there are none, else empty
+    std::string refusal;                // reason why there are no indices, or ""
 };
 
-// `output` and every input per gearbox, finite. Refused below 100 gearboxes, for a constant output
-// and for inputs whose ranks are correlated, by which a share belongs to no input alone; of more
-// than 20,000 gearboxes the first ones are taken.
+// Computes the indices from `output` and every input per gearbox; all values must be finite.
+// Refuses fewer than 100 gearboxes, a constant output, and inputs with correlated ranks, whose
+// shares cannot be attributed to one input. Uses the first 20,000 gearboxes.
 SobolIndices sobol_indices(std::span<const double> output, const std::vector<InputColumn>& inputs,
                            double confidence);
 

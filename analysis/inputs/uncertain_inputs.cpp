@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFound = 0.9;  // POD
 
-// Columns of a design to mean 0 and standard deviation 1, remembered.
+// Standardises the columns of a design to mean 0 and standard deviation 1 and keeps the scales.
 struct Standard {
     Eigen::RowVectorXd centre, spread;
 
@@ -52,7 +52,7 @@ Faulty faulty_gearboxes(std::span<const double> sizes, std::span<const int> hit,
     return faulty;
 }
 
-// The inputs and, of those with more than two values, their squares.
+// The inputs and, for those with more than two values, their squares.
 Eigen::MatrixXd covariates(const Eigen::MatrixXd& scaled) {
     Eigen::MatrixXd all(scaled.rows(), 2 * scaled.cols());
     Eigen::Index count = 0;

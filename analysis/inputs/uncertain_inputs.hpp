@@ -1,12 +1,13 @@
-// What inputs that are not known leave open. Their distribution over the gearboxes is not scatter
-// but what is known of one value that all of them share, as a calibration finds it: more gearboxes
-// do not narrow it. The hit/miss curve with these inputs as further covariates,
+// Uncertainty of the POD curve due to epistemic inputs. Their distribution over the gearboxes is
+// not scatter between gearboxes but the knowledge of one value that all of them share, for example
+// from a calibration; more gearboxes do not reduce it. The hit/miss curve has these inputs as
+// further covariates,
 //
 //   POD(a, z) = floor + (ceiling - floor) F(b0 + b1 x(a) + sum of b2i zi + b3i zi^2),
 //
-// in the form of the feature's own curve, is taken at the inputs of every gearbox, which are draws
-// of what is known; the band holds the middle 90 % of these curves. The threshold is that of all
-// draws together.
+// in the form of the feature's own curve. It is evaluated at the inputs of every gearbox, which are
+// samples of the knowledge; the band holds the middle 90 % of these curves. All curves share one
+// threshold, that of all samples together.
 #pragma once
 
 #include <span>
@@ -19,10 +20,10 @@
 namespace gearpod::analysis {
 
 struct UncertainBand {
-    std::vector<std::string> inputs;  // those that vary; none: there is no band
+    std::vector<std::string> inputs;  // those that vary; no band if empty
     SizeEstimate a90_low, a90_high;   // at the 5 and 95 % quantile of the curves
-    std::vector<PodPoint> band;       // sizes of the feature's band; median, 5 and 95 % quantile
-    std::string refusal;              // why there is no band, else empty
+    std::vector<PodPoint> band;  // at the sizes of the feature's band: median, 5 and 95 % quantile
+    std::string refusal;         // reason why there is no band, or ""
 };
 
 inline constexpr double kUncertainQuantiles[] = {0.05, 0.95};

@@ -7,7 +7,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr int kLongest = 10'000;  // records that a rule may remember
+constexpr int kLongest = 10'000;  // limit of the records that a rule remembers
 constexpr std::string_view kTwoSided = " two-sided";
 
 template <class Number>
@@ -81,8 +81,8 @@ std::string detector_text(const Detector& detector) {
 }
 
 std::string detector_forms() {
-    return "single, 2 of 3, ewma 0.1 (weight of the latest), cusum 0.5 (reference value), trend "
-           "100 (records it looks back), each with two-sided behind it or not";
+    return "single, 2 of 3, ewma 0.1 (weight of the latest record), cusum 0.5 (reference value), "
+           "trend 100 (records in its window), each optionally followed by two-sided";
 }
 
 DetectorState::DetectorState(const Detector& detector)

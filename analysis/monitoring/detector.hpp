@@ -1,4 +1,4 @@
-// A rule (rules.hpp) with its parameters, how it is written, and what it alarms at.
+// Detector: a rule (rules.hpp) with its parameters and its text form, and the alarms it raises.
 #pragma once
 
 #include <limits>
@@ -16,25 +16,25 @@ namespace gearpod::analysis {
 using DetectionRule = std::variant<SingleRule, MOfNRule, EwmaRule, CusumRule, TrendRule>;
 
 struct Detector {
-    DetectionRule rule;      // at its start
-    bool two_sided = false;  // alarms on falling values too
+    DetectionRule rule;      // initial state
+    bool two_sided = false;  // also alarms on falling values
 };
 
-// "single", "2 of 3", "ewma 0.1", "cusum 0.5", "trend 100", each perhaps with " two-sided" behind
-// it. Nothing for other text.
+// Parses "single", "2 of 3", "ewma 0.1", "cusum 0.5" or "trend 100", each optionally followed by "
+// two-sided". Empty for other text.
 std::optional<Detector> parse_detector(std::string_view text);
 std::string detector_text(const Detector& detector);
-// Ways to write one, for messages: "single, 2 of 3, ...".
+// Accepted forms, for messages: "single, 2 of 3, ...".
 std::string detector_forms();
 
-// A detector at work on one gearbox.
+// State of a detector on one gearbox.
 class DetectorState {
   public:
     explicit DetectorState(const Detector& detector);
-    // The statistic after the next value, of the worse side; -infinity for a value that is NaN,
-    // which the rule does not see.
+    // Updates the state with the next value and returns the statistic of the worse side. A NaN
+    // value leaves the state unchanged and returns -infinity.
     double next(double value);
-    // As at the start.
+    // Returns to the initial state.
     void reset();
 
   private:
@@ -42,10 +42,10 @@ class DetectorState {
     DetectionRule up_, down_;
 };
 
-// What a detector says of the values of one gearbox: after each alarm it starts anew.
+// Alarms of a detector on the values of one gearbox. The detector restarts after each alarm.
 struct Watch {
-    std::vector<std::size_t> alarms;  // places whose statistic lies strictly above the threshold
-    // Of all others.
+    std::vector<std::size_t> alarms;  // indices whose statistic lies strictly above the threshold
+    // Largest statistic without an alarm.
     double largest_quiet = -std::numeric_limits<double>::infinity();
 };
 Watch watch(const Detector& detector, std::span<const double> values, double threshold);

@@ -42,8 +42,9 @@ Counted count(const Detector& detector, std::span<const HealthyLife> lives, doub
     return counted;
 }
 
-// The smallest statistic of these lives that leaves at most `most` alarms. Counts change at
-// statistics alone: the largest that stays quiet below a threshold leaves the same alarms as this.
+// Smallest statistic of these lives that leaves at most `most` alarms, by bisection. Alarm counts
+// change only at values of the statistic: the largest one without an alarm below a threshold leaves
+// the same alarms as that threshold.
 double smallest_threshold(const Detector& detector, std::span<const HealthyLife> lives, long most) {
     double high = count(detector, lives, kInfinity).largest_quiet, low = -kInfinity, step = 1.0;
     while (std::isfinite(high)) {
@@ -68,12 +69,13 @@ double smallest_threshold(const Detector& detector, std::span<const HealthyLife>
     return high;
 }
 
-// How the lives' counts scatter beside independent alarms', whose variance is the mean.
+// Overdispersion of the alarm counts per life relative to independent alarms, whose variance equals
+// the mean.
 struct Dispersion {
-    double ratio = 1.0;    // of the variance to independent alarms', at least 1
-    double cluster = 1.0;  // alarms that one more life may bring: third moment over the second
-    // By which the ratio is known: F. E. Satterthwaite, Biometrics Bulletin 2 (1946), 110-114, few
-    // where few lives make the variance.
+    double ratio = 1.0;    // variance relative to that of independent alarms, at least 1
+    double cluster = 1.0;  // alarms that one more life may add: third moment over the second
+    // Degrees of freedom of the ratio, few where few lives determine the variance: F. E.
+    // Satterthwaite, Biometrics Bulletin 2 (1946), 110-114.
     double freedom = std::numeric_limits<double>::infinity();
 };
 
@@ -94,15 +96,15 @@ Dispersion dispersion_of(const std::vector<long>& alarms, std::span<const Health
     if (ratio <= 1.0 + 1e-9) {
         return {};
     }
-    // What independent alarms scatter by themselves is no doubt about the ratio.
+    // The scatter of independent alarms themselves is not uncertainty of the ratio.
     const double scatter = fourths - squares * squares / n - of_independent;
     return {ratio, std::max(ratio, cubes / squares),
             scatter > 0.0 ? std::clamp(2.0 * squares * squares / scatter, 1.0, n - 1.0) : n - 1.0};
 }
 
 // Bounds of the mean of a count, M. P. Fay, E. J. Feuer, Statistics in Medicine 16 (1997), 791-801:
-// gamma laws of the count's mean and variance, for the upper bound with one more cluster. Of
-// independent alarms F. Garwood's, Biometrika 28 (1936), 437-442.
+// gamma distributions with the count's mean and variance, with one more cluster for the upper
+// bound. For independent alarms these are F. Garwood's bounds, Biometrika 28 (1936), 437-442.
 Interval count_bounds(double alarms, const Dispersion& dispersion, double tail) {
     const double variance = dispersion.ratio * alarms;
     const double more = alarms + dispersion.cluster;
@@ -111,8 +113,8 @@ Interval count_bounds(double alarms, const Dispersion& dispersion, double tail) 
             gamma_upper_quantile(more * more / more_variance, more_variance / more, tail)};
 }
 
-// The tail of a normal number that Student's t reaches with that many degrees of freedom where its
-// own tail is that of the confidence.
+// Tail probability of the normal quantile that equals the quantile of Student's t with the given
+// degrees of freedom at the given confidence.
 double tail_of(double confidence, double freedom) {
     const double tail = 0.5 * (1.0 - confidence);
     if (!std::isfinite(freedom)) {

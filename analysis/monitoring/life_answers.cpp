@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// The order statistic ceil(n q), NaN of none.
+// Order statistic of rank ceil(n q); NaN if there are no values.
 double sample_quantile(std::vector<double> values, double quantile) {
     if (values.empty()) {
         return kNan;
@@ -23,7 +23,7 @@ double sample_quantile(std::vector<double> values, double quantile) {
     return *place;
 }
 
-// Of the first alarm on a record with the crack.
+// Record of the first alarm after the crack's initiation.
 std::optional<std::size_t> detection(const Detector& detector, const CrackedLife& life,
                                      double threshold) {
     for (const std::size_t record : watch(detector, life.values, threshold).alarms) {
@@ -34,7 +34,7 @@ std::optional<std::size_t> detection(const Detector& detector, const CrackedLife
     return std::nullopt;
 }
 
-// Over all pairs of a healthy life and one that ends.
+// Share over all pairs of a healthy life and a cracked one that ends.
 double share_by_chance(const Detector& detector, std::span<const HealthyLife> healthy,
                        std::span<const CrackedLife> cracked, double threshold) {
     long pairs = 0, found = 0;
@@ -55,7 +55,7 @@ double share_by_chance(const Detector& detector, std::span<const HealthyLife> he
 
 double quantile_bound(std::vector<double> values, double quantile, double confidence) {
     std::sort(values.begin(), values.end());
-    // The r-th smallest lies below the quantile if r or more values do.
+    // The r-th smallest value lies below the quantile if r or more values do.
     const auto count = static_cast<double>(values.size());
     for (std::size_t r = 1; r <= values.size(); ++r) {
         if (binomial_cdf(count, quantile, static_cast<double>(r - 1)) >= confidence) {

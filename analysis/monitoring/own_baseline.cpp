@@ -10,17 +10,18 @@
 namespace gearpod::analysis {
 namespace {
 
-// Numbers that differ by less differ by rounding.
+// Relative difference that is attributed to rounding.
 constexpr double kAlike = 1e-12;
 
-// The mean, and a line where a condition is given.
+// Baseline: the mean, and a regression line where a condition is given.
 struct Normal {
     double count = 0.0, mean = 0.0, slope = 0.0;
-    double at = 0.0, spread = 0.0;  // of the condition: its mean, its sum of squares about it
+    double at = 0.0, spread = 0.0;  // mean of the condition, and its sum of squares about the mean
     double sd = kNan;               // about the line
 
     double expected(double condition) const { return mean + slope * (condition - at); }
-    // NaN where no line says what to expect: the baseline knows one condition, and this is another.
+    // Standard deviation of the prediction of one further value. NaN without a regression line at
+    // another condition than the baseline's.
     double prediction_sd(double condition) const {
         const double away = condition - at;
         if (spread == 0.0) {
@@ -28,11 +29,11 @@ struct Normal {
         }
         return sd * std::sqrt(1.0 + 1.0 / count + away * away / spread);
     }
-    // As the mean, but for what rounding leaves.
+    // True if the condition equals the baseline's mean except for rounding.
     bool same(double condition) const { return std::abs(condition - at) <= kAlike * std::abs(at); }
 };
 
-// Learns from the first `baseline` records with a value.
+// Learns from those of the first `baseline` records that have a value.
 Normal learn(std::span<const double> values, std::span<const double> condition,
              std::size_t baseline) {
     std::vector<std::size_t> good;
@@ -63,21 +64,22 @@ Normal learn(std::span<const double> values, std::span<const double> condition,
         const double rest = values[i] - normal.expected(condition.empty() ? 0.0 : condition[i]);
         squares += rest * rest;
     }
-    // What rounding leaves of values that are all alike is no scatter.
+    // The rounding residue of equal values is not scatter.
     const double least = kAlike * std::abs(normal.mean);
     const double sd = std::sqrt(squares / freedom);
     normal.sd = sd > least ? sd : kNan;
     return normal;
 }
 
-// Of all records, those of the baseline too.
+// Standardised residuals of all records, including the baseline's.
 std::vector<double> residuals(std::span<const double> values, std::span<const double> condition,
                               std::size_t baseline, Alarm alarm) {
     const Normal normal = learn(values, condition, baseline);
     std::vector<double> all(values.size(), kNan);
     for (std::size_t i = 0; i < values.size() && std::isfinite(normal.sd); ++i) {
         const double at = condition.empty() ? 0.0 : condition[i];
-        // Of its own records the scatter about the line, of further ones that of their prediction.
+        // Baseline records use the scatter about the line, further ones the scatter of their
+        // prediction.
         const double sd = i < baseline ? normal.sd : normal.prediction_sd(at);
         all[i] = alarm_sign(alarm) * (values[i] - normal.expected(at)) / sd;
     }
@@ -86,11 +88,11 @@ std::vector<double> residuals(std::span<const double> values, std::span<const do
 
 void check(std::size_t values, std::span<const double> condition) {
     if (!condition.empty() && condition.size() != values) {
-        throw std::invalid_argument("baseline: as many conditions as values");
+        throw std::invalid_argument("baseline: needs one condition per value");
     }
 }
 
-// Over the records that have both.
+// Correlation about zero over the records that have both values.
 double correlation(std::span<const double> a, std::span<const double> b) {
     double ab = 0.0, aa = 0.0, bb = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {

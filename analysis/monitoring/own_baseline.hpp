@@ -1,5 +1,5 @@
-// What is normal for one gearbox, learnt from its own first records: mean and scatter of a feature,
-// on request after a straight line in what the records were taken at (torque).
+// Baseline of one gearbox, learnt from its own first records: mean and scatter of a feature,
+// optionally after a linear regression on an operating condition (torque).
 #pragma once
 
 #include <span>
@@ -9,23 +9,26 @@
 
 namespace gearpod::analysis {
 
-// By how many standard deviations each of a gearbox's values lies from what its first `baseline`
-// ones predict, towards the alarm; NaN for those first ones themselves. The standard deviation is
-// that of a further value's prediction, so that its own share of s (1 + 1/n + ...)^(1/2) is in it:
-// of healthy normal values each result is Student's t with n - 1 (with a condition n - 2) degrees
-// of freedom. `condition`: one a value, or empty. All NaN if fewer than 3 (4) of the first values
-// are finite, or all are alike; and where the first ones' conditions are all alike, those of values
-// taken at another one. With `baseline` 0 nothing is learnt: the values themselves, with
-// their sign turned for a low alarm.
+// Deviation of each value from the prediction of the first `baseline` values, in standard
+// deviations towards the alarm side. NaN for the baseline values themselves. The standard deviation
+// is that of the prediction of one further value, s (1 + 1/n + ...)^(1/2). For healthy normal
+// values each result therefore follows Student's t with n - 1 degrees of freedom (n - 2 with a
+// condition).
+//
+// `condition`: one entry per value, or empty. All results are NaN if fewer than 3 (with a condition
+// 4) of the baseline values are finite, or if all are equal. If the conditions of the baseline are
+// all equal, values taken at another condition are NaN. With `baseline` 0 nothing is learnt and the
+// values themselves are returned, with their sign reversed for a low alarm.
 std::vector<double> own_deviations(std::span<const double> values,
                                    std::span<const double> condition, std::size_t baseline,
                                    Alarm alarm);
 
-// Several features' deviations of one gearbox as one: their sum over its standard deviation, with
-// the correlations that the features have among the baseline's records; most powerful where a fault
-// moves all by as many standard deviations. P. C. O'Brien, Biometrics 40 (1984), 1079-1087
-// (ordinary least squares). `values` and `conditions` as above; a record that lacks a feature's
-// value has none. Features that never deviate (all NaN) are left out.
+// Combines the deviations of several features of one gearbox: their sum over its standard
+// deviation, given the features' correlations among the baseline records. Most powerful where a
+// fault moves all features by the same number of standard deviations. P. C. O'Brien, Biometrics 40
+// (1984), 1079-1087 (ordinary least squares). `values` and `condition` as above; a record that
+// lacks a value of any feature has no result. Features without any deviation (all NaN) are left
+// out.
 std::vector<double> fused_deviations(const std::vector<std::vector<double>>& values,
                                      std::span<const double> condition, std::size_t baseline,
                                      std::span<const Alarm> alarms);

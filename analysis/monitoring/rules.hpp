@@ -1,6 +1,6 @@
-// What a monitor makes of the values of one gearbox, one after another: each rule is a state that
-// takes the next value and answers with a statistic, which alarms above a threshold. Values are
-// standard deviations from what is normal, larger where it is worse.
+// Detection rules applied to the successive values of one gearbox. Each rule is a state that takes
+// the next value and returns a statistic, which alarms above a threshold. Values are deviations
+// from normal in standard deviations, larger where the condition is worse.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace gearpod::analysis {
 
-// The value itself. W. A. Shewhart (1931).
+// Single value. W. A. Shewhart (1931).
 struct SingleRule {
     double next(double value) const { return value; }
 };
 
-// The m-th largest of the last n values: above a threshold if at least m of the n are.
+// m-th largest of the last n values: above a threshold if at least m of the n are.
 struct MOfNRule {
     int m = 2, n = 3;
     std::deque<double> last{};
@@ -37,8 +37,9 @@ struct MOfNRule {
     }
 };
 
-// Exponentially weighted moving average in its own asymptotic standard deviations. S. W. Roberts,
-// Technometrics 1 (1959), 239-250; J. M. Lucas, M. S. Saccucci, Technometrics 32 (1990), 1-12.
+// Exponentially weighted moving average in units of its asymptotic standard deviation. S. W.
+// Roberts, Technometrics 1 (1959), 239-250; J. M. Lucas, M. S. Saccucci, Technometrics 32 (1990),
+// 1-12.
 struct EwmaRule {
     double lambda = 0.1;
     double average = 0.0;
@@ -49,8 +50,8 @@ struct EwmaRule {
     }
 };
 
-// Cumulative sum of what exceeds the reference value k, never below 0. E. S. Page, Biometrika 41
-// (1954), 100-115.
+// Cumulative sum of the excess over the reference value k, bounded below by 0. E. S. Page,
+// Biometrika 41 (1954), 100-115.
 struct CusumRule {
     double reference = 0.5;
     double sum = 0.0;
@@ -61,11 +62,10 @@ struct CusumRule {
     }
 };
 
-// Generalized likelihood ratio of a trend that grows linearly from any of the last `window` records
-// on, against none: sqrt(2 ln ratio), standard normal for one beginning, 0 where all trends fall.
-// T. L. Lai, J. R. Stat. Soc. B 57 (1995), 613-658, with the shift in the mean replaced by a
-// ramp b j, j = 1 at its first record: b = sum j x_j / sum j^2, 2 ln ratio = (sum j x_j)^2 / sum
-// j^2.
+// Generalized likelihood ratio of a linear trend that starts at any of the last `window` records,
+// against no trend: sqrt(2 ln ratio), standard normal for one given start, 0 where all trends fall.
+// T. L. Lai, J. R. Stat. Soc. B 57 (1995), 613-658, with the shift of the mean replaced by a ramp b
+// j, j = 1 at its first record: b = sum j x_j / sum j^2, 2 ln ratio = (sum j x_j)^2 / sum j^2.
 struct TrendRule {
     int window = 100;
     std::deque<double> last{};
@@ -76,7 +76,7 @@ struct TrendRule {
             last.pop_back();
         }
         double level = 0.0, ramp = 0.0, largest = 0.0, j = 0.0;
-        for (const double one : last) {  // from the latest back: every weight grows by one
+        for (const double one : last) {  // from the latest record back: every weight grows by one
             level += one;
             ramp += level;
             j += 1.0;

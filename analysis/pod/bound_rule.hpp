@@ -1,24 +1,25 @@
-// Where a bound of a POD curve lies. All hold for one quantity at a time but the joint one, which
-// holds for the whole curve at once.
+// Rule for the bounds of a POD curve. Each rule holds for one quantity at a time, except the joint
+// rule, which holds for the whole curve at once.
 #pragma once
 
 #include <string>
 
 namespace gearpod::analysis {
 
-// Likelihood ratio: as far as the likelihood, maximised over everything else, stays within a
-// deviance. Wald: so many standard errors of the size (delta method).
+// Likelihood ratio: the range in which the likelihood, maximised over all other parameters, stays
+// within a deviance. Wald: a number of standard errors of the size (delta method).
 enum class BoundMethod { likelihood_ratio, wald };
 
 struct BoundRule {
     BoundMethod method = BoundMethod::likelihood_ratio;
-    double chi_squared = 0.0;  // the deviance, or the square of the standard errors
+    // Limit of the deviance, or the square of the number of standard errors.
+    double chi_squared = 0.0;
 
-    double limit() const;  // its root
+    double limit() const;  // square root of chi_squared
 };
 
-// Chi-squared with one degree of freedom so that each bound alone is exceeded with a chance of
-// 1 - confidence: 2.71 at 95 %.
+// One-sided: chi-squared with one degree of freedom such that each bound alone is exceeded with
+// probability 1 - confidence; 2.71 at 95 %.
 BoundRule one_sided_bound(double confidence, BoundMethod method = BoundMethod::likelihood_ratio);
 // Both bounds together: 3.84 at 95 %, so that each alone is one-sided at 97.5 %. The handbook's
 // bounds of hit/miss curves (MIL-HDBK-1823A, appendix G.3.5).
@@ -26,7 +27,7 @@ BoundRule two_sided_bound(double confidence, BoundMethod method = BoundMethod::l
 // Two degrees of freedom, 5.99 at 95 %: R. C. H. Cheng, T. C. Iles, Technometrics 25 (1983), 77-86.
 BoundRule joint_bound(double confidence, BoundMethod method = BoundMethod::likelihood_ratio);
 
-// "likelihood ratio, chi-squared 3.84", "Wald, 1.645 standard errors"
+// Text such as "likelihood ratio, chi-squared 3.84" or "Wald, 1.645 standard errors".
 std::string bound_text(const BoundRule& rule);
 
 }  // namespace gearpod::analysis

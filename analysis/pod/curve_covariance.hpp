@@ -1,7 +1,7 @@
-// Covariance of a hit/miss curve's intercept and slope, from the curve's information, or robust
-// where outcomes come in clusters (one specimen looked at several times): the scores summed over
-// each cluster between two inverse informations, times clusters / (clusters - 1). K.-Y. Liang, S.
-// L. Zeger, Biometrika 73 (1986), 13-22.
+// Covariance of a hit/miss curve's intercept and slope from the curve's information. The robust
+// covariance is for clustered outcomes (one specimen inspected several times): the scores summed
+// over each cluster between two inverse informations, times clusters / (clusters - 1). K.-Y. Liang,
+// S. L. Zeger, Biometrika 73 (1986), 13-22.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,8 @@ struct ClusteredOutcome {
     long cluster = 0;
 };
 
-// NaN if the outcomes do not determine both. The curve has no fitted ceiling.
+// Robust covariance if `by_cluster`. NaN if the outcomes do not determine both parameters. The
+// curve must not have a fitted ceiling.
 Eigen::Matrix2d curve_covariance(std::span<const ClusteredOutcome> outcomes, const PodCurve& curve,
                                  bool by_cluster);
 

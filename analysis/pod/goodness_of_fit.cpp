@@ -10,7 +10,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kReplicates = 5.0;  // gearboxes a size, on average, to count as replicated
+constexpr double kReplicates = 5.0;  // mean number of gearboxes per size to count as replicated
 constexpr int kGroups = 10;
 
 double excess(double count, double expected) {
@@ -27,7 +27,8 @@ double saturated_statistic(const HitMissTable& table, const PodCurve& curve) {
     return 2.0 * sum;
 }
 
-// A size is never split, so that the groups do not depend on the order of its gearboxes.
+// Hosmer-Lemeshow statistic. A size is never split, so that the groups do not depend on the order
+// of its gearboxes.
 double grouped_statistic(const HitMissTable& table, const PodCurve& curve, int& groups) {
     const double tests = total_tests(table);
     double statistic = 0.0;
@@ -81,14 +82,14 @@ GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve) 
 std::string fit_text(const GoodnessOfFit& fit) {
     switch (fit.test) {
         case GoodnessOfFit::Test::saturated:
-            return fmt::format("likelihood ratio against every size's own rate: p = {:.2g}",
+            return fmt::format("likelihood ratio against separate rates of all sizes: p = {:.2g}",
                                fit.p_value);
         case GoodnessOfFit::Test::hosmer_lemeshow:
             return fmt::format("Hosmer-Lemeshow: p = {:.2g}", fit.p_value);
         case GoodnessOfFit::Test::none:
             break;
     }
-    return "fit not testable, too few sizes";
+    return "fit not testable: too few sizes";
 }
 
 }  // namespace gearpod::analysis

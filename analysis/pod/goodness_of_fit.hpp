@@ -1,4 +1,4 @@
-// Whether a fitted POD curve describes the hits and misses.
+// Goodness of fit of a POD curve to the hits and misses.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace gearpod::analysis {
 
-// Replicated sizes: likelihood-ratio statistic against a rate of its own for every size
-// (McCullagh and Nelder (1989), section 4.4.3), sizes - parameters degrees of freedom.
-// Otherwise D. W. Hosmer, S. Lemeshow, Commun. Stat. A 9 (1980), 1043-1069: ten groups of equal
-// count in ascending POD, groups - parameters degrees of freedom.
+// Test of the fit. For replicated sizes, the likelihood-ratio statistic against a separate rate for
+// every size (McCullagh and Nelder (1989), section 4.4.3), with sizes - parameters degrees of
+// freedom. Otherwise D. W. Hosmer, S. Lemeshow, Commun. Stat. A 9 (1980), 1043-1069: ten groups of
+// equal count in ascending POD, with groups - parameters degrees of freedom.
 struct GoodnessOfFit {
     enum class Test { none, saturated, hosmer_lemeshow };
     Test test = Test::none;  // none: fewer sizes than the test needs
@@ -22,7 +22,7 @@ struct GoodnessOfFit {
 
 GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve);
 
-// "likelihood ratio against every size's own rate: p = 0.31"
+// Text such as "likelihood ratio against every size's own rate: p = 0.31".
 std::string fit_text(const GoodnessOfFit& fit);
 
 }  // namespace gearpod::analysis

@@ -17,31 +17,31 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr double kLackOfFit = 0.05;
-constexpr double kSupported = 2.0;  // AIC
+constexpr double kSupported = 2.0;  // difference in AIC
 constexpr double kPod = 0.9;
 
-// Why no curve can be fitted to these outcomes at all, or "".
+// Reason why no curve can be fitted to these outcomes, or "".
 std::string outcome_refusal(const HitMissTable& table,
                             const std::string& tested = HitMissRequest{}.tested) {
     if (table.empty()) {
-        return fmt::format("no {} gave a value", tested);
+        return fmt::format("no {} has a value", tested);
     }
     const double hits = total_hits(table);
     if (hits == 0.0) {
-        return fmt::format("no {} was detected: not reached at any tested size", tested);
+        return fmt::format("no {} was detected: a90 is not reached at any tested size", tested);
     }
     if (hits == total_tests(table)) {
-        return fmt::format("every {} was detected: the tested sizes do not show where a90 lies",
+        return fmt::format("every {} was detected: smaller sizes must be tested to locate a90",
                            tested);
     }
     if (table.size() < 2) {
-        return "one fault size only, a curve needs two at least";
+        return "only one fault size, a curve needs at least two";
     }
     return {};
 }
 
-// The maximum of the likelihood without a floor exists only if hits and misses overlap:
-// A. Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
+// True if hits and misses do not overlap. Then the likelihood without a floor has no maximum: A.
+// Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
 bool separated(const HitMissTable& table) {
     const double smallest_miss = [&] {
         for (const HitMissRow& row : table) {
@@ -65,7 +65,7 @@ struct Fitted {
     PodLikelihood::Maximum maximum;
 };
 
-// Sizes and their logarithms, as far as forms ask for them.
+// Standardised sizes and logarithms of sizes, computed on first use.
 class Scales {
   public:
     explicit Scales(const HitMissTable& table) : table_(table) {}
@@ -83,7 +83,7 @@ class Scales {
     std::shared_ptr<const StandardisedSizes> sizes_[2];
 };
 
-// `start`: the maximum of a form with fewer terms of its own, if there is one.
+// Fits one form. `start`: fit of a nested form, to start from.
 Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
                 const Fitted* start = nullptr) {
     Fitted result;
@@ -95,7 +95,7 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
         return result;
     }
     if (form.floor == 0.0 && !form.free_ceiling && !form.firth && separated(table)) {
-        fit.refusal = "hits and misses do not overlap, any slope from some value on fits";
+        fit.refusal = "hits and misses do not overlap, so any steep enough slope fits";
         return result;
     }
     if (static_cast<int>(table.size()) < form.parameters()) {
@@ -117,11 +117,11 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
     fit.log_likelihood = maximum.log_likelihood;
     fit.aic = 2.0 * form.parameters() - 2.0 * (maximum.log_likelihood - maximum.penalty);
     if (!form.firth && likelihood.sizes_in_transition(maximum.parameters) < 2) {
-        fit.refusal = "the rate steps up between two tested sizes, any steeper slope fits as well";
+        fit.refusal = "the rate rises between two tested sizes, so any steeper slope fits as well";
     } else if (!maximum.converged) {
-        fit.refusal = "the likelihood has no maximum within reach";
+        fit.refusal = "the maximum-likelihood fit does not converge";
     } else if (form.free_ceiling && fit.curve.ceiling >= 1.0 - 1e-9) {
-        fit.refusal = "the ceiling is 1";
+        fit.refusal = "the fitted ceiling is 1";
     } else {
         fit.fit = goodness_of_fit(table, fit.curve);
     }
@@ -154,7 +154,7 @@ std::vector<double> band_sizes(const HitMissPod& pod, int points) {
     return sizes;
 }
 
-// Without fitted ceilings.
+// Location and scale of a curve without fitted ceiling.
 LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& request) {
     std::set<long> clusters;
     for (const ClusteredOutcome& outcome : request.outcomes) {
@@ -165,8 +165,8 @@ LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& req
         curve_covariance(request.outcomes, curve, clusters.size() < request.outcomes.size()));
 }
 
-// How many times the specimens for a90's bound at the target, by Wald's or the likelihood's
-// bounds.
+// Number of specimens for a90's bound at the target, as a factor on the number tested, by Wald or
+// likelihood-ratio bounds.
 double factor_for(double target, const HitMissPod& pod, const Fitted& best, Scales& scales,
                   const HitMissRequest& request) {
     if (pod.rule.method == BoundMethod::likelihood_ratio) {
@@ -177,7 +177,7 @@ double factor_for(double target, const HitMissPod& pod, const Fitted& best, Scal
     return wald_specimens(wald, best.fit.curve.form, kPod, target, pod.rule.limit());
 }
 
-// The first curve's bounds, or those so far widened to one more curve's.
+// Sets the bounds from the first curve, or widens them to one more curve's.
 void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, const Fitted& fitted,
                 const HitMissRequest& request) {
     const std::vector<double> sizes = band_sizes(pod, request.band_points);
@@ -230,7 +230,7 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     }
     if (pod.rule.method == BoundMethod::wald && (request.fit_ceiling || request.outcomes.empty())) {
         throw std::invalid_argument(
-            "hit/miss POD: Wald's bounds need the outcomes, and no ceiling");
+            "hit/miss POD: Wald bounds need the individual outcomes and no fitted ceiling");
     }
     Scales scales(table);
     std::vector<Fitted> fitted;
@@ -252,7 +252,7 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     }
     pod.chosen = best->fit;
     if (!(best->fit.curve.slope > 0.0)) {
-        pod.refusal = "the rate does not rise with the fault size";
+        pod.refusal = "the detection rate does not rise with the fault size";
         return pod;
     }
     pod.doubtful = best->fit.fit.p_value < kLackOfFit;

@@ -1,10 +1,10 @@
-// Hit/miss POD of one feature at one noise level (MIL-HDBK-1823A, appendix G.3; ASTM E2862): logit
-// and probit, on size and on log size, each with floor 0 and ceiling 1, with the healthy gearboxes'
-// rate as floor, and with a ceiling fitted besides; the curve of least AIC is taken
-// (H. Akaike, IEEE Trans. Autom. Control 19 (1974), 716-723). Choosing among curves is uncertain
-// too: the bounds are the widest of all curves whose AIC is within 2 of the least (K. P. Burnham,
-// D. R. Anderson, Model Selection and Multimodel Inference (2002), section 2.6). Those of the
-// chosen curve alone would cover 89 to 95 instead of 93 to 98 % (test_coverage.cpp).
+// Hit/miss POD of one feature at one noise level (MIL-HDBK-1823A, appendix G.3; ASTM E2862).
+// Candidates are logit and probit on size and on log size, each with floor 0 and ceiling 1, with
+// the healthy gearboxes' rate as floor, and with a fitted ceiling. The curve of least AIC is chosen
+// (H. Akaike, IEEE Trans. Autom. Control 19 (1974), 716-723). The choice itself is uncertain, so
+// the bounds are the widest of all curves whose AIC is within 2 of the least (K. P. Burnham, D. R.
+// Anderson, Model Selection and Multimodel Inference (2002), section 2.6). Bounds of the chosen
+// curve alone would cover 89 to 95 instead of 93 to 98 % (test_coverage.cpp).
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@
 
 namespace gearpod::analysis {
 
-// One form's maximum likelihood fit, or why there is none.
+// Maximum likelihood fit of one form, or the reason why there is none.
 struct HitMissFit {
     PodCurve curve;
     double log_likelihood = 0.0;  // without the binomial coefficients
@@ -33,41 +33,43 @@ struct HitMissFit {
 struct HitMissPod {
     long tests = 0;  // faulty gearboxes with a value
     long hits = 0;
-    double smallest = 0.0, largest = 0.0;  // sizes tested
-    std::string refusal;                   // why there is no curve, empty if there is one
+    double smallest = 0.0, largest = 0.0;  // tested sizes
+    std::string refusal;                   // reason why there is no curve, empty if there is one
     HitMissFit chosen;
     std::vector<HitMissFit> candidates;
-    std::vector<PodForm> supported;  // of the curves that the bounds span, the chosen one's first
-    SizeBounds a50, a90;             // a90.upper is a90/95 at a confidence of 95 %
-    std::vector<PodPoint> band;      // over the tested sizes
-    bool doubtful = false;           // the goodness of fit rejects the curve at 5 %
+    // Forms of the curves that the bounds span, the chosen one first.
+    std::vector<PodForm> supported;
+    SizeBounds a50, a90;         // a90.upper is a90/95 at a confidence of 95 %
+    std::vector<PodPoint> band;  // over the tested sizes
+    bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
     BoundRule rule;
-    // Of the chosen curve's location and scale (location_scale.hpp); NaN with a fitted ceiling or
-    // without the outcomes one by one.
+    // Covariance of the chosen curve's location and scale (location_scale.hpp). NaN with a fitted
+    // ceiling or without individual outcomes.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kNan);
-    // Of those tested, for a90's upper bound at the request's target; NaN without a target.
+    // Number of specimens needed to bring a90's upper bound to the requested target, as a factor on
+    // the number tested. NaN without a target.
     double specimens_factor = kNan;
 };
 
 struct HitMissRequest {
-    double floor = 0.0;        // the healthy gearboxes' rate; 0: only curves without floor
+    double floor = 0.0;        // rate of the healthy gearboxes; 0: only curves without floor
     double confidence = 0.95;  // of each one-sided bound, unless there is a rule
     int band_points = 41;
 
     std::optional<BoundRule> rule = {};
     std::vector<Link> links = {Link::logit, Link::probit};
     std::vector<bool> log_sizes = {false, true};
-    bool without_floor = true;  // also curves without the floor
-    bool fit_ceiling = true;    // also curves with a ceiling
+    bool without_floor = true;  // also fit curves without the floor
+    bool fit_ceiling = true;    // also fit curves with a ceiling
     bool firth = false;
-    // One by one, for Wald's bounds and the covariance; with more of them than clusters, the latter
-    // is robust.
+    // Individual outcomes, for Wald bounds and the covariance. With more outcomes than clusters the
+    // covariance is robust.
     std::vector<ClusteredOutcome> outcomes = {};
-    std::optional<double> target = {};  // size
+    std::optional<double> target = {};  // size to which a90's bound should come down
     std::string tested = "faulty gearbox";
 };
 
-// One form alone; for comparison with other programs and for coverage.
+// Fits one form alone, for comparison with other programs and for coverage tests.
 HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form);
 
 HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request);

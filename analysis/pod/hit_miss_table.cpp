@@ -9,7 +9,7 @@ namespace gearpod::analysis {
 
 HitMissTable hit_miss_table(std::span<const double> sizes, std::span<const char> hit) {
     if (sizes.size() != hit.size()) {
-        throw std::invalid_argument("hit/miss table: as many outcomes as sizes are needed");
+        throw std::invalid_argument("hit/miss table: needs one outcome per size");
     }
     HitMissTable single;
     for (std::size_t i = 0; i < sizes.size(); ++i) {

@@ -1,5 +1,5 @@
-// Hits and misses by fault size, the data of a hit/miss analysis. Every distinct size is a row of
-// its own: nothing is binned, gearboxes of exactly equal size are only counted together.
+// Hits and misses by fault size, the data of a hit/miss analysis. Every distinct size has its own
+// row; there is no binning, only gearboxes of exactly equal size are counted together.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ struct HitMissRow {
 
 using HitMissTable = std::vector<HitMissRow>;  // ascending size
 
-// Sizes of 0 are healthy gearboxes and are left out, as are sizes that are not finite.
+// Builds the table. Sizes of 0 (healthy gearboxes) and sizes that are not finite are left out.
 HitMissTable hit_miss_table(std::span<const double> sizes, std::span<const char> hit);
 
 // Largest size with a miss and smallest with a hit; NaN if there is none.

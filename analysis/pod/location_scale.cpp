@@ -34,12 +34,12 @@ double LocationScale::eta_at(double x, double z) const {
     if (z == 0.0) {
         return (x - location) / scale;
     }
-    // (x - location - eta scale)^2 = z^2 variance(eta), of whose roots the lower has z > 0.
+    // (x - location - eta scale)^2 = z^2 variance(eta); the lower root belongs to z > 0.
     const double a = scale * scale - z * z * covariance(1, 1);
     const double b = -2.0 * (scale * (x - location) + z * z * covariance(0, 1));
     const double c = (x - location) * (x - location) - z * z * covariance(0, 0);
     const double inside = b * b - 4.0 * a * c;
-    if (!(a > 0.0 && inside >= 0.0)) {  // the slope is not told from none
+    if (!(a > 0.0 && inside >= 0.0)) {  // the slope is not significant
         return z > 0.0 ? -std::numeric_limits<double>::infinity()
                        : std::numeric_limits<double>::infinity();
     }

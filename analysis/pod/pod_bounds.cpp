@@ -14,10 +14,10 @@ namespace {
 
 using Where = SizeEstimate::Where;
 constexpr double kAtEnd = 1e-12;
-constexpr int kSizeBits = 22;  // of a bound's place: 2e-7
-constexpr int kBandBits = 12;  // 2e-4
+constexpr int kSizeBits = 22;  // relative accuracy of a size bound: 2e-7
+constexpr int kBandBits = 12;  // relative accuracy of a band: 2e-4
 
-// Signed distance to the bound in the root of the deviance, which is nearly linear.
+// Signed distance to the bound in terms of the square root of the deviance, which is nearly linear.
 class Profile {
   public:
     Profile(const PodLikelihood& likelihood, const PodLikelihood::Maximum& maximum,
@@ -30,7 +30,7 @@ class Profile {
     double beyond(double u, double pod) {
         auto held = likelihood_.maximise_through(u, pod, last_);
         if (likelihood_.form().free_ceiling) {
-            // With a ceiling to choose, the last point's curve may lead to a lesser maximum.
+            // With a free ceiling, the last point's curve may lead to a lower maximum.
             const auto other = likelihood_.maximise_through(u, pod, maximum_.parameters);
             if (other.log_likelihood > held.log_likelihood) {
                 held = other;
@@ -50,11 +50,11 @@ class Profile {
     double limit_;
 };
 
-// Between `inside`, where the function is negative, and `outside`, where it is `value` > 0.
+// Root between `inside`, where the function is negative, and `outside`, where it is `value` > 0.
 template <typename Function>
 double crossing(Function beyond, double inside, double outside, double at_inside, double value,
                 int bits) {
-    auto steps = static_cast<std::uintmax_t>(bits);  // as many as halving would need
+    auto steps = static_cast<std::uintmax_t>(bits);  // as many as bisection would need
     const boost::math::tools::eps_tolerance<double> tolerance(static_cast<unsigned>(bits));
     const bool up = outside > inside;
     const auto bracket =
@@ -82,7 +82,7 @@ SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihoo
     }
     Profile profile(likelihood, maximum, rule);
     const double u = likelihood.standardised(*size);
-    // Outwards in growing steps, each starting from the last one's curve.
+    // Searches outwards in growing steps, each starting from the last one's curve.
     const auto bound = [&](double edge, const SizeEstimate& outside) -> SizeEstimate {
         profile.restart();
         const auto beyond = [&](double at) { return profile.beyond(at, pod); };
@@ -100,7 +100,7 @@ SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihoo
         }
         return outside;
     };
-    // An estimate outside the tested sizes still bounds from the inside.
+    // An estimate outside the tested sizes still has a bound on the inner side.
     const auto beyond_edge = [&](double edge) {
         profile.restart();
         return profile.beyond(likelihood.standardised(edge), pod) > 0.0;
@@ -138,15 +138,16 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
             return form.floor + (1.0 - form.floor) * link_probability(form.link, zeta);
         };
         PodPoint point{size, curve.pod(size), form.floor, 1.0};
-        // Where the curve is at its floor, or at 1, to the last digit, zeta is infinite: the search
-        // for a bound sets out from next to that end.
+        // Zeta is infinite where the curve equals its floor, or 1, to the last digit. The search
+        // for a bound then starts from next to that end.
         const double share = std::clamp((point.pod - form.floor) / (1.0 - form.floor), 0.0, 1.0);
         const double zeta =
             std::clamp(link_quantile(form.link, share), link_quantile(form.link, kAtEnd),
                        link_upper_quantile(form.link, kAtEnd));
         const Eigen::Vector2d direction(1.0, u);
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
-        // No longer where the likelihood is flat: the bound lies before the end of the rates.
+        // The step is limited where the likelihood is flat: the bound lies before the end of the
+        // range.
         const double first_step = se > 0.0 ? std::min(0.5, 1.2 * profile.limit() * se) : 0.5;
         for (const double sign : {-1.0, 1.0}) {
             double& bound = sign < 0.0 ? point.lower : point.upper;
@@ -156,7 +157,7 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                 return extreme && sign * (pod_of(*extreme) - point.pod) >= -kAtEnd;
             };
             auto extreme = likelihood.extreme_zeta(u, least, side, start);
-            if (!found(extreme)) {  // the last size's curve may lead astray
+            if (!found(extreme)) {  // the curve of the last size may be a poor start
                 start = maximum.parameters;
                 extreme = likelihood.extreme_zeta(u, least, side, start);
             }

@@ -1,6 +1,6 @@
 // Likelihood-ratio bounds of a POD curve: the parameters whose deviance from the maximum stays
-// within a rule's chi-squared (bound_rule.hpp). MIL-HDBK-1823A, appendix G.3.5; R. C. H. Cheng, T.
-// C. Iles, Technometrics 25 (1983), 77-86.
+// within the chi-squared of a rule (bound_rule.hpp). MIL-HDBK-1823A, appendix G.3.5; R. C. H.
+// Cheng, T. C. Iles, Technometrics 25 (1983), 77-86.
 #pragma once
 
 #include <vector>
@@ -11,20 +11,21 @@
 
 namespace gearpod::analysis {
 
-// Sizes at which POD is `pod`.
+// Bounds of the size with a POD of `pod`.
 SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
                        const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule);
 
-// a's estimate, between the lower of the lower bounds and the upper of the upper ones.
+// Estimate of `a` with the lower of the lower bounds and the upper of the upper bounds.
 SizeBounds widest(const SizeBounds& a, const SizeBounds& b);
 
-// The curve with its bounds at `sizes`.
+// Curve with its bounds at `sizes`.
 std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                                const PodLikelihood::Maximum& maximum,
                                const std::vector<double>& sizes, const BoundRule& rule);
 
-// How many times the tested specimens it takes, all hit and missed as these were, for the bound
-// of the size with this POD to come down to `size`; infinite where the curve itself does not.
+// Number of specimens needed to bring the bound of the size with this POD to `size`, as a factor on
+// the number tested, if further specimens were hit and missed alike. Infinite if the curve itself
+// lies above `size`.
 double specimens_for_bound(const PodLikelihood& likelihood, const PodLikelihood::Maximum& maximum,
                            double pod, double size, const BoundRule& rule);
 

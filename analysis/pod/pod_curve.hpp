@@ -1,11 +1,10 @@
-// The probability of detection over fault size:
+// Probability of detection as a function of fault size:
 //
 //   POD(a) = floor + (ceiling - floor) F(intercept + slope x),   x = a or ln a.
 //
 // MIL-HDBK-1823A, appendix G.3.3, has floor 0 and ceiling 1. A detector with a false-alarm rate
-// does not fall below it however small the fault, and one that some gearboxes hide from does not
-// reach 1: for asymptotes in POD see Annis, Gandossi and Martin, Nucl. Eng. Des. 262 (2013),
-// 98-105.
+// does not fall below it for small faults. A detector that fails on some gearboxes does not reach
+// 1. For asymptotes in POD see Annis, Gandossi and Martin, Nucl. Eng. Des. 262 (2013), 98-105.
 #pragma once
 
 #include <optional>
@@ -18,8 +17,8 @@ namespace gearpod::analysis {
 struct PodForm {
     Link link = Link::logit;
     bool log_size = false;
-    double floor = 0.0;         // fixed, the healthy gearboxes' rate
-    bool free_ceiling = false;  // else 1
+    double floor = 0.0;         // fixed at the rate of the healthy gearboxes
+    bool free_ceiling = false;  // false: the ceiling is 1
     bool firth = false;         // Jeffreys' penalty on the likelihood; not with a free ceiling
 
     int parameters() const { return free_ceiling ? 3 : 2; }
@@ -27,7 +26,7 @@ struct PodForm {
     double size(double scaled) const;
 };
 
-// "logit of log size, floor 0.05, ceiling fitted", "logit of size, Firth's penalty"
+// Text such as "logit of log size, floor 0.05, ceiling fitted" or "logit of size, Firth's penalty".
 std::string form_text(const PodForm& form);
 
 struct PodCurve {

@@ -13,17 +13,18 @@ namespace {
 
 constexpr double kTiny = 1e-290;
 constexpr double kInTransition = 1e-6;
-// Half a cell of sizes in units of eta, at most: the singularities of the links nearest to the real
-// axis are pi away for the logit, about 2 with a usual floor for the probit, pi / 2 for the others.
+// Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
+// the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
+// and pi / 2 for the others.
 constexpr double kHalfCellLogit = 2.0, kHalfCell = 1.0;
 
 constexpr double kPenaltyStep = 1e-4;
 
-// Where the curve is as flat as doubles tell, in its own probability's share.
+// Share of the own probability below which the curve is flat in double precision.
 constexpr double kFlat = 1e-17;
 
-// eta from -low to high; beyond them the probability of this outcome is constant. Infinite where
-// that is 0 and its logarithm goes on.
+// Range of eta, -low to high, outside which the probability of this outcome is constant. Infinite
+// where that probability is 0 and its logarithm still varies.
 struct Transition {
     double low = 0.0, high = 0.0;
 
@@ -37,10 +38,11 @@ struct Transition {
 PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form)
     : sizes_(std::move(sizes)), form_(form) {
     if (sizes_->sizes().size() < 2) {
-        throw std::invalid_argument("POD likelihood: needs two fault sizes at least");
+        throw std::invalid_argument("POD likelihood: needs at least two fault sizes");
     }
     if (form_.firth && form_.free_ceiling) {
-        throw std::invalid_argument("POD likelihood: a penalised ceiling is not defined here");
+        throw std::invalid_argument(
+            "POD likelihood: Firth's penalty cannot be combined with a fitted ceiling");
     }
 }
 
@@ -58,7 +60,8 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
     const double floor = form_.floor;
     const double ceiling = parameters[2];
     const double rise = ceiling - floor;
-    // Held to a point, the first parameter is eta there, and the ceiling follows from it.
+    // With a point constraint, the first parameter is eta at the point, and the ceiling follows
+    // from it.
     double ceiling_by_eta = 0.0;
     if (through && form_.free_ceiling) {
         const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * through->u);
@@ -107,7 +110,7 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
             const Eigen::Index count = std::min(kBlock, to - at);
             add(nodes.u.segment(at, count), nodes.weight.segment(at, count), detected);
         }
-        // Where the curve is flat one size stands for all.
+        // Where the curve is flat, one size represents all.
         const auto add_flat = [&](Eigen::Index start, Eigen::Index end, Eigen::Index at) {
             if (end > start) {
                 const double weight = nodes.weight.segment(start, end - start).sum();
@@ -135,7 +138,7 @@ double PodLikelihood::penalise(const Parameters& parameters, const std::optional
         const Eigen::Matrix3d all = evaluate(at, std::nullopt, nodes).information;
         return 0.5 * std::log(all(0, 0) * all(1, 1) - all(0, 1) * all(0, 1));
     };
-    // Held to a point, the intercept follows the slope.
+    // With a point constraint, the intercept follows the slope.
     const Parameters turning{-(through ? through->u : 0.0), 1.0, 0.0};
     const auto slope_along = [&](const Parameters& direction, double at) {
         const double step = kPenaltyStep * std::max(1.0, std::abs(at));
@@ -167,7 +170,7 @@ bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& thr
         parameters[2] = std::min(parameters[2], 1.0);
         return parameters[2] > form_.floor;
     }
-    const double rise = through->pod - form_.floor;  // up to the point
+    const double rise = through->pod - form_.floor;  // rise up to the point
     const double least = link_quantile(form_.link, rise / (1.0 - form_.floor));
     const double eta = parameters[0] + parameters[1] * through->u;
     if (form_.free_ceiling && eta > least) {
@@ -182,10 +185,10 @@ bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& thr
 
 PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
                                              const std::optional<Point>& through) const {
-    // Of a profile only the deviance counts; where a degenerate curve steps from size to size its
-    // likelihood has no smooth maximum, and a search without end would find none.
+    // Only the deviance of a profile matters. Where a degenerate curve steps from size to size, its
+    // likelihood has no smooth maximum, and an unlimited search would not end.
     const int most_steps = through ? 40 : 100;
-    const double converged = through ? 1e-7 : 1e-10;  // of the log likelihood
+    const double converged = through ? 1e-7 : 1e-10;  // gain of the log likelihood
     const double shortest = through ? 1e-3 : 1e-8;    // step
     Maximum maximum;
     meet(parameters, through);
@@ -194,7 +197,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
     for (int step = 0; step < most_steps; ++step) {
         Eigen::Matrix3d system = here.information;
         Parameters score = here.score;
-        // A parameter that is fixed, or a ceiling that pushes against 1, does not move.
+        // Freezes fixed parameters and a ceiling at its limit of 1.
         const bool at_one = form_.free_ceiling && parameters[2] >= 1.0 &&
                             (through ? score[0] <= 0.0 : score[2] >= 0.0);
         for (int j = 0; j < 3; ++j) {
@@ -205,7 +208,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
                 score[j] = 0.0;
             }
         }
-        // A trace of damping keeps a nearly singular step finite.
+        // Slight damping keeps a nearly singular step finite.
         system.diagonal() *= 1.0 + 1e-12;
         const Parameters move = system.ldlt().solve(score);
         const double gain = score.dot(move);
@@ -219,7 +222,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
         bool better = false;
         for (double length = 1.0; length > shortest && !better; length *= 0.5) {
             Parameters next = parameters + length * move;
-            if (through) {  // the first moves eta at the point
+            if (through) {  // the first parameter moves eta at the point
                 next[0] -= length * move[1] * through->u;
             }
             if (!meet(next, through)) {
@@ -263,7 +266,8 @@ PodLikelihood::Maximum PodLikelihood::maximise(std::optional<Parameters> start) 
 PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
                                                        const Parameters& start) const {
     Parameters parameters = start;
-    // The start's ceiling if the point is clear of it, else its place.
+    // Keeps the start's ceiling if the point lies clearly below it, otherwise the start's
+    // intercept.
     constexpr double kClear = 0.9;
     const double share = (pod - form_.floor) / (start[2] - form_.floor);
     if (form_.free_ceiling && share < kClear) {
@@ -275,17 +279,17 @@ PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
 std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihood, int side,
                                                   Parameters& start) const {
     constexpr int kMostSteps = 30;
-    constexpr double kSettled = 1e-3;    // of a standard error; what the move leaves is its square
+    constexpr double kSettled = 1e-3;    // in standard errors; the remaining error is its square
     constexpr double kOnContour = 1e-2;  // of the log likelihood
     if (form_.firth) {
         return std::nullopt;
     }
     const double floor = form_.floor;
     Parameters parameters = start;
-    bool held = !form_.free_ceiling;  // the ceiling
+    bool held = !form_.free_ceiling;  // the ceiling is fixed
     for (int step = 0; step < kMostSteps; ++step) {
         const Slopes here = evaluate(parameters, std::nullopt, nodes_for(parameters[1]));
-        // Gradient of zeta; it is eta itself with a ceiling of 1.
+        // Gradient of zeta, which is eta itself with a ceiling of 1.
         const double rise = parameters[2] - floor;
         const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * u);
         const double zeta = link_quantile(form_.link, rise * at.up / (1.0 - floor));
@@ -301,7 +305,7 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
             system(2, 2) = 1.0;
         }
         const Eigen::LDLT<Eigen::Matrix3d> solver(system);
-        // The extreme of zeta where the quadratic model of the log likelihood keeps its value.
+        // Extreme of zeta on the contour of the quadratic model of the log likelihood.
         const Parameters to_top = solver.solve(score);
         const Parameters along = solver.solve(gradient);
         const double height = here.value + 0.5 * score.dot(to_top) - log_likelihood;
@@ -310,17 +314,17 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
         if (!move.allFinite()) {
             return std::nullopt;
         }
-        if (parameters[2] + move[2] > 1.0) {  // a ceiling at its end stays there
+        if (parameters[2] + move[2] > 1.0) {  // a ceiling at its limit stays there
             parameters[2] = 1.0;
             held = true;
             continue;
         }
         parameters += move;
         if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
-            // Far out the likelihood is flat, and a move is small there wherever it leads.
+            // Far out the likelihood is flat, where any move is small.
             const double reached =
                 evaluate(parameters, std::nullopt, nodes_for(parameters[1])).value;
-            // Below a ceiling of 1 there must be nothing more extreme.
+            // With the ceiling at 1, no lower ceiling may be more extreme.
             const bool at_end = held && form_.free_ceiling;
             if (!(std::abs(reached - log_likelihood) < kOnContour) ||
                 (at_end && !(side * length * by_ceiling + here.score[2] >= 0.0))) {

@@ -1,9 +1,9 @@
-// Binomial likelihood of a POD curve, maximised by Fisher scoring with step halving; freely, or
-// with the curve held to one point (the profile behind likelihood-ratio bounds). P. McCullagh, J.
-// A. Nelder, Generalized Linear Models (1989), sections 2.5 and 4.4. With Firth's penalty, half the
-// logarithm of the information's determinant, there is a maximum even where hits and misses do not
-// overlap: D. Firth, Biometrika 80 (1993), 27-38; G. Heinze, M. Schemper, Stat. Med. 21 (2002),
-// 2409-2419.
+// Binomial likelihood of a POD curve, maximised by Fisher scoring with step halving, either freely
+// or with the curve constrained through one point (the profile likelihood used for likelihood-ratio
+// bounds). P. McCullagh, J. A. Nelder, Generalized Linear Models (1989), sections 2.5 and 4.4.
+// Firth's penalty, half the logarithm of the information's determinant, gives a maximum even where
+// hits and misses do not overlap: D. Firth, Biometrika 80 (1993), 27-38; G. Heinze, M. Schemper,
+// Stat. Med. 21 (2002), 2409-2419.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,11 +24,12 @@ class PodLikelihood {
         double log_likelihood = 0.0;  // without the binomial coefficients, with the penalty
         double penalty = 0.0;
         Parameters parameters;
-        Eigen::Matrix3d information;  // Fisher's, in the parameters; rows of fixed ones are 0
+        // Fisher information of the parameters; rows of fixed parameters are 0.
+        Eigen::Matrix3d information;
         bool converged = false;
     };
 
-    // Two sizes at least, on the form's scale.
+    // Needs at least two sizes, standardised on the scale of the form.
     PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form);
     PodLikelihood(const HitMissTable& table, const PodForm& form);
 
@@ -36,23 +37,25 @@ class PodLikelihood {
     double standardised(double size) const { return sizes_->u(form_.scaled(size)); }
     double size(double u) const { return form_.size(sizes_->centre() + sizes_->spread() * u); }
 
-    // From `start`, or from a flat curve.
+    // Maximises from `start`, or from a nearly flat curve.
     Maximum maximise(std::optional<Parameters> start = std::nullopt) const;
 
-    // Among the curves with POD = `pod` at u; floor < pod < 1. `start` as a free maximum gives it.
+    // Maximises among the curves with POD = `pod` at u; floor < pod < 1. `start`: parameters as in
+    // Maximum.
     Maximum maximise_through(double u, double pod, const Parameters& start) const;
 
-    // Where among the curves no less likely than `log_likelihood` the POD at u is least (side -1)
-    // or most (side 1): its transform zeta, POD = floor + (1 - floor) F(zeta), from `start`. By
-    // quadratic programs after D. J. Venzon, S. H. Moolgavkar, Appl. Stat. 37 (1988), 87-94. Empty
-    // if they do not settle, or the likelihood is penalised; `start` is left at the extreme curve.
+    // Extreme POD at u among the curves with a log likelihood of at least `log_likelihood`: minimum
+    // for side -1, maximum for side 1. Returns its transform zeta, POD = floor + (1 - floor)
+    // F(zeta), by quadratic programs from `start` after D. J. Venzon, S. H. Moolgavkar, Appl. Stat.
+    // 37 (1988), 87-94. Empty if they do not converge, or if the likelihood is penalised. `start`
+    // is set to the extreme curve.
     std::optional<double> extreme_zeta(double u, double log_likelihood, int side,
                                        Parameters& start) const;
 
     PodCurve curve(const Parameters& parameters) const;
 
-    // Sizes at which the curve is neither at its floor nor at its ceiling: the slope is only
-    // determined by two or more.
+    // Number of sizes at which the curve is neither at its floor nor at its ceiling. The slope is
+    // determined only by two or more.
     int sizes_in_transition(const Parameters& parameters) const;
 
   private:
@@ -65,17 +68,18 @@ class PodLikelihood {
         Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     };
 
-    // The nodes that a curve of this slope asks for.
+    // Nodes needed for a curve of this slope.
     const SizeNodes& nodes_for(double slope) const;
     Slopes evaluate(const Parameters& parameters, const std::optional<Point>& through,
                     const SizeNodes& nodes) const;
-    // Adds Firth's penalty and its slopes, by differences.
+    // Adds Firth's penalty and its derivatives, by finite differences. Returns the penalty.
     double penalise(const Parameters& parameters, const std::optional<Point>& through,
                     const SizeNodes& nodes, Slopes& slopes) const;
-    // Both.
+    // Evaluates the likelihood with the penalty.
     Slopes penalised(const Parameters& parameters, const std::optional<Point>& through,
                      const SizeNodes& nodes) const;
-    // Sets the intercept so that the curve meets the point; false if its ceiling is too low.
+    // Adjusts intercept or ceiling so that the curve passes through the point. False if the ceiling
+    // is too low for the floor.
     bool meet(Parameters& parameters, const std::optional<Point>& through) const;
     Maximum ascend(Parameters parameters, const std::optional<Point>& through) const;
 

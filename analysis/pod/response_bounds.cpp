@@ -20,7 +20,7 @@ PodForm form_of(const SignalResponseFit& fit) {
     return form;
 }
 
-// Between a and b, at which `function` has other signs.
+// Root between a and b, at which `function` has opposite signs.
 template <typename Function>
 double root(Function function, double a, double b) {
     std::uintmax_t steps = 100;
@@ -54,7 +54,7 @@ class BoundsOfPod : public ResponseBounds {
     }
 
   private:
-    // The standardised distance of the line beyond the threshold; `bound` -1, 0, 1: lower bound,
+    // Standardised distance of the line beyond the threshold; `bound` -1, 0, 1: lower bound,
     // estimate, upper bound.
     double distance(double size, int bound) const {
         const ResponseModel& model = fit_.model;
@@ -143,7 +143,7 @@ class BoundsOfLikelihood : public ResponseBounds {
             fit_.likelihood->maximum_through(x, threshold_, side_ * eta, fit_.maximum);
         return std::sqrt(std::max(0.0, 2.0 * (fit_.maximum.log_likelihood - held)));
     }
-    // From the estimate outwards in growing steps to either end; infinite beyond it.
+    // Searches from the estimate outwards in growing steps to either end; infinite beyond it.
     template <typename Function>
     double bound(Function beyond, double from, double low, double high, double way) const {
         const double end = way > 0.0 ? std::max(from, high) : std::min(from, low);

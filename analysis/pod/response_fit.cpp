@@ -15,9 +15,9 @@ namespace gearpod::analysis {
 namespace {
 
 struct Scaled {
-    std::vector<double> x, y;  // what is not censored
+    std::vector<double> x, y;  // uncensored values
     std::vector<Response> all;
-    double jacobian = 0.0;  // of the density of the values against that of y, its logarithm
+    double jacobian = 0.0;  // log Jacobian of the density of the values relative to that of y
 };
 
 Scaled scaled(const ResponseRows& rows, const ResponseScale& scale, const CensoringLimits& limits) {
@@ -56,7 +56,7 @@ ResponseModel least_squares_model(const RegressionLine& line) {
     return model;
 }
 
-// The means of specimens, since values that share a deviation are not independent.
+// Means of specimens, because values that share a random effect are not independent.
 Scaled specimen_means(const Scaled& points) {
     std::map<long, std::array<double, 3>> sums;  // count, x, y
     for (const Response& response : points.all) {
@@ -100,7 +100,7 @@ void fit_by_likelihood(SignalResponseFit& fit, const Scaled& points, bool by_spe
     fit.log_likelihood = fit.maximum.log_likelihood + points.jacobian;
     fit.aic = 2.0 * static_cast<double>(fit.maximum.parameters.size()) - 2.0 * fit.log_likelihood;
     if (!fit.maximum.converged || !fit.model.covariance.allFinite()) {
-        fit.refusals.push_back("the likelihood has no maximum within reach");
+        fit.refusals.push_back("the maximum-likelihood fit does not converge");
     }
 }
 
@@ -138,23 +138,24 @@ SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& sc
     fit.scale = scale;
     fit.aic = fit.log_likelihood = kNan;
     if (scale.power != 1.0 && !(std::min(lowest(rows, limits), threshold) > 0.0)) {
-        fit.refusals.push_back("values or threshold are not positive, there is no logarithm");
+        fit.refusals.push_back("values or threshold are not positive, which this scale requires");
         return fit;
     }
     const Scaled points = scaled(rows, scale, limits);
     const Scaled checked = by_specimen ? specimen_means(points) : points;
     if (checked.y.size() < 3) {
-        fit.refusals.push_back(fmt::format("{} values are not censored", checked.y.size()));
+        fit.refusals.push_back(
+            fmt::format("only {} values are not censored, three are needed", checked.y.size()));
         return fit;
     }
     fit.line = regression_line(checked.x, checked.y);
     if (!(fit.line.sum_xx > 0.0)) {
-        fit.refusals.push_back("the fault sizes are alike but for rounding");
+        fit.refusals.push_back("all fault sizes are equal");
         return fit;
     }
     const double largest = std::max(std::abs(points.y.front()), std::abs(points.y.back()));
     if (!(fit.line.sigma > 1e-12 * largest)) {
-        fit.refusals.push_back("the values do not scatter");
+        fit.refusals.push_back("the values have no scatter");
         return fit;
     }
     if (method == LineMethod::maximum_likelihood) {
@@ -168,7 +169,7 @@ SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& sc
         fit.aic = 6.0 - 2.0 * fit.log_likelihood;
     }
     if (!(fit.model.slope * alarm_sign(alarm) > 0.0)) {
-        fit.refusals.push_back("the feature does not move to the alarm side with the fault size");
+        fit.refusals.push_back("the feature does not move to the alarm side as the fault grows");
     }
     add_checks(fit, checked);
     return fit;

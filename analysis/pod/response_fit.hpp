@@ -1,5 +1,5 @@
-// A straight line through a feature's values over fault size on given scales, and whether normal
-// theory may be asked of it.
+// Straight line through a feature's values over fault size on given scales, and checks of its
+// normal-theory assumptions.
 #pragma once
 
 #include <limits>
@@ -18,13 +18,13 @@ namespace gearpod::analysis {
 // Level of each of the three checks: 5 % for the three together (Bonferroni).
 inline constexpr double kCheckLevel = 0.05 / 3.0;
 
-// One value each; `specimen` tells repeated measurements of one from those of others.
+// Values, one row each. `specimen` identifies repeated measurements of one specimen.
 struct ResponseRows {
     std::vector<double> size, value;
     std::vector<long> specimen;
 };
 
-// Values at or below `left`, and at or above `right`, are only known to lie there.
+// Values at or below `left`, and at or above `right`, are censored: only known to lie there.
 struct CensoringLimits {
     double left = -std::numeric_limits<double>::infinity();
     double right = std::numeric_limits<double>::infinity();
@@ -34,30 +34,31 @@ struct CensoringLimits {
 };
 
 // Scales of size and value. G. E. P. Box, D. R. Cox, J. R. Stat. Soc. B 26 (1964), 211-252: y is
-// (value^power - 1) / power, its logarithm for a power of 0, the value itself for 1.
+// (value^power - 1) / power, the logarithm for a power of 0, the value itself for 1.
 struct ResponseScale {
     bool log_size = false;
     double power = 1.0;
 
     double y(double value) const;
     double value(double y) const;
-    std::string text() const;  // "log value of size"
+    std::string text() const;  // for example "log value of size"
 };
 
 enum class LineMethod {
     least_squares,       // variances with n - 2 degrees of freedom
-    maximum_likelihood,  // knows censored values and repeated measurements
+    maximum_likelihood,  // supports censored values and repeated measurements
 };
 
 struct SignalResponseFit {
     ResponseScale scale;
-    // By least squares through what is not censored, or specimens' means: what the checks look at.
+    // Least-squares line through the uncensored values, or through the means of specimens; used by
+    // the checks.
     RegressionLine line;
     ResponseModel model;          // of y over x
     double log_likelihood = 0.0;  // of the values themselves, hence comparable between scales
     double aic = 0.0;
     std::vector<CheckResult> checks;
-    std::vector<std::string> refusals;                     // why there is no fit
+    std::vector<std::string> refusals;                     // reasons why there is no fit
     std::vector<std::string> doubts;                       // checks that failed
     std::shared_ptr<const ResponseLikelihood> likelihood;  // of a fit by maximum likelihood
     ResponseLikelihood::Maximum maximum;
@@ -65,12 +66,12 @@ struct SignalResponseFit {
     bool usable() const { return refusals.empty() && doubts.empty(); }
 };
 
-// `by_specimen`: with random deviations of specimens, by maximum likelihood.
+// Fits the line. `by_specimen`: with random effects of specimens, by maximum likelihood.
 SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& scale,
                                const CensoringLimits& limits, LineMethod method, bool by_specimen,
                                double threshold, Alarm alarm);
 
-// The power of greatest likelihood in [-2, 2]; empty if a value is not positive.
+// Box-Cox power of greatest likelihood in [-2, 2]; empty if a value is not positive.
 std::optional<double> box_cox_power(const ResponseRows& rows, bool log_size,
                                     const CensoringLimits& limits, bool by_specimen);
 

@@ -57,7 +57,7 @@ ResponseLikelihood::ResponseLikelihood(std::vector<Response> responses, bool by_
     std::tie(x_centre_, x_spread_) = moments(responses_, [](const Response& r) { return r.x; });
     std::tie(y_centre_, y_spread_) = moments(responses_, [](const Response& r) { return r.y; });
     if (responses_.size() < 3 || !(x_spread_ > 0.0 && y_spread_ > 0.0)) {
-        throw std::invalid_argument("response likelihood: needs three values that differ");
+        throw std::invalid_argument("response likelihood: needs at least three values that differ");
     }
     for (Response& response : responses_) {
         response.x = (response.x - x_centre_) / x_spread_;
@@ -87,7 +87,8 @@ double ResponseLikelihood::of_specimen(std::size_t first, std::size_t last,
         sum += left;
         squares += left * left;
     }
-    // Of the uncensored, and the law of the deviation given them.
+    // Log-likelihood of the uncensored responses, and the conditional distribution of the specimen
+    // effect given them.
     const double ratio = between * between / (within * within);
     const double growth = 1.0 + count * ratio;
     double value = -count * (kLogRootTwoPi + std::log(within)) - 0.5 * std::log(growth) -
@@ -142,7 +143,7 @@ ResponseLikelihood::Maximum ResponseLikelihood::maximise() const {
     const auto value = [&](const Eigen::VectorXd& p) {
         return log_likelihood({p[0], p[1], std::exp(p[2]), by_specimen_ ? std::exp(p[3]) : 0.0});
     };
-    // Least squares with the censored at their limits.
+    // Starts from least squares with censored values at their limits.
     double slope = 0.0;
     for (const Response& r : responses_) {
         slope += r.x * r.y / static_cast<double>(responses_.size());

@@ -1,13 +1,13 @@
-// Likelihood of a straight line through responses with normal scatter, of which some are only known
-// to lie below or above a limit (censored: J. Tobin, Econometrica 26 (1958), 24-36; MIL-HDBK-1823A,
-// appendix G.2.4), and of which those of one specimen may share a random deviation
-// (N. M. Laird, J. H. Ware, Biometrics 38 (1982), 963-974):
+// Likelihood of a straight line through responses with normal scatter. Some responses may be
+// censored, that is, only known to lie below or above a limit (J. Tobin, Econometrica 26 (1958),
+// 24-36; MIL-HDBK-1823A, appendix G.2.4). Responses of one specimen may share a random effect (N.
+// M. Laird, J. H. Ware, Biometrics 38 (1982), 963-974):
 //
-//   y = intercept + slope x + between b + within e,   b a specimen's, e each value's, standard
-//   normal.
+//   y = intercept + slope x + between b + within e,
 //
-// Exact without censored values; theirs are integrated over b by Gauss' rule, with b's law given
-// the specimen's other values.
+// with b the specimen effect and e the residual of each value, both standard normal. The likelihood
+// is exact without censored values. Censored values are integrated over b by Gauss quadrature, with
+// the conditional distribution of b given the specimen's other values.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,11 +22,11 @@ struct Response {
     long specimen = 0;
 };
 
-// A line, the scatter about it of single values, and the covariance of these three.
+// Line, scatter of single values about it, and the covariance of the three parameters.
 struct ResponseModel {
     double intercept = 0.0, slope = 0.0;
     double sigma = 0.0;    // root of between^2 + within^2
-    double between = 0.0;  // 0 without specimens' own deviations
+    double between = 0.0;  // 0 without specimen effects
     double within = 0.0;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of intercept, slope and sigma
 
@@ -35,7 +35,8 @@ struct ResponseModel {
 
 class ResponseLikelihood {
   public:
-    // `by_specimen`: with random deviations. Two x at least, and scatter.
+    // `by_specimen`: with random effects of specimens. Needs at least three responses that differ
+    // in x and in y.
     ResponseLikelihood(std::vector<Response> responses, bool by_specimen);
 
     struct Maximum {
@@ -46,11 +47,11 @@ class ResponseLikelihood {
     };
     Maximum maximise() const;
 
-    // The log likelihood of the best line that lies `u` sigmas above y at x.
+    // Log likelihood of the best line that lies `u` sigmas above y at x.
     double maximum_through(double x, double y, double u, const Maximum& start) const;
 
     ResponseModel model(const Maximum& maximum) const;
-    // Specimens with several values between which there is more scatter than rounding.
+    // True if the scatter between specimens exceeds rounding.
     bool has_between(const Maximum& maximum) const;
 
   private:
@@ -60,10 +61,10 @@ class ResponseLikelihood {
     double log_likelihood(const Line& line) const;
     double of_specimen(std::size_t first, std::size_t last, const Line& line) const;
 
-    std::vector<Response> responses_;  // standardised, by specimen
+    std::vector<Response> responses_;  // standardised, sorted by specimen
     bool by_specimen_;
     double x_centre_ = 0.0, x_spread_ = 1.0, y_centre_ = 0.0, y_spread_ = 1.0;
-    double constant_ = 0.0;  // of the log likelihood of y itself against that in standardised units
+    double constant_ = 0.0;  // log likelihood of y minus that of standardised y
 };
 
 }  // namespace gearpod::analysis

@@ -11,7 +11,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr std::size_t kFewest = 10;  // points for the checks to mean anything
+constexpr std::size_t kFewest = 10;  // fewest points for meaningful checks
 constexpr double kFoundShare = 0.9;
 
 ResponseRows rows_of(std::span<const double> sizes, std::span<const double> responses,
@@ -46,11 +46,11 @@ std::string data_refusal(const ResponseRows& rows, const std::set<double>& disti
         return "no threshold";
     }
     if (rows.size.size() < kFewest) {
-        return fmt::format("{} {} with a value, the checks need {}", rows.size.size(),
+        return fmt::format("only {} {} with a value, the checks need {}", rows.size.size(),
                            request.tested, kFewest);
     }
     if (distinct.size() < 3) {
-        return fmt::format("{} fault sizes, linearity needs three", distinct.size());
+        return fmt::format("only {} fault sizes, the linearity check needs three", distinct.size());
     }
     return "";
 }
@@ -68,7 +68,7 @@ std::vector<SignalResponseFit> fit_all(const ResponseRows& rows, bool by_specime
             fits.push_back(fit_response(rows, scale, request.limits, request.method, by_specimen,
                                         request.threshold, request.alarm));
             if (std::isnan(power)) {
-                fits.back().aic += 2.0;  // a parameter more
+                fits.back().aic += 2.0;  // one more parameter
             }
         }
     }

@@ -1,14 +1,14 @@
-// POD from the feature itself over fault size, "a-hat against a" (MIL-HDBK-1823A, appendix G.2;
-// ASTM E3023): a straight line through the faulty gearboxes' values, on linear, log or Box-Cox
+// POD from the feature values over fault size, "a-hat against a" (MIL-HDBK-1823A, appendix G.2;
+// ASTM E3023): a straight line through the faulty gearboxes' values on linear, log or Box-Cox
 // scales, with normal scatter of constant variance about it, so that
 //
 //   POD(a) = Phi(u),   u = +-(intercept + slope x - y(threshold)) / sigma.
 //
-// Where linearity, constant variance or normality fails, the fit is refused and says so, unless the
-// request insists on its scales. The threshold counts as given. A study's values are never censored
-// and are fitted by least squares with Wald's bounds of POD; inspections by maximum likelihood,
-// with censored values, specimens' random deviations, and Wald's or likelihood-ratio bounds of the
-// size.
+// If linearity, constant variance or normality fails, the fit is refused with the reason, unless
+// the request insists on its scales. The threshold is taken as exact. A study's values are never
+// censored; they are fitted by least squares with Wald bounds of POD. Inspections are fitted by
+// maximum likelihood with censored values and random effects of specimens, and with Wald or
+// likelihood-ratio bounds of the size.
 #pragma once
 
 #include <optional>
@@ -31,33 +31,36 @@ struct SignalResponseRequest {
     BoundRule rule = {BoundMethod::wald, 0.0};  // of a fit by maximum likelihood
     CensoringLimits limits = {};
     std::vector<bool> log_sizes = {false, true};
-    std::vector<double> powers = {1.0, 0.0};  // Box-Cox's; NaN: that of greatest likelihood
-    bool insist = false;                      // on a scale whose checks fail
-    std::span<const long> specimen = {};      // of each value; empty: each has its own
-    std::optional<double> target = {};        // size for a90's bound
+    // Box-Cox powers; NaN: the power of greatest likelihood.
+    std::vector<double> powers = {1.0, 0.0};
+    bool insist = false;                  // accept a scale whose checks fail
+    std::span<const long> specimen = {};  // specimen of each value; empty: one each
+    std::optional<double> target = {};    // size to which a90's bound should come down
     std::string tested = "faulty gearboxes";
 };
 
 struct SignalResponsePod {
     long count = 0;            // faulty gearboxes with a value
-    long left = 0, right = 0;  // of these, censored
-    long specimens = 0;        // that have values
-    std::string refusal;       // why there is no curve, empty if there is one
+    long left = 0, right = 0;  // number of them that are censored
+    long specimens = 0;        // with values
+    std::string refusal;       // reason why there is no curve, empty if there is one
     std::vector<SignalResponseFit> candidates;
     std::size_t chosen = 0;  // least AIC of those not refused
-    LocationScale curve;     // of the chosen
+    LocationScale curve;     // of the chosen fit
     BoundRule rule;
     SizeBounds a50, a90;
     std::vector<PodPoint> band;
-    double specimens_factor = kNan;  // of those tested, for a90's upper bound at the target
+    // Specimens needed for a90's upper bound at the target, over those tested.
+    double specimens_factor = kNan;
 };
 
-// Sizes of 0 are healthy gearboxes and are left out, as are values that are not finite.
+// Fits all scales and chooses one. Sizes of 0 (healthy gearboxes) and values that are not finite
+// are left out.
 SignalResponsePod signal_response_pod(std::span<const double> sizes,
                                       std::span<const double> responses,
                                       const SignalResponseRequest& request);
 
-// The same line against another threshold; its bounds alone.
+// Bounds of the same line against another threshold.
 struct ThresholdBounds {
     SizeBounds a50, a90;
 };

@@ -1,18 +1,18 @@
-// What is read off a POD curve: sizes and probabilities, each with its one-sided bounds.
+// Sizes and probabilities derived from a POD curve, each with its one-sided bounds.
 #pragma once
 
 #include <limits>
 
 namespace gearpod::analysis {
 
-// A size read off the curve. Curves are not continued beyond the sizes tested.
+// Size at which the curve reaches a POD. Curves are not extrapolated beyond the tested sizes.
 struct SizeEstimate {
     enum class Where { reached, below_tested, not_reached };
     Where where = Where::not_reached;
-    double size = 0.0;  // if reached; else NaN
+    double size = 0.0;  // if reached, otherwise NaN
 };
 
-// Below the tested sizes < reached < not reached.
+// Ordering: below the tested sizes < reached < not reached.
 inline double place_of(const SizeEstimate& estimate) {
     using Where = SizeEstimate::Where;
     return estimate.where == Where::below_tested ? -std::numeric_limits<double>::infinity()
@@ -38,7 +38,7 @@ struct SizeBounds {
 struct PodPoint {
     double size = 0.0;
     double pod = 0.0;
-    double lower = 0.0;  // one-sided each
+    double lower = 0.0;  // lower and upper are one-sided
     double upper = 0.0;
 };
 

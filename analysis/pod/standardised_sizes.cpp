@@ -11,7 +11,7 @@ namespace {
 constexpr int kNodes = StandardisedSizes::kNodes;
 constexpr int kMostHalvings = 14;
 
-// The range of u in 2^halvings cells.
+// Division of the range of u into 2^halvings cells.
 struct Cells {
     double low = 0.0, high = 0.0;
     int halvings = 0;
@@ -24,8 +24,9 @@ struct Cells {
     }
 };
 
-// Lanczos' process on the diagonal matrix of the places t, which lie within about -1 and 1; with
-// every vector made orthogonal to all before, twice, as few points more than nodes ask for.
+// Gauss rule of a measure by the Lanczos process on the diagonal matrix of the points t, which lie
+// within about -1 and 1. Every vector is orthogonalised against all previous ones, twice, which is
+// necessary with few more points than nodes.
 GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) {
     Eigen::MatrixXd basis(t.size(), kNodes);
     Eigen::VectorXd diagonal(kNodes), beside(kNodes - 1);
@@ -44,7 +45,7 @@ GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) 
             next.noalias() -= so_far * shares;
         }
         beside[k] = next.norm();
-        if (!(beside[k] > 1e-13)) {  // so few different places that k + 1 nodes have them all
+        if (!(beside[k] > 1e-13)) {  // so few distinct points that k + 1 nodes represent them all
             return gauss_rule(diagonal.head(k + 1), beside.head(k), total);
         }
         next /= beside[k];
@@ -52,7 +53,7 @@ GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) 
     return gauss_rule(diagonal, beside, total);
 }
 
-// Points of one cell, or its rule if that has fewer.
+// Adds the points of one cell, or its Gauss rule if that has fewer nodes.
 void add_cell(WeightedSizes& out, const WeightedSizes& in, std::size_t first, std::size_t last) {
     if (last - first <= static_cast<std::size_t>(kNodes)) {
         out.u.insert(out.u.end(), in.u.begin() + static_cast<std::ptrdiff_t>(first),
@@ -89,7 +90,7 @@ WeightedSizes condensed(const WeightedSizes& in, const Cells& cells) {
     return out;
 }
 
-// Nodes that cells would leave.
+// Number of nodes that remain with these cells.
 std::size_t nodes_left(const WeightedSizes& sizes, const Cells& cells) {
     std::size_t nodes = 0, in_cell = 0, cell = 0;
     for (const double u : sizes.u) {
@@ -149,7 +150,8 @@ StandardisedSizes::StandardisedSizes(const HitMissTable& table, bool log_size)
     if (rows == 0 || !sizes_.allFinite()) {
         return;
     }
-    // From the narrowest cells that halve the work, in cells of twice the width each.
+    // Starts with the narrowest cells that halve the work, then doubles the cell width at each
+    // level.
     Cells cells{sizes_[0], sizes_[rows - 1], kMostHalvings};
     const auto worth = static_cast<std::size_t>(levels_[0].u.size()) / 2;
     while (cells.halvings > 0 && nodes_left(hits, cells) + nodes_left(misses, cells) > worth) {

@@ -1,12 +1,12 @@
-// Hits and misses over fault size as a likelihood sees them: sizes standardised, and where there
-// are many, few nodes in their place.
+// Hits and misses over standardised fault size, condensed to few quadrature nodes where there are
+// many.
 //
 // A log likelihood is a sum of analytic functions of u over two discrete measures, hits and misses.
-// In a cell of u each measure is replaced by its Gauss rule, whose nodes and weights integrate
+// In each cell of u a measure is replaced by its Gauss rule, whose nodes and weights integrate
 // every polynomial up to degree 2 kNodes - 1 exactly (W. Gautschi, Orthogonal Polynomials:
-// Computation and Approximation (2004), sections 1.4 and 2.2); with cells narrow against the
-// curve's own width nothing is lost but rounding (test_standardised_sizes.cpp). The rules of wider
-// cells come from those of narrower ones, which have the same moments.
+// Computation and Approximation (2004), sections 1.4 and 2.2). With cells narrow compared with the
+// curve's width, the error is at rounding level (test_standardised_sizes.cpp). The rules of wider
+// cells are computed from those of narrower ones, which have the same moments.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,25 +16,26 @@
 
 namespace gearpod::analysis {
 
-// Of one measure, ascending.
+// Points of one measure, ascending.
 struct WeightedSizes {
     std::vector<double> u;
-    std::vector<double> weight;  // gearboxes
+    std::vector<double> weight;  // number of gearboxes
 };
 
-// Hits, then misses.
+// Nodes of the hits, then of the misses.
 struct SizeNodes {
     double cell = 0.0;  // widest cell of u; 0 if these are the sizes themselves
     Eigen::ArrayXd u;
     Eigen::ArrayXd weight;
-    Eigen::Index hits = 0;  // nodes
+    Eigen::Index hits = 0;  // number of nodes
 };
 
 class StandardisedSizes {
   public:
-    static constexpr int kNodes = 12;  // a cell and measure, at most
+    static constexpr int kNodes = 12;  // per cell and measure, at most
 
-    // Mean 0 and standard deviation 1 over the gearboxes; of the sizes or of their logarithms.
+    // Standardises the sizes, or their logarithms, to mean 0 and standard deviation 1 over the
+    // gearboxes.
     StandardisedSizes(const HitMissTable& table, bool log_size);
 
     double centre() const { return centre_; }
@@ -46,14 +47,15 @@ class StandardisedSizes {
     double hits() const { return hits_; }
     double tests() const { return tests_; }
 
-    // The fewest nodes whose cells are no wider in u.
+    // The smallest set of nodes whose cells are no wider than `widest_cell`.
     const SizeNodes& nodes(double widest_cell) const;
 
   private:
     double centre_ = 0.0, spread_ = 1.0;
     double hits_ = 0.0, tests_ = 0.0;
     Eigen::ArrayXd sizes_;
-    std::vector<SizeNodes> levels_;  // cells from narrow to wide, the first the sizes themselves
+    // By cell width, ascending; the first holds the sizes themselves.
+    std::vector<SizeNodes> levels_;
 };
 
 }  // namespace gearpod::analysis

@@ -1,5 +1,5 @@
-"""Makes the wheel of the package (PEP 517): pure Python, so that it is a zip of the sources with
-three files of metadata (PEP 427), and pip needs nothing from elsewhere."""
+"""Builds the wheel of the package (PEP 517). The package is pure Python, so the wheel is a zip of
+the sources with three metadata files (PEP 427), and pip needs no other package."""
 
 import base64
 import hashlib
@@ -36,7 +36,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     wheel = f"{NAME}-py3-none-any.whl"
     with zipfile.ZipFile(pathlib.Path(wheel_directory, wheel), "w", zipfile.ZIP_DEFLATED) as out:
         for name, data in files.items():
-            # A date of its own, so that equal sources are equal wheels.
+            # Fixed date, so that equal sources give equal wheels.
             out.writestr(zipfile.ZipInfo(name, (2020, 1, 1, 0, 0, 0)), data)
     return wheel
 

@@ -18,7 +18,7 @@ constexpr double kRidge = 1.0;
 constexpr long kFewest = 50;
 constexpr int kBandPoints = 5;
 
-// One half of the gearboxes: the threshold sample's and the graded ones' rows.
+// Row indices of one half of the gearboxes, in the threshold sample and in the graded ones.
 struct Half {
     std::vector<std::size_t> healthy, graded;
 };
@@ -45,7 +45,7 @@ std::vector<double> picked(std::span<const double> values, const std::vector<std
     return out;
 }
 
-// The training half's values of one feature with their outcomes, in the order healthy, graded.
+// Values of one feature for a half, in the order healthy, graded.
 std::vector<double> values_of(const CombinedFeature& feature, const Half& half) {
     std::vector<double> values = picked(feature.healthy, half.healthy);
     const std::vector<double> graded = picked(feature.graded, half.graded);
@@ -53,13 +53,13 @@ std::vector<double> values_of(const CombinedFeature& feature, const Half& half) 
     return values;
 }
 
-// One feature as the regression sees it.
+// One feature as a covariate of the regression.
 struct Covariate {
     const CombinedFeature* feature = nullptr;
     std::vector<double> healthy;  // of the training half, ascending
     double centre = 0.0, spread = 1.0;
 
-    // NaN where there is no value.
+    // Scaled normal score; NaN where there is no value.
     double scaled(double value) const {
         if (!std::isfinite(value)) {
             return kNan;
@@ -72,7 +72,7 @@ struct Covariate {
     }
 };
 
-// Why a feature cannot be used, or "".
+// Fits the scaling; returns the reason why the feature cannot be used, or "".
 std::string fit_covariate(Covariate& covariate, const Half& half,
                           std::span<const double> graded_size) {
     std::vector<double> values = values_of(*covariate.feature, half);
@@ -110,11 +110,11 @@ std::string fit_covariate(Covariate& covariate, const Half& half,
 std::string sample_refusal(long healthy, long faulty) {
     return std::min(healthy, faulty) >= kFewest
                ? ""
-               : fmt::format("{} healthy and {} faulty ones to train on, {} of each are needed",
+               : fmt::format("{} healthy and {} faulty training gearboxes, {} of each are needed",
                              healthy, faulty, kFewest);
 }
 
-// Complete training gearboxes.
+// Design matrix and outcomes of the training gearboxes that have a value of every feature.
 struct Training {
     Eigen::MatrixXd design;
     std::vector<char> faulty;
@@ -152,7 +152,7 @@ Training training_of(const std::vector<Covariate>& covariates, const Half& half,
     return training;
 }
 
-// Log odds of a fault for the held-out gearboxes; NaN without a value of each feature.
+// Log odds of a fault for the held-out gearboxes; NaN without a value of every feature.
 std::vector<double> scores(const std::vector<Covariate>& covariates, const Eigen::VectorXd& b,
                            std::span<const double> CombinedFeature::*group,
                            const std::vector<std::size_t>& rows) {
@@ -168,7 +168,7 @@ std::vector<double> scores(const std::vector<Covariate>& covariates, const Eigen
     return out;
 }
 
-// Of the usable features, the one with the largest area on the training half.
+// Usable feature with the largest area on the training half.
 const CombinedFeature* best_single(const std::vector<Covariate>& covariates, const Half& half,
                                    std::span<const double> graded_size, double confidence) {
     const CombinedFeature* best = nullptr;
@@ -210,7 +210,7 @@ HeldOutDetector grade(const std::string& name, const HeldOut& held, const Detect
     return detector;
 }
 
-// Areas over the held-out gearboxes that have both values, and their paired test.
+// Computes areas over the held-out gearboxes that have both values, and their paired test.
 void compare(CombinedDetector& result, const HeldOut& combined, const HeldOut& single,
              double confidence) {
     std::vector<RankedFeature> pair;
@@ -221,7 +221,7 @@ void compare(CombinedDetector& result, const HeldOut& combined, const HeldOut& s
         for (std::size_t i = 0; i < held[d]->graded.size(); ++i) {
             (combined.graded_size[i] > 0.0 ? faulty : healthy)[d].push_back(held[d]->graded[i]);
         }
-        // By place, as a feature might be called the same.
+        // Numbers as names, because a feature might have the same name as the combined detector.
         pair.push_back({d == 0 ? "0" : "1", held[d]->alarm, healthy[d], faulty[d]});
     }
     const FeatureRanking ranking = rank_features(pair, confidence);
@@ -238,7 +238,7 @@ void compare(CombinedDetector& result, const HeldOut& combined, const HeldOut& s
 }  // namespace
 
 bool trains(std::size_t instance) {
-    // Mixing of splitmix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453-472.
+    // Mixing function of splitmix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453-472.
     std::uint64_t z = static_cast<std::uint64_t>(instance) + 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;

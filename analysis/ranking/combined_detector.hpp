@@ -1,10 +1,10 @@
-// All features as one detector: ridge-penalised logistic regression of faulty against healthy
-// (binary_regression.hpp) on each value's normal score among the healthy training gearboxes, which
-// ends where no healthy one lies beyond (large faults then weigh no more than small ones that are
-// as clear), scaled to the training gearboxes' standard deviation. Half of the gearboxes train it;
-// the other half, none of which it has seen, set its threshold and grade it. The best single
-// feature, chosen on the training half, is graded on the same gearboxes with a threshold from the
-// same healthy ones.
+// Combination of all features into one detector by ridge-penalised logistic regression of faulty
+// against healthy gearboxes (binary_regression.hpp). Covariates are the normal scores of each value
+// among the healthy training gearboxes, scaled to the training gearboxes' standard deviation. The
+// score is bounded where no healthy value lies beyond, so that a very large fault weighs no more
+// than a small one that is as clear. Half of the gearboxes train the detector; the other half sets
+// its threshold and grades it. The best single feature, chosen on the training half, is graded on
+// the same gearboxes with a threshold from the same healthy ones.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace gearpod::analysis {
 
-// A feature's values at one noise level.
+// Values of a feature at one noise level.
 struct CombinedFeature {
     std::string name;
     Alarm alarm = Alarm::high;
@@ -27,10 +27,10 @@ struct CombinedFeature {
 
 struct FeatureWeight {
     std::string name;
-    double weight = 0.0;  // of one standard deviation, in log odds of a fault
+    double weight = 0.0;  // log odds of a fault per standard deviation
 };
 
-// A detector on the gearboxes that were held back.
+// Performance of a detector on the held-out gearboxes.
 struct HeldOutDetector {
     std::string name;
     Auc auc;
@@ -44,18 +44,18 @@ struct CombinedDetector {
     double intercept = 0.0;
     long trained_healthy = 0, trained_faulty = 0;
     HeldOutDetector combined, single;
-    double p_value = 1.0;               // of equal areas, paired (DeLong); NaN if undetermined
-    std::vector<std::string> left_out;  // "te_fc: constant"
-    std::vector<std::string> warnings;  // of the combined detector's threshold
-    std::string refusal;                // why there is none, else empty
+    double p_value = 1.0;               // paired test of equal areas (DeLong); NaN if undetermined
+    std::vector<std::string> left_out;  // for example "te_fc: constant"
+    std::vector<std::string> warnings;  // about the combined detector's threshold
+    std::string refusal;                // reason why there is no detector, or ""
 };
 
-// Which half a gearbox belongs to, from its place in its group alone: a mixed bit of its number, so
-// that levels in turn do not fall into one half.
+// True if a gearbox belongs to the training half. Decided by a hash bit of its index within its
+// group, so that alternating levels do not fall into one half.
 bool trains(std::size_t instance);
 
-// `request` with the one noise level of these values. Refused with fewer than two usable features,
-// or fewer than 50 healthy or faulty gearboxes to train on.
+// Trains and grades the detector. `request` must have the one noise level of these values. Refuses
+// fewer than two usable features, and fewer than 50 healthy or faulty training gearboxes.
 CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
                                   std::span<const double> healthy_size,
                                   std::span<const double> graded_size,

@@ -35,7 +35,7 @@ std::vector<double> picked(std::span<const double> values, const std::vector<std
     return out;
 }
 
-// Two-sided; NaN where the difference has no scatter but is not 0 either, 1 where it is 0.
+// Two-sided p-value. NaN if the difference has no variance but is not 0; 1 if it is 0.
 double paired_p_value(const AucShares& a, const AucShares& b) {
     const double difference = std::abs(a.auc - b.auc);
     if (difference == 0.0) {
@@ -69,7 +69,7 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
         }
     }
     if (used.empty()) {
-        ranking.refusal = "no feature has values for nine tenths of the gearboxes";
+        ranking.refusal = "no feature has values for at least 90 % of the gearboxes";
         return ranking;
     }
     const auto healthy = complete_rows(used, &RankedFeature::healthy);

@@ -1,5 +1,5 @@
-// Features in order of the area under their ROC, and which of them the gearboxes tell apart: paired
-// test of DeLong et al. (1988) on the same gearboxes, adjusted over all pairs (holm.hpp).
+// Ranking of features by the area under their ROC curve, with paired tests of their differences on
+// the same gearboxes (DeLong et al. (1988)), adjusted over all pairs (holm.hpp).
 #pragma once
 
 #include <span>
@@ -11,10 +11,11 @@
 
 namespace gearpod::analysis {
 
-// A feature that lacks more of its values is not ranked, nor combined with others.
+// Largest share of missing values with which a feature is still ranked and combined with others.
 inline constexpr double kMostMissing = 0.1;
 
-// One feature's values at one noise level; all features over the same gearboxes in the same order.
+// Values of one feature at one noise level. All features must have the same gearboxes in the same
+// order.
 struct RankedFeature {
     std::string name;
     Alarm alarm = Alarm::high;
@@ -24,21 +25,21 @@ struct RankedFeature {
 
 struct FeatureRank {
     std::string name;
-    Auc auc;  // over the gearboxes that all ranked features have a value for
-    // Adjusted p-value of the paired difference from every ranked feature, in order of rank; 1 from
-    // itself.
+    Auc auc;  // over the gearboxes for which all ranked features have a value
+    // Adjusted p-values of the paired difference from every ranked feature, in order of rank; 1 for
+    // the feature itself.
     std::vector<double> p_values;
 };
 
 struct FeatureRanking {
-    long healthy = 0, faulty = 0;       // gearboxes that it rests on
-    std::vector<FeatureRank> ranks;     // falling area
-    std::vector<std::string> left_out;  // "te_fc: no value for 61 of 5500 gearboxes"
-    std::string refusal;                // why there is none, else empty
+    long healthy = 0, faulty = 0;       // number of gearboxes used
+    std::vector<FeatureRank> ranks;     // by falling area
+    std::vector<std::string> left_out;  // for example "te_fc: no value for 61 of 5500 gearboxes"
+    std::string refusal;                // reason why there is no ranking, or ""
 };
 
-// A feature without a value for more than a tenth of the gearboxes is left out, so that it does not
-// take these from the others.
+// Ranks the features. A feature without a value for more than a tenth of the gearboxes is left out,
+// because the ranking uses complete gearboxes only.
 FeatureRanking rank_features(const std::vector<RankedFeature>& features, double confidence);
 
 }  // namespace gearpod::analysis

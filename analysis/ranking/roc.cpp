@@ -7,7 +7,7 @@
 namespace gearpod::analysis {
 namespace {
 
-// Finite values, those that alarm first.
+// Finite values, the most alarming first.
 std::vector<double> from_alarm_side(std::span<const double> values, bool high) {
     std::vector<double> sorted;
     for (const double value : values) {
@@ -42,7 +42,7 @@ double way(const RocPoint& point) {
     return 0.5 * (point.false_alarm_rate + point.detection_rate);
 }
 
-// The corners nearest to `most` places that divide the way from (0, 0) to (1, 1) evenly.
+// Corners nearest to `most` points that divide the path from (0, 0) to (1, 1) evenly.
 std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t most) {
     std::vector<RocPoint> kept;
     std::size_t at = 0, last = points.size();

@@ -1,11 +1,11 @@
-"""Pieces of HTML that the sections are made of: figures with their data, tables, notes."""
+"""HTML elements of the sections: figures with their data, tables, notes."""
 
 from charts import SvgNames
 from words import escape
 
 
 class Page:
-    """Numbers figures and charts in order, and knows the sections for the table of contents."""
+    """Numbers figures and charts in order and collects the sections for the table of contents."""
 
     def __init__(self, figures=None):
         self.names = SvgNames(figures)
@@ -18,7 +18,8 @@ class Page:
                 f'<h2 id="{name}-heading">{escape(title)}</h2>\n{body}\n</section>')
 
     def figure(self, title, charts, how_to_read, data):
-        """`charts`: SVG, one or more side by side; `data`: HTML of the table behind them."""
+        """HTML of a figure. `charts`: one or more SVG side by side; `data`: HTML of the table with
+        their numbers."""
         self.figures += 1
         label = f"Figure {self.figures}"
         kind = {1: "one", 2: "two", 4: "two"}.get(len(charts), "many")
@@ -30,7 +31,7 @@ class Page:
 
 
 def table(caption, head, rows, first_is_header=True):
-    """`rows`: lists of cells; a cell is text, not HTML."""
+    """HTML of a table. `rows`: lists of cells; cells are text, not HTML."""
     tag = 'th scope="row"' if first_is_header else "td"
     close = "th" if first_is_header else "td"
     body = "".join(

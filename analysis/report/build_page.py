@@ -3,8 +3,8 @@
     gearpod report F.h5 --json F.json         (or of gearpod pod, compare, sweep, lives)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
-With --figures FOLDER behind it the figures go there too, each as SVG and PNG. With --pdf behind it,
-of a report, what is written is its summary on one sheet, as PDF.
+With a final --figures FOLDER the figures are also written there, each as SVG and PNG. With a final
+--pdf (for a report) its summary on one sheet is written instead, as PDF.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -29,13 +29,13 @@ def state_banner(report):
     state = report.data["provenance"].get("state", "complete")
     if state == "running" or state.startswith("interrupted"):
         asked = report.data["provenance"].get("gearboxes_asked_for", "?")
-        return (f'<p class="banner" role="note">Not the whole study: {report.data["gearboxes"]} of '
+        return (f'<p class="banner" role="note">Incomplete study: {report.data["gearboxes"]} of '
                 f"{asked} gearboxes ({state}).</p>")
     return ""
 
 
 def study_parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     import headline
     import sections
     from report import Report
@@ -109,7 +109,7 @@ def main(arguments):
         return 2
     missing = missing_packages()
     if missing:
-        print(f"{sys.executable} lacks what figures are drawn with: apt-get install "
+        print(f"{sys.executable} lacks packages for drawing figures: apt-get install "
               + " ".join(missing), file=sys.stderr)
         return 2
     if arguments[0] == "-":

@@ -1,5 +1,5 @@
-"""Charts as inline SVG: matplotlib's drawing, with text that stays text, colours that follow the
-page's light or dark scheme, and a name and description for screen readers."""
+"""Charts as inline SVG drawn by matplotlib. Text stays text, colours follow the page's light or
+dark scheme, and each chart has a name and a description for screen readers."""
 
 import html
 import io
@@ -13,22 +13,23 @@ from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 from matplotlib.transforms import ScaledTranslation  # noqa: E402
 
-# Told apart by people with any colour vision, and at least 3 : 1 against the page in either scheme;
-# lines differ in their dashes as well. (light, dark)
+# Distinguishable with any colour vision, and with a contrast of at least 3 : 1 to the page in
+# either scheme; lines differ in their dashes as well. (light, dark)
 SERIES = [("#0072b2", "#5cb8f0"), ("#c24e00", "#ff9b54"), ("#00795b", "#3fd0a4"),
           ("#a23f7d", "#f09ccb"), ("#806000", "#e3c14d"), ("#4b4fb8", "#a9adff"),
           ("#5b6066", "#b9bec5"), ("#9b2226", "#ff8f8f")]
 DASHES = ["-", (0, (6, 1.5)), (0, (3, 1, 1.2, 1)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1)),
-          (0, (8, 2, 2, 2, 2, 2)), (0, (12, 1.5, 3, 1.5)), (0, (10, 2))]  # dots: does not fit
+          # No plain dots: reserved for rejected fits.
+          (0, (8, 2, 2, 2, 2, 2)), (0, (12, 1.5, 3, 1.5)), (0, (10, 2))]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8f979f"
 _SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}
 _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
 
-LABELS = 30  # points from an axis to what is below its numbers and its name
+LABELS = 30  # points from an axis to the text below its numbers and its name
 GAP = "#d3d8dd"  # a square of a map without a number
 
-# From quiet to loud. (light scheme, dark scheme)
+# Colours from low to high noise. (light scheme, dark scheme)
 QUIET, LOUD = ((0.42, 0.68, 0.88), (0.65, 0.85, 1.0)), ((0.33, 0.07, 0.20), (0.90, 0.36, 0.47))
 SHADES = 13
 
@@ -48,7 +49,7 @@ def colour(index):
 
 
 def dash(index):
-    """Another one each time the colours begin again."""
+    """Dash pattern of a series; shifts by one each time the colours repeat."""
     return DASHES[(index + index // len(SERIES)) % len(DASHES)]
 
 
@@ -57,18 +58,18 @@ def marker(index):
 
 
 def shade(share):
-    """A colour between quiet (0) and loud (1)."""
+    """Colour between low noise (0) and high noise (1)."""
     return _SHADES[round(share * (SHADES - 1))][0]
 
 
 def panel(height=3.2):
-    """One chart, as wide as keeps its text readable on a phone."""
+    """One chart, of a width that keeps its text readable on a phone."""
     return plt.subplots(figsize=(4.4, height), layout="constrained")
 
 
 def legend_below(axes, columns, **options):
-    """To the left of the axes' right edge, since the labels of rows leave more room there; below the
-    axis' numbers and name, however low the axes are."""
+    """Legend below the numbers and the name of the axis, extending to the left from the axes' right
+    edge, because row labels leave more room there."""
     below = ScaledTranslation(0, -LABELS / 72, axes.figure.dpi_scale_trans)
     axes.legend(loc="upper right", bbox_to_anchor=(1.02, 0), ncol=columns,
                 bbox_transform=axes.transAxes + below, **options)
@@ -91,7 +92,7 @@ def _short_numbers(match):
 
 
 def between(low, high, share):
-    """A colour from low (share 0) to high (1), as parts of red, green and blue."""
+    """Colour from low (share 0) to high (1), as parts of red, green and blue."""
     return tuple(a + share * (b - a) for a, b in zip(low, high))
 
 
@@ -101,19 +102,20 @@ _SCHEME.update({light: f"--shade-{i}" for i, (light, _) in enumerate(_SHADES)})
 
 
 def cell(axes, column, row, fill, text):
-    """A coloured square of a map with a number on it, dark or light, whichever is read better."""
+    """Coloured square of a map with a number on it, in dark or light text for contrast."""
     axes.add_patch(Rectangle((column + 0.02, row + 0.03), 0.96, 0.94, facecolor=fill,
                              edgecolor="none"))
     red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
                         for part in to_rgb(fill))
     bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18
-    # Not INK: it stands on the square, whatever the page's scheme.
+    # Not INK: the text is on the square, whatever the page's scheme.
     axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=9,
               color="#101418" if bright else "#fefefe")
 
 
 class SvgNames:
-    """Gives every chart of a page ids of its own, in order; with a folder, charts go there too."""
+    """Gives every chart of a page unique ids, in order. With a folder, also writes the charts
+    there."""
 
     def __init__(self, folder=None):
         self.count = 0
@@ -124,12 +126,13 @@ class SvgNames:
         return f"chart{self.count}"
 
     def keep(self, figure, title):
-        """As files of their own, on paper: 03-area-under-the-roc.svg and .png."""
+        """Writes the chart as files on white, such as 03-area-under-the-roc.svg and .png."""
         if self.folder is None:
             return
         words = re.sub(r"[^a-z0-9]+", "-", title.lower().replace("×", "x")).strip("-")[:60]
         for kind in ("svg", "png"):
-            # Replaced, not written over: a link of that name may lead to anything.
+            # Replaces the file instead of overwriting it: an existing link might lead to another
+            # file.
             path = self.folder / f"{self.count:02d}-{words}.{kind}"
             new = path.with_suffix(f".{kind}.new")
             new.unlink(missing_ok=True)
@@ -140,7 +143,7 @@ class SvgNames:
 
 
 def to_svg(figure, title, description, names):
-    """Inline SVG of a matplotlib figure, which is closed."""
+    """Inline SVG of a matplotlib figure. Closes the figure."""
     name = names.next()
     names.keep(figure, title)
     buffer = io.StringIO()
@@ -168,7 +171,7 @@ def to_svg(figure, title, description, names):
 
 
 def scheme_css():
-    """The colours of both schemes."""
+    """CSS of the colours of both schemes."""
     light, dark = ("".join(f"--{name}-{i}:{pair[scheme]};"
                            for name, pairs in (("series", SERIES), ("shade", _SHADES))
                            for i, pair in enumerate(pairs)) for scheme in (0, 1))

@@ -1,4 +1,4 @@
-"""Probability of detection, ROC, detection rates over noise, ranking of the features."""
+"""Figures on detection: POD, ROC curve, detection rates over noise, ranking of the features."""
 
 import math
 
@@ -7,7 +7,7 @@ from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, l
                     panel, shade, to_svg)
 from words import (input_name, joined, noise, number, p_value, percent, rate, rate_with_bounds)
 
-REJECTED = "Thin dots: a curve that does not fit the hits and misses, without bounds."
+REJECTED = "Dotted: curves that do not fit the hits and misses, without bounds."
 POOR = " (poor fit)"
 MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 
@@ -27,10 +27,10 @@ def _curve(axes, report, pod, paint, line, label, band):
     if pod["refusal"] or not pod["band"]["size"]:
         return False
     x = [report.sizes.shown(size) for size in pod["band"]["size"]]
-    # The curve may begin where its bounds do; missing bounds are gaps.
+    # The curve may begin where its bounds begin; missing bounds are gaps.
     lower, upper, values = ([math.nan if value is None else value for value in pod["band"][name]]
                             for name in ("lower", "upper", "pod"))
-    poor = pod["doubtful"]  # its bounds promise nothing
+    poor = pod["doubtful"]  # its bounds are not valid
     if band and not poor:
         axes.fill_between(x, lower, upper, color=paint, alpha=0.16, linewidth=0)
     axes.plot(x, values, color=paint, linestyle=(0, (1, 2)) if poor else line,
@@ -39,7 +39,7 @@ def _curve(axes, report, pod, paint, line, label, band):
 
 
 def _open(axes, report, level, paint):
-    """The band that inputs which are not known leave open."""
+    """Draws the band due to epistemic inputs."""
     if level["uncertain"] and level["uncertain"]["band"]["size"]:
         band = level["uncertain"]["band"]
         axes.fill_between([report.sizes.shown(size) for size in band["size"]], band["lower"],
@@ -48,7 +48,7 @@ def _open(axes, report, level, paint):
 
 
 def uncertain_text(report, n):
-    """What is not known of the machine, and what that leaves open of the first feature's a90."""
+    """Text on the epistemic inputs and the range of a90 of the first feature with a band."""
     for f in report.order(n) if report.reliability else []:
         level = report.reliable(f, n)
         found = level["uncertain"]
@@ -56,10 +56,10 @@ def uncertain_text(report, n):
             low, high = (_size(report, found[key], level["hit_miss"])
                          for key in ("a90_low", "a90_high"))
             inputs = joined([input_name(name, "") for name in found["inputs"]])
-            return (f"Not known of the machine: {inputs}. "
-                    f"Over the middle 90\u00a0% of what they may be, the size that "
-                    f"{report.names[f]} finds with 90\u00a0% probability goes from {low} to {high}; "
-                    f"more gearboxes do not tell it.")
+            return (f"Unknown for this machine: {inputs}. Over the middle 90\u00a0% of their "
+                    f"possible values, the size that {report.names[f]} finds with 90\u00a0% "
+                    f"probability ranges from {low} to {high}; more gearboxes do not narrow this "
+                    "range.")
     return None
 
 
@@ -76,7 +76,7 @@ def _rates(axes, report, cells, paint, mark, label=None, bars=True):
 
 
 def _state(report, f, n):
-    """What the curve of a feature says, for a description."""
+    """Curve of a feature in words, for a description."""
     pod = report.reliable(f, n)["hit_miss"]
     if pod["refusal"]:
         return f"{report.names[f]}: no curve ({pod['refusal']})"
@@ -151,12 +151,12 @@ def _comparison(report, page):
     svg = to_svg(figure, f"Probability of detection of every feature at "
                  f"{noise(report.levels[n])}", about, page.names)
     bound = f"a90/{number(100 * report.confidence)}"
-    how = (f"Each curve is fitted to hits and misses of single gearboxes; marks are the rates found. "
-           f"Shaded, for the three best ranked: bounds, each one-sided at "
-           f"{percent(report.confidence)}. {REJECTED} Where the lower bound passes 0.9 (dashed) "
-           f"is {bound}; "
-           + ("the upright line is the smallest one of all features." if found
-              else "no feature gets there."))
+    how = ("Each curve is fitted to the hits and misses of single gearboxes; marks are observed "
+           "detection rates. Shaded, for the three best ranked: bounds, each one-sided at "
+           f"{percent(report.confidence)}. {REJECTED} {bound} is the size at which the lower "
+           "bound passes 0.9 (dashed); "
+           + ("the vertical line is the smallest fault found by any feature." if found
+              else "no feature reaches it."))
     unknown = uncertain_text(report, n)
     if unknown:
         how += f" Hatched, for the best ranked: {unknown[0].lower()}{unknown[1:]}"
@@ -165,7 +165,7 @@ def _comparison(report, page):
 
 
 def of_feature(axes, report, f):
-    """Rates of a feature at all noise levels, with the curves where there are any."""
+    """Draws the rates of a feature at all noise levels, with the curves where they exist."""
     axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     for n, level in enumerate(report.levels):
         paint = shade(n / max(1, len(report.levels) - 1))
@@ -197,7 +197,7 @@ def _by_feature(report, page):
     how = ("Marks are detection rates with their Wilson bounds, at "
            f"{percent(report.confidence)}; lines are the fitted curves with their bounds, from blue "
            "for the least noise to red for the most. " + REJECTED
-           + (f" There is no curve for {joined(refused)}: the reasons stand with the numbers."
+           + (f" There is no curve for {joined(refused)}: the reasons are listed with the numbers."
               if refused else ""))
     reasons = table("Fitted curves", ["feature", "noise", "a50", "a90",
                                       f"a90/{number(100 * report.confidence)}", "curve"],
@@ -245,14 +245,14 @@ def heat_maps(report, page):
             for n, level in enumerate(report.levels))
         charts.append(to_svg(figure, f"Detection rate of {report.names[f]} over noise and size",
                              about, page.names))
-    how = ("Share of gearboxes that raise the alarm, by fault size (across) and noise (up): dark is "
-           "found. The column of size 0, where there is one, holds false alarms.")
+    how = ("Share of gearboxes that raise an alarm, by fault size (horizontal) and noise "
+           "(vertical); dark means that many are found. A column of size 0 shows false alarms.")
     return page.figure("Detection rate over noise and fault size", charts, how,
                        "".join(_rate_table(report, f) for f in report.order(report.reference)))
 
 
 def roc(report, page):
-    """One chart a noise level."""
+    """ROC curves, one chart per noise level."""
     charts, rows = [], []
     for n, level in enumerate(report.levels):
         figure, axes = panel(3.9)
@@ -275,17 +275,17 @@ def roc(report, page):
                          str(auc["faulty"])])
         axes.set_xlim(-0.01, 1.01)
         axes.set_ylim(-0.01, 1.02)
-        axes.set_xlabel("Share of healthy gearboxes that alarm")
-        axes.set_ylabel("Share of faulty ones that do")
+        axes.set_xlabel("False-alarm rate")
+        axes.set_ylabel("Detection rate")
         axes.set_title(f"noise × {number(level)}", fontsize=10, loc="left")
         if axes.get_legend_handles_labels()[0]:
             axes.legend(loc="lower right", title="feature, area", title_fontsize=9,
                         handlelength=2.4, labelspacing=0.25)
         charts.append(to_svg(figure, f"Receiver operating characteristic at {noise(level)}",
                              "; ".join(texts), page.names))
-    how = ("Every threshold gives a point: the further to the upper left, the better. The grey "
+    how = ("Each threshold gives one point; closer to the upper left corner is better. The grey "
            "diagonal is guessing; the dashed line is the false-alarm rate of the study. All fault "
-           "sizes together, so areas compare features but depend on which sizes were simulated.")
+           "sizes are combined, so areas compare features but depend on the simulated sizes.")
     data = table("Areas below the curves, with DeLong's intervals",
                  ["noise", "feature", "area", "healthy", "faulty"], rows)
     return page.figure("Receiver operating characteristic", charts, how, data)
@@ -327,8 +327,8 @@ def ranking(report, page):
                       for r in ranks["ranks"]) or str(ranks["refusal"])
     svg = to_svg(figure, f"Ranking of the features, by area under the ROC at "
                  f"{noise(report.levels[report.reference])}", about, page.names)
-    how = ("Probability that a faulty gearbox lies further to the alarm side than a healthy one: 1 "
-           "tells them apart always, 0.5 is chance. Best at the top, ranked at "
+    how = ("Probability that a faulty gearbox lies further to the alarm side than a healthy one: "
+           "1 is perfect separation, 0.5 is chance. Best at the top, ranked at "
            f"{noise(report.levels[report.reference])}; lines are DeLong's intervals at "
            f"{percent(report.confidence)}. {_tie(report)}")
     return page.figure("Ranking of the features", [svg], how, _ranking_tables(report))
@@ -344,8 +344,8 @@ def _tie(report):
     same = [ranks[i]["name"] for i in range(1, len(ranks))
             if ranks[0]["p_values"][i] is None or ranks[0]["p_values"][i] >= 0.05]
     if same:
-        return f"{ranks[0]['name']} leads, not told apart from {joined(same)}."
-    return f"{ranks[0]['name']} leads, told apart from all others."
+        return f"{ranks[0]['name']} has the largest area, not significantly above {joined(same)}."
+    return f"{ranks[0]['name']} has the largest area, significantly larger than all others."
 
 
 def _ranking_tables(report):
@@ -370,7 +370,7 @@ def pod(report, page):
 
 
 def over_time(report, page, groups):
-    """Share of recordings with an alarm, by time, of the three best features."""
+    """Share of recordings with an alarm over time, for the three best features."""
     names = [report.names[f] for f in report.order(report.reference)[:3]]
     middle = [0.5 * (group["first"] + group["last"]) for group in groups]
 
@@ -394,7 +394,7 @@ def over_time(report, page, groups):
              else f"{number(group['first'])} to {number(group['last'])}", str(group["recordings"])]
             + [f"{said(group, name)} ({number(group['medians'][name])})" for name in names]
             for group in groups]
-    return page.figure("Alarms over time", [svg], "All recordings that have the feature, whatever "
-                       "is known of them, against the thresholds that the healthy ones set.",
+    return page.figure("Alarms over time", [svg], "All recordings with a value of the "
+                       "feature, against the thresholds that the healthy recordings set.",
                        table("Alarms, and the feature's median", ["time", "recordings"] + names,
                              rows))

@@ -1,5 +1,4 @@
-// Detection rates as JSON, for other programs. Rates, bounds and thresholds that do not exist are
-// null.
+// Detection rates as JSON, for other programs. Missing rates, bounds and thresholds are null.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,21 +9,22 @@
 
 namespace gearpod::analysis {
 
+// JSON form:
 // {"false_alarm_rate", "confidence", "size": {"name", "unit"},
-//   "shortage": what sample_shortage() says or null,
+//   "shortage": result of sample_shortage() or null,
 //   "features": [{"name", "alarm", "warnings": [...], "levels": [{"noise_level", "threshold",
 //     "threshold_sample", "threshold_alarms", "threshold_rate": [lower, upper], "tail": null where
 //     the threshold is an order statistic, else {"extrapolation", "steady", "choices":
-//     [{"exceedances", "above", "shape", "scale", "threshold", "rate"}]}, "tilted": null unless it
-//     is from tilted records, then {"gearboxes", "carrying", "extrapolation"}, "healthy_rate",
-//     "healthy_rate_bounds", "expected_rate", "reliable_size": [low, high] or null,
+//     [{"exceedances", "above", "shape", "scale", "threshold", "rate"}]}, "tilted": null
+//     unless it is from importance sampling, then {"gearboxes", "carrying", "extrapolation"},
+//     "healthy_rate", "healthy_rate_bounds", "expected_rate", "reliable_size": [low, high] or null,
 //     "sizes": [{"size_low", "size_high", "tested", "detected", "failed", "pd", "lower",
-//     "upper", "exact": [lower, upper]}]}]}]}; sizes in their unit.
+//     "upper", "exact": [lower, upper]}]}]}]}. Sizes are in their unit.
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request,
                               Subject subject = Subject::gearboxes);
 
-// An entry of "levels" above.
+// An entry of "levels" in detection_json().
 nlohmann::json level_json(const LevelDetection& level);
 
 }  // namespace gearpod::analysis

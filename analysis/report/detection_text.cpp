@@ -15,11 +15,11 @@ namespace {
 
 using Features = std::span<const FeatureDetection>;
 
-constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
-constexpr std::size_t kCountWidth = 8;  // gearboxes or recordings, failed
+constexpr std::size_t kSizeWidth = 13;  // width of "12.00-14.00" and a gap
+constexpr std::size_t kCountWidth = 9;  // number of gearboxes or recordings, and number failed
 constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
-constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
-constexpr double kSmallRate = 0.01;     // below it three decimals say too little
+constexpr std::size_t kCellWidth = 20;  // width of "0.98 [0.96, 0.99]" and a gap
+constexpr double kSmallRate = 0.01;     // below it three decimals are too few
 
 std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
     const double low = size.low / unit.per_unit(), high = size.high / unit.per_unit();
@@ -46,7 +46,7 @@ std::size_t column_width(Features features) {
     return width;
 }
 
-// A label and one right-aligned cell per feature.
+// Adds a label and one right-aligned cell per feature.
 template <typename CellText>
 void add_row(std::string& out, const std::string& label, Features features, CellText text) {
     const std::size_t width = column_width(features);
@@ -57,7 +57,7 @@ void add_row(std::string& out, const std::string& label, Features features, Cell
     out += line + '\n';
 }
 
-// Failures may differ between features: the row shows the most, the JSON each.
+// Failures may differ between features: the row shows the largest number, the JSON all.
 long most_failed(Features features, std::size_t level, std::size_t cell) {
     long failed = 0;
     for (const FeatureDetection& feature : features) {
@@ -73,17 +73,17 @@ void add_level(std::string& out, Features features, std::size_t n, const Detecti
     add_row(out,
             fmt::format("{:<{}}{:>{}}{:>{}}",
                         has_sizes(request) ? "size " + unit.shown_unit() : kNoSize, kSizeWidth,
-                        boxes ? "boxes" : "records", kCountWidth, "failed", kCountWidth),
+                        boxes ? "gearboxes" : "records", kCountWidth, "failed", kCountWidth),
             features, [](const FeatureDetection& f) { return f.feature; });
     add_row(out, "alarm if", features,
             [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
     const char* healthy = !boxes                          ? "healthy: alarms/recordings"
-                          : request.threshold_records > 1 ? "healthy sample: alarms/records"
-                                                          : "healthy sample: alarms/boxes";
+                          : request.threshold_records > 1 ? "healthy: alarms/records"
+                                                          : "healthy: alarms/gearboxes";
     add_row(out, healthy, features, [n](const FeatureDetection& f) {
         return fmt::format("{}/{}", f.levels[n].threshold_alarms, f.levels[n].threshold_sample);
     });
-    add_row(out, "its false-alarm rate", features, [n](const FeatureDetection& f) {
+    add_row(out, "false-alarm rate, interval", features, [n](const FeatureDetection& f) {
         const Interval& rate = f.levels[n].threshold_rate;
         return std::isnan(rate.lower)    ? std::string("-")
                : rate.upper < kSmallRate ? fmt::format("[{:.1e}, {:.1e}]", rate.lower, rate.upper)
@@ -91,15 +91,15 @@ void add_level(std::string& out, Features features, std::size_t n, const Detecti
     });
     const auto beyond = [n](const FeatureDetection& f) { return f.levels[n].tail.has_value(); };
     if (std::any_of(features.begin(), features.end(), beyond)) {
-        add_row(out, "extrapolated, from most extreme", features, [&](const FeatureDetection& f) {
-            return beyond(f) ? fmt::format("{:.2g}-fold, {}", f.levels[n].tail->extrapolation,
+        add_row(out, "extrapolated, values fitted", features, [&](const FeatureDetection& f) {
+            return beyond(f) ? fmt::format("{:.2g} times, {}", f.levels[n].tail->extrapolation,
                                            f.levels[n].tail->choices.front().exceedances)
                              : std::string("no");
         });
     }
     if (std::any_of(features.begin(), features.end(),
                     [n](const FeatureDetection& f) { return f.levels[n].tilted.has_value(); })) {
-        add_row(out, "by tilted records, carried by", features, [n](const FeatureDetection& f) {
+        add_row(out, "importance sampling, gearboxes", features, [n](const FeatureDetection& f) {
             const auto& tilted = f.levels[n].tilted;
             return tilted ? fmt::format("{:.0f} of {}", tilted->carrying, tilted->gearboxes)
                           : std::string("no");
@@ -137,7 +137,7 @@ void add_reliable_sizes(std::string& out, Features features, const SizeUnit& uni
     }
 }
 
-// A warning that several features share is said once.
+// Prints a warning shared by several features once.
 void add_warnings(std::string& out, Features features) {
     std::vector<std::string> order;
     std::map<std::string, std::string> names;
@@ -155,7 +155,7 @@ void add_warnings(std::string& out, Features features) {
     }
 }
 
-// Features side by side, as many as fit the width, blocks apart by an empty line.
+// Prints as many features side by side as fit the width, in blocks separated by an empty line.
 template <typename Block>
 void in_blocks(std::string& out, Features features, Block block) {
     const std::size_t fit =
@@ -186,7 +186,7 @@ std::string detection_text(Features features, const DetectionRequest& request, S
     }
     if (has_sizes(request)) {
         out += fmt::format(
-            "\nSmallest tested size from which on the lower bound of Pd stays at {:g} or more\n",
+            "\nSmallest tested size at and above which the lower bound of Pd is at least {:g}\n",
             kReliablePd);
         in_blocks(out, features,
                   [&](Features block) { add_reliable_sizes(out, block, request.size, subject); });

@@ -1,4 +1,4 @@
-// The detection table that a reader sees in the terminal.
+// Detection table for the terminal.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace gearpod::analysis {
 
-// Per noise level: thresholds with the sample that set them and how well it fixes their rate, then
-// a row per fault size with `Pd [lower, upper]` of every feature; at most text_width() columns
-// wide, features beyond that in further blocks. Closes with the smallest tested size from which on
-// the lower bound of Pd stays at least 0.9, and the warnings. Recordings have no noise level to
-// name, and no size where faults only have a label. Ends with a newline.
+// Per noise level: the thresholds with their samples and the intervals of their false-alarm rates,
+// then a row per fault size with `Pd [lower, upper]` of every feature. Tables are at most
+// text_width() columns wide; further features follow in further blocks. Ends with the smallest
+// tested size at and above which the lower bound of Pd is at least 0.9, the warnings, and a
+// newline. Recordings have no noise level, and no size where faults have only a label.
 std::string detection_text(std::span<const FeatureDetection> features,
                            const DetectionRequest& request, Subject subject = Subject::gearboxes);
 

@@ -2,7 +2,7 @@
 //
 // combined: {"weights": [{"feature", "weight"}], "intercept", "trained_healthy",
 //   "trained_faulty", "detector", "single" (each {"name", "auc", "detection", "hit_miss"} on the
-//   held- out gearboxes), "gain" (of the area), "p_value", "left_out", "warnings", "refusal"}
+//   held-out gearboxes), "gain" (of the area), "p_value", "left_out", "warnings", "refusal"}
 // sensitivity: {"feature", "size_low", "size_high", "misses", "values": each {"gearboxes",
 //   "explained", "resolution", "terms", "inputs": [{"name", "unit", "first", "first_lower",
 //   "first_upper", "total", "total_lower", "total_upper"}], "left_out", "refusal"}}; null without a

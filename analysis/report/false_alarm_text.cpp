@@ -25,7 +25,7 @@ long largest_sample(std::span<const FeatureDetection> features, std::size_t leve
     return largest;
 }
 
-// The widest interval that is wider than as many independent recordings have (clusters.hpp); 0 if
+// Widest interval that is wider than that of as many independent recordings (clusters.hpp); 0 if
 // there is none.
 Interval clustered_rate(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {
@@ -43,7 +43,7 @@ Interval clustered_rate(std::span<const FeatureDetection> features,
     return widest;
 }
 
-// Of how many thresholds several records of each gearbox leave the rate open.
+// Text on the thresholds whose rate remains undetermined with several records of each gearbox.
 std::string unfixed_text(std::span<const FeatureDetection> features,
                          const DetectionRequest& request, double upper) {
     long open = 0, all = 0;
@@ -54,9 +54,8 @@ std::string unfixed_text(std::span<const FeatureDetection> features,
         }
     }
     return fmt::format(
-        "Healthy gearboxes differ too much beside their noise for a false-alarm rate of {:g} of {} "
-        "of the {} thresholds: it may be up to {:.2g}. It takes more gearboxes, not more records "
-        "of each.",
+        "Healthy gearboxes differ too much to ensure a false-alarm rate of {:g} for {} of the {} "
+        "thresholds: it may be up to {:.2g}. More gearboxes are needed, not more records of each.",
         request.false_alarm_rate, open, all, upper);
 }
 
@@ -65,17 +64,20 @@ Json pair_json(const Interval& bounds) {
 }
 
 std::string beyond_text(double extrapolation, bool tilted) {
-    return extrapolation > 0.0 ? fmt::format(" ({:.2g}-fold beyond the {})", extrapolation,
-                                             tilted ? "gearboxes, by tilted records" : "sample")
-                               : "";
+    return extrapolation > 0.0
+               ? fmt::format(" ({:.2g} times rarer than one in the {})", extrapolation,
+                             tilted ? "gearboxes, by importance sampling" : "sample")
+               : "";
 }
 
-// Thresholds of a study whose records are tilted, by what they rest on.
+// Numbers of thresholds by method, for a study with importance-sampled records.
 struct TiltedCounts {
     long all = 0, tilted = 0, gearboxes = 0;
-    long first = 0;            // of the first record of each gearbox: too few have the alarms
-    long plain = 0, none = 0;  // of plain records, as features have that no tilt concerns; without
-    double upper = 0.0;        // the largest rate that these leave open
+    // From the first record of each gearbox, because too few gearboxes have the alarms.
+    long first = 0;
+    // From plain records, for features without importance sampling; of these, without a threshold.
+    long plain = 0, none = 0;
+    double upper = 0.0;  // largest upper bound of the rate among the plain thresholds
 };
 
 TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
@@ -103,24 +105,23 @@ TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
     return counts;
 }
 
-// Of thresholds from plain records, "" if they keep the rate.
+// Text on thresholds from plain records; "" if they keep the rate.
 std::string plain_text(const TiltedCounts& counts, double false_alarm_rate) {
     std::string text;
     if (counts.none > 0) {
-        text = fmt::format(
-            " {} of features that the accelerometer's noise does not reach {} too "
-            "few records.",
-            counts.none, counts.none == 1 ? "has" : "have");
+        text = fmt::format(" {} for features without accelerometer noise {} too few records.",
+                           counts.none, counts.none == 1 ? "has" : "have");
     }
     if (counts.upper > 2.0 * false_alarm_rate) {
         const long with = counts.plain - counts.none;
-        text += fmt::format(" {} {} from plain records: the rate may be up to {:.2g}.", with,
-                            with == 1 ? "is" : "are", counts.upper);
+        text += fmt::format(
+            " {} {} from records without importance sampling: the rate may be up to {:.2g}.", with,
+            with == 1 ? "is" : "are", counts.upper);
     }
     return text;
 }
 
-// Which thresholds are from tilted records, and what the others rest on.
+// Text on the thresholds from importance sampling, and on the methods of the others.
 std::string tilted_text(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {
     const TiltedCounts counts = tilted_counts(features, request);
@@ -129,11 +130,13 @@ std::string tilted_text(std::span<const FeatureDetection> features,
         const double rarer =
             1.0 / (request.false_alarm_rate * static_cast<double>(counts.gearboxes));
         text = fmt::format(
-            " {} of the {} thresholds {} from {} tilted records of each of {} healthy gearboxes{}.",
+            " {} of the {} thresholds {} from importance sampling with {} records of each of {} "
+            "healthy gearboxes{}.",
             counts.tilted, counts.all, counts.tilted == 1 ? "is" : "are", request.threshold_records,
             counts.gearboxes,
             rarer > 1.0
-                ? fmt::format(", for a false-alarm rate {:.2g}-fold rarer than one in these", rarer)
+                ? fmt::format(", for a false-alarm rate {:.2g} times rarer than one in these",
+                              rarer)
                 : "");
     }
     const std::string others = counts.first > 0
@@ -142,16 +145,17 @@ std::string tilted_text(std::span<const FeatureDetection> features,
                                    : "";
     if (!others.empty()) {
         text += (counts.tilted > 0
-                     ? fmt::format(" Of {} other{} too few gearboxes have the alarms", counts.first,
+                     ? fmt::format(" For {} other{}, too few gearboxes have alarms", counts.first,
                                    counts.first == 1 ? "" : "s")
-                     : " Too few gearboxes have the alarms for thresholds from tilted records") +
-                " (`gearpod rare` asks gearboxes). " + others;
+                     : " Too few gearboxes have alarms for thresholds from importance sampling") +
+                " (`gearpod rare` samples rare gearboxes instead). " + others;
     }
     text += plain_text(counts, request.false_alarm_rate);
     return text.empty() ? "" : text.substr(1);
 }
 
-// Of gearboxes with several records each: nothing is known beyond these, whose tails go together.
+// Shortage of gearboxes with several records each. There is no extrapolation, because their tails
+// are correlated.
 std::string record_shortage(long gearboxes, long records, double false_alarm_rate,
                             double confidence) {
     const long all = gearboxes * records;
@@ -162,16 +166,17 @@ std::string record_shortage(long gearboxes, long records, double false_alarm_rat
         return "";
     }
     const std::string found =
-        all < least ? fmt::format(
-                          "a false-alarm rate of {:g} is rarer than one in them, and they go "
-                          "together too much to say what lies beyond. It takes {} of each, and {}",
-                          false_alarm_rate, each(least),
-                          each(sample_for_rate(false_alarm_rate, confidence)))
-                    : fmt::format(
-                          "they fix a false-alarm rate of {:g} to between {:.2g} and {:.2g} at "
-                          "{:g} % confidence. It takes {} of each",
-                          false_alarm_rate, rate.lower, rate.upper, 100.0 * confidence,
-                          each(sample_for_rate(false_alarm_rate, confidence)));
+        all < least
+            ? fmt::format(
+                  "a false-alarm rate of {:g} is rarer than one in them, and records of one "
+                  "gearbox are too similar to extrapolate. At least {} of each are needed, and {}",
+                  false_alarm_rate, each(least),
+                  each(sample_for_rate(false_alarm_rate, confidence)))
+            : fmt::format(
+                  "they determine a false-alarm rate of {:g} only to between {:.2g} and {:.2g} at "
+                  "{:g} % confidence. At least {} of each are needed",
+                  false_alarm_rate, rate.lower, rate.upper, 100.0 * confidence,
+                  each(sample_for_rate(false_alarm_rate, confidence)));
     return fmt::format(
         "Few records ({} of each of {} healthy gearboxes): {} for a rate of at most "
         "twice that.",
@@ -185,15 +190,16 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
     if (records > 1 && tilted) {
         const std::string others = sample_shortage(healthy, false_alarm_rate, confidence, subject);
         if (!others.empty() && static_cast<double>(healthy) < kLeastCarrying) {
-            return fmt::format("Tilted records set thresholds from {:g} gearboxes on. {}",
-                               kLeastCarrying, others);
+            return fmt::format(
+                "Importance sampling needs at least {:g} gearboxes to set thresholds. {}",
+                kLeastCarrying, others);
         }
         return others.empty()
                    ? ""
                    : fmt::format(
-                         "Tilted records carry a false-alarm rate of {:g} for features of the "
-                         "accelerometer whose alarms noise makes in 20 or more of the {} healthy "
-                         "gearboxes; the report says which. All other thresholds: {}",
+                         "Importance sampling supports a false-alarm rate of {:g} for "
+                         "accelerometer features that noise makes alarm in 20 or more of the {} "
+                         "healthy gearboxes; the report names them. All other thresholds: {}",
                          false_alarm_rate, healthy, others);
     }
     if (records > 1) {
@@ -206,19 +212,20 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
                     sample_for_rate(false_alarm_rate, confidence), 100.0 * confidence);
     if (healthy < std::min(without_law, by_law)) {
         return fmt::format(
-            "Too few healthy {} for a false-alarm rate of {:g}: {} give no threshold, so nothing "
-            "can be said of faults. It takes {}, and {}.",
+            "Too few healthy {} for a false-alarm rate of {:g}: {} give no threshold, so detection "
+            "is unknown. At least {} are needed, and {}.",
             many(subject), false_alarm_rate, healthy,
             by_law < without_law
-                ? fmt::format("{} to extrapolate to it, {} without", by_law, without_law)
+                ? fmt::format("{} with extrapolation or {} without", by_law, without_law)
                 : fmt::format("{}", without_law),
             enough);
     }
     if (healthy < without_law) {
         return fmt::format(
-            "A false-alarm rate of {:g} lies {:.2g}-fold beyond {} healthy {}: thresholds are "
-            "extrapolated by a generalised Pareto law of their {} most extreme values, and the "
-            "rate may be several times that. It takes {} without, and {}.",
+            "A false-alarm rate of {:g} is {:.2g} times rarer than one in {} healthy {}: "
+            "thresholds are extrapolated by a generalised Pareto distribution of their {} most "
+            "extreme values, and the true rate may be several times higher. Without extrapolation "
+            "at least {} are needed, and {}.",
             false_alarm_rate, 1.0 / (false_alarm_rate * static_cast<double>(healthy)), healthy,
             many(subject), exceedances_of(healthy), without_law, enough);
     }
@@ -227,8 +234,8 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
         return "";
     }
     return fmt::format(
-        "Few healthy {} for a false-alarm rate of {:g}: {} fix it to between {:.2g} and {:.2g} at "
-        "{:g} % confidence. It takes {} for a rate of at most twice that.",
+        "Few healthy {} for a false-alarm rate of {:g}: {} determine it only to between {:.2g} and "
+        "{:.2g} at {:g} % confidence. At least {} are needed for a rate of at most twice that.",
         many(subject), false_alarm_rate, healthy, rate.lower, rate.upper, 100.0 * confidence,
         sample_for_rate(false_alarm_rate, confidence));
 }
@@ -258,8 +265,9 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
         text = unfixed_text(features, request, rate.upper);
     } else if (subject == Subject::recordings && rate.upper > 2.0 * request.false_alarm_rate) {
         text = fmt::format(
-            "Recordings of few gearboxes for a false-alarm rate of {:g}: they fix it to between "
-            "{:.2g} and {:.2g} at {:g} % confidence. It takes recordings of more gearboxes.",
+            "Recordings of too few gearboxes for a false-alarm rate of {:g}: they determine it "
+            "only to between {:.2g} and {:.2g} at {:g} % confidence. Recordings of more gearboxes "
+            "are needed.",
             request.false_alarm_rate, rate.lower, rate.upper, 100.0 * request.confidence);
     }
     return without.empty() || without.size() == levels || text.empty()
@@ -276,12 +284,12 @@ bool without_threshold(std::span<const FeatureDetection> features, std::size_t l
 std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& curve,
                              const SizeGroup& tested, const SizeUnit& unit, double confidence) {
     if (!curve.refusal.empty()) {
-        return fmt::format("a90 of {} by false-alarm rate: none, {}", feature, curve.refusal);
+        return fmt::format("a90 of {} by false-alarm rate: none ({})", feature, curve.refusal);
     }
     const std::string shown = unit.shown_unit();
     std::string text = fmt::format(
-        "a90 of {}{} by false-alarm rate, with bounds at {:g} % that hold the "
-        "threshold's scatter:",
+        "a90 of {}{} by false-alarm rate, with bounds at {:g} % confidence that include the "
+        "uncertainty of the threshold:",
         feature, shown.empty() ? "" : " in " + shown, 100.0 * confidence);
     const auto size = [&](const SizeEstimate& estimate) {
         return size_estimate_text(estimate, tested.low, tested.high, unit);
@@ -297,21 +305,22 @@ std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& 
     const double rarest =
         std::min(curve.points.back().false_alarm_rate,
                  curve.unfitted.empty() ? kCurveRates.front() : curve.unfitted.back());
-    return rarest > kCurveRates.back() ? text + " rarer ones: too few healthy ones"
+    return rarest > kCurveRates.back() ? text + " rarer rates: too few healthy values"
                                        : text.substr(0, text.size() - 1);
 }
 
 std::string least_cost_text(const std::string& feature, const LeastCost& least, double confidence) {
     return fmt::format(
-        "least expected cost by {}: {:.3g} [{:.3g}, {:.3g}] a record, alarm at {:.5g}{}: "
-        "false-alarm rate {:.2g} [{:.2g}, {:.2g}], Pd {:.2f} [{:.2f}, {:.2f}] of the study's "
-        "faults, bounds together at {:g} %; without any alarm {:.3g}{}",
+        "least expected cost by {}: {:.3g} [{:.3g}, {:.3g}] per record, alarm at {:.5g}{}: "
+        "false-alarm rate {:.2g} [{:.2g}, {:.2g}], Pd {:.2f} [{:.2f}, {:.2f}] for the study's "
+        "faults, joint bounds at {:g} %; without any alarm {:.3g}{}",
         feature, least.cost, least.bounds.lower, least.bounds.upper, least.threshold,
         beyond_text(least.extrapolation, least.tilted), least.false_alarm_rate,
         least.rate_bounds.lower, least.rate_bounds.upper, least.pd, least.pd_bounds.lower,
         least.pd_bounds.upper, 100.0 * confidence, least.without,
-        least.rarest ? "; rarer alarms may cost less still, the healthy sample does not carry them"
-                     : "");
+        least.rarest
+            ? "; rarer alarms may cost even less, but the healthy sample is too small for them"
+            : "");
 }
 
 nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {

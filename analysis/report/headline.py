@@ -1,4 +1,5 @@
-"""The answer: the smallest fault found, by which feature, at which noise, and what limits it."""
+"""Headline answer: the smallest fault found, with its feature and noise level, and what limits
+it."""
 
 import math
 
@@ -7,9 +8,11 @@ import numerical_figures
 from words import (TESTED_ALONE, count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
-CARRIED = '<abbr title="the bound of a feature or noise level that finds no more">†</abbr>'
-TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
-ARCSECONDS = 180 * 3600 / math.pi  # in a radian
+CARRIED = ('<abbr title="the bound of another feature or noise level that finds no more faults">'
+           "†</abbr>")
+TESTED_SIZE = ('<abbr title="a tested size; there is no detection curve for sizes in between">*'
+               "</abbr>")
+ARCSECONDS = 180 * 3600 / math.pi  # per radian
 
 
 def promise(report):
@@ -17,7 +20,7 @@ def promise(report):
 
 
 def a_fault(report):
-    """With its article, if it has one: "a crack", "pitting"."""
+    """Name of the fault with its article, if it has one: "a crack", "pitting"."""
     return report.data.get("fault") or "a fault"
 
 
@@ -26,7 +29,7 @@ def fault(report):
 
 
 def _best_rate(report, level):
-    """Of all features, the one that finds most of the largest faults, with its cell."""
+    """Feature that finds most of the largest faults, with its cell."""
     best = None
     for f, name in enumerate(report.names):
         cells = [c for c in report.cells(f, level) if c["size_high"] > 0 and c["pd"] is not None]
@@ -36,7 +39,7 @@ def _best_rate(report, level):
 
 
 def sentence(report):
-    """The headline, as text."""
+    """Headline as text."""
     silence = report.silence()
     if silence:
         return silence
@@ -62,7 +65,7 @@ def sentence(report):
 
 
 def _noise_limit(report):
-    """How the smallest fault found depends on noise."""
+    """Text on how the smallest fault found depends on noise."""
     sizes = [(report.levels[n], report.smallest_fault(n)) for n in range(len(report.levels))]
     here = report.smallest_fault(report.reference)
     if len(sizes) < 2:
@@ -89,7 +92,7 @@ def _noise_limit(report):
 
 
 def influences(misses):
-    """Inputs that are told apart from chance, the strongest first."""
+    """Inputs with a significant influence on misses, in the given order."""
     return [i for i in misses["inputs"] if i["p_value"] is not None and i["p_value"] < 0.05]
 
 
@@ -104,7 +107,7 @@ def _input_limit(report, found):
     sizes = report.sizes.group(misses["smallest"], misses["largest"])
     if not strong:
         return (f"Misses at {sizes} ({misses['misses']} of {misses['misses'] + misses['hits']}): "
-                "no random input has an influence told apart from chance.")
+                "no random input has a significant influence.")
     texts = []
     for i in strong[:3]:
         larger = i["larger_in_misses"] >= 0.5
@@ -123,20 +126,20 @@ def _source(found):
 
 def _sample_limit(report, found):
     if not report.reliability:
-        return ("Sizes: the study is too large for detection curves, so this is one of the sizes "
-                "tested, not a size between them.")
+        return ("Sizes: the study is too large for detection curves, so this is one of the "
+                "tested sizes, not a size between them.")
     f = report.feature_number(found["feature"])
     pod = report.reliable(f, report.reference)["hit_miss"]
     if found["source"]:
-        return (f"Sizes: this is the bound of {_source(found)}, which finds no more of any tested "
-                f"size, so that it holds for {found['feature']} here as well"
-                + ("." if found["from_curve"] else "; one of the sizes tested, not a size between "
-                   "them."))
+        return (f"Sizes: this is the bound of {_source(found)}, which finds no more faults of any "
+                f"tested size, so it also holds for {found['feature']} here"
+                + ("." if found["from_curve"] else
+                   "; one of the tested sizes, not a size between them."))
     if not found["from_curve"]:
         why = pod["refusal"] or ("its goodness of fit is rejected" if pod["doubtful"]
                                  else "its curve does not reach that far")
-        return ("Sizes: no detection curve vouches for it "
-                f"({found['feature']}: {why}), so it is one of the sizes tested, not a size between them.")
+        return (f"Sizes: there is no detection curve for it ({found['feature']}: {why}), so it is "
+                "one of the tested sizes, not a size between them.")
     estimate = pod["a90"]["estimate"]
     if estimate["where"] != "reached":
         return None
@@ -146,7 +149,7 @@ def _sample_limit(report, found):
 
 
 def limits(report):
-    """What limits the answer, as sentences; empty where there is none."""
+    """Sentences on what limits the answer; empty where there is none."""
     if report.silence():
         return []
     found = report.smallest_fault(report.reference)
@@ -169,7 +172,8 @@ def threshold(report, name, n):
 
 
 def narrow_note(report):
-    """Where the table's last column has no room: the false alarms of the answer."""
+    """False alarms of the answer in words, for narrow screens where the table's last column has no
+    room."""
     found = report.smallest_fault(report.reference)
     if found is None:
         return ""
@@ -179,15 +183,15 @@ def narrow_note(report):
 
 
 def footnotes(report):
-    """What the marks in the table mean, below what limits the answer."""
+    """Explanation of the marks in the table, shown below the limits."""
     faults = [found for n in range(len(report.levels)) if (found := report.smallest_fault(n))]
     notes = []
     if not all(found["from_curve"] for found in faults):
         notes.append(TESTED_ALONE)
     carried = list(dict.fromkeys(_source(found) for found in faults if found["source"]))
     if carried:
-        notes.append(f"† the bound of {escape(joined(carried))}, which finds no more of any tested "
-                     "size.")
+        notes.append(f"† the bound of {escape(joined(carried))}, which finds no more faults of "
+                     "any tested size.")
     return "".join(f'<p class="small">{text}</p>' for text in notes)
 
 
@@ -220,7 +224,7 @@ def table(report):
 
 
 def noise_unit(report):
-    """What noise x 1 is."""
+    """Text on the noise that x 1 stands for."""
     given = report.data["noise"]
     texts = []
     if not given["sensor_m_s2"] and given["encoder_rad"] == 0:
@@ -239,7 +243,7 @@ def facts(report):
     healthy, faulty = report.sample()
     set_ = any(level["threshold"] is not None for f in report.detection for level in f["levels"])
     recorded = bool(report.data["provenance"].get("recordings"))
-    sample = "those healthy ones" if recorded else "an independent healthy sample"
+    sample = "these healthy recordings" if recorded else "an independent healthy sample"
     thresholds = (f" Thresholds from {sample} at a false-alarm rate of "
                   f"{percent(report.data['detection']['false_alarm_rate'])}." if set_ else "")
     if recorded:
@@ -251,7 +255,8 @@ def facts(report):
 
 
 def answers(report):
-    """The headline with what it takes for granted and what is not known, as texts."""
+    """Headline texts: shortage of healthy gearboxes, answer, assumptions, and epistemic
+    uncertainty."""
     speaks = report.silence() is None
     texts = [report.data["detection"]["shortage"] if speaks else None, sentence(report),
              report.data.get("assumptions"),

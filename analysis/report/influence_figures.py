@@ -1,4 +1,5 @@
-"""Which random inputs decide what is missed, and numerical against statistical error."""
+"""Figures on the influence of random inputs on misses, thresholds by condition, and a90 by
+false-alarm rate."""
 
 import math
 
@@ -11,24 +12,26 @@ MOST_CHARTS = 4
 
 
 def misses(report, page):
-    """One chart for each of the best features that has misses to look at."""
+    """Inputs of missed gearboxes, one chart for each of the best features that has enough
+    misses."""
     n = report.reference
     with_misses = [f for f in report.order(n) if not report.reliable(f, n)["misses"]["refusal"]]
     charts = [_miss_chart(report, page, f) for f in with_misses[:MOST_CHARTS]]
     refused = [f"{report.names[f]} ({report.reliable(f, n)['misses']['refusal']})"
                for f in report.order(n) if report.reliable(f, n)["misses"]["refusal"]]
-    left = (note("Not looked at: " + "; ".join(refused) + ".") if refused else "")
+    left = (note("Not analysed: " + "; ".join(refused) + ".") if refused else "")
     if not charts:
-        return note(f"No feature has misses to look at, at {noise(report.levels[n])}.") + left
+        return note("No feature has enough misses to analyse, at "
+                    f"{noise(report.levels[n])}.") + left
     tables = "".join(_miss_table(report, f, k) for f in range(len(report.names))
                      for k in range(len(report.levels))
                      if not report.reliable(f, k)["misses"]["refusal"])
-    how = ("Chance that a missed gearbox has the larger value of an input than a detected one with a "
-           "fault of the same size: right of 0.5, large values hide the fault, left of it small "
-           "ones. Lines are intervals at " + percent(report.confidence) + "; coloured inputs are "
-           "told apart from chance (5 %, all inputs of a feature together). Only one input at a "
-           "time, and only an influence in one direction, shows here.")
-    return page.figure(f"What the missed gearboxes are like at {noise(report.levels[n])}", charts,
+    how = ("Probability that a missed gearbox has a larger value of an input than a detected one "
+           "with a fault of the same size: right of 0.5 large values hide the fault, left of it "
+           "small ones. Lines are intervals at " + percent(report.confidence) +
+           "; coloured inputs have a significant influence (5 %, all inputs of a feature "
+           "together). Only the influence of single inputs in one direction is shown.")
+    return page.figure(f"Inputs of the missed gearboxes at {noise(report.levels[n])}", charts,
                        how, tables) + left
 
 
@@ -49,13 +52,13 @@ def _miss_chart(report, page, f):
                     fontsize=9)
     axes.set_ylim(len(inputs) - 0.4, -0.6)
     axes.set_xlim(0, 1)
-    axes.set_xlabel("Chance that the missed has the larger")
+    axes.set_xlabel("Probability that missed is larger")
     figure.suptitle(f"{report.names[f]}, {_range(report, found)}: {found['misses']} of "
                     f"{found['misses'] + found['hits']} missed", fontsize=10, x=0.01, ha="left")
     texts = [f"{input_name(i['name'], i['unit'])} {number(i['larger_in_misses'], 2)}"
              for i in influences(found)]
     return to_svg(figure, f"Inputs of the gearboxes that {report.names[f]} misses",
-                  "Told apart from chance: " + (joined(texts) or "none"), page.names)
+                  "Significant: " + (joined(texts) or "none"), page.names)
 
 
 def _range(report, found):
@@ -69,11 +72,11 @@ def _miss_table(report, f, n):
              p_value(i["p_value"])] for i in found["inputs"]]
     return table(f"{report.names[f]} at {noise(report.levels[n])}, {_range(report, found)}: "
                  f"{found['misses']} of {found['misses'] + found['hits']} missed",
-                 ["input", "chance that the missed has the larger", "p, adjusted"], rows)
+                 ["input", "probability that missed is larger", "p, adjusted"], rows)
 
 
 def conditions(report):
-    """Thresholds for each value of one input, where the report was asked for them."""
+    """Thresholds for each value of one input, if the report was made with them."""
     given = (report.reliability or {}).get("conditions") or []
     if not given:
         return ""
@@ -92,23 +95,23 @@ def conditions(report):
                          f"{name} {thresholds}", ["size", "detection rate"], rows)
         out += "".join(note(f"{detection['feature']}: {warning}")
                        for warning in detection["warnings"])
-    return paragraph(f"Every value of {name} has a threshold of its own, from healthy gearboxes with "
+    return paragraph(f"Each value of {name} has its own threshold, set by healthy gearboxes with "
                      "that value.") + out
 
 
 def _sizes(points, report, which):
-    """Open bounds are gaps."""
+    """Sizes of a bound over the points; NaN where the bound is open."""
     return [report.sizes.shown(p["a90"][which]["size"])
             if p["a90"][which]["where"] == "reached" else math.nan for p in points]
 
 
 def _size_text(report, estimate):
-    texts = {"below_tested": "below the sizes tested", "not_reached": "beyond the sizes tested"}
+    texts = {"below_tested": "below the tested sizes", "not_reached": "above the tested sizes"}
     return texts.get(estimate["where"]) or report.sizes.text(estimate["size"])
 
 
 def false_alarm_curves(report, page):
-    """a90 over the false-alarm rate, of the best ranked features that have one."""
+    """a90 over the false-alarm rate, for the best ranked features that have one."""
     n = report.reference
     shown = [f for f in report.order(n)
              if any(p["a90"]["estimate"]["where"] == "reached"
@@ -125,7 +128,7 @@ def false_alarm_curves(report, page):
         axes.plot(rates, _sizes(points, report, "estimate"), color=colour(f), linestyle=dash(f),
                   marker=marker(f), markersize=4, label=report.names[f])
         rows += [[report.names[f], number(p["false_alarm_rate"]), number(p["threshold"], 4),
-                  "" if p["extrapolation"] is None else f"{number(p['extrapolation'], 2)}-fold",
+                  "" if p["extrapolation"] is None else f"{number(p['extrapolation'], 2)} times",
                   *(_size_text(report, p["a90"][which]) for which in ("estimate", "lower", "upper"))]
                  for p in points]
     axes.set_xscale("log")
@@ -136,10 +139,12 @@ def false_alarm_curves(report, page):
     svg = to_svg(figure, f"Size found with 90 % probability over the false-alarm rate at "
                  f"{noise(report.levels[n])}",
                  "; ".join(f"{report.names[f]}" for f in shown), page.names)
-    how = (f"Shaded: bounds at {percent(report.confidence)} that also hold the threshold's own "
-           "scatter; where a bound or the size itself leaves the sizes tested, it is not drawn. "
-           "Rarer alarms than shown are not carried by the healthy sample.")
-    return page.figure(f"What rarer false alarms cost, at {noise(report.levels[n])}", [svg], how,
+    how = (f"Shaded: bounds at {percent(report.confidence)} that include the uncertainty of the "
+           "threshold. Sizes and bounds outside the tested sizes are not drawn. The healthy "
+           "sample is too small for rarer false alarms than shown.")
+    return page.figure("Detectable size by false-alarm rate, at "
+                       f"{noise(report.levels[n])}", [svg], how,
                        table("a90 by false-alarm rate",
-                             ["feature", "false-alarm rate", "alarm beyond", "beyond the sample",
-                              "a90", "lower bound", "upper bound"], rows))
+                             ["feature", "false-alarm rate", "alarm beyond",
+                              "rarer than one in the sample", "a90", "lower bound",
+                              "upper bound"], rows))

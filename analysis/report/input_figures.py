@@ -1,16 +1,16 @@
-"""How detection depends on every random input: shares of the variance, rates in bins, a90 as a map
-over noise and input."""
+"""Figures on the dependence of detection on every random input: shares of the variance, rates in
+bins, and a90 as a map over noise and input."""
 
 from blocks import note, table
 from charts import GAP, MUTED, between, cell, colour, legend_below, panel, to_svg
 from words import input_name, joined, noise, number, p_value, percent, quantity, rate_with_bounds
 
 MOST_CHARTS = 6
-SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # of a90
+SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
 
 
 def _headline_feature(report):
-    """Number of the feature that the headline names, else of the best ranked."""
+    """Number of the feature in the headline, otherwise of the best ranked feature."""
     found = report.smallest_fault(report.reference)
     return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
 
@@ -30,20 +30,21 @@ def sensitivity(report, page):
         tables.append(table(
             f"{what}: {indices['gearboxes']} gearboxes, {indices['terms']} terms explain "
             f"{percent(indices['explained'])}",
-            ["input", "alone", "with all others"],
+            ["input", "alone", "with interactions"],
             [[input_name(i["name"], i["unit"]),
               rate_with_bounds(i["first"], i["first_lower"], i["first_upper"]),
               rate_with_bounds(i["total"], i["total_lower"], i["total_upper"])]
              for i in indices["inputs"]]))
-    left = note("No shares of " + "; ".join(refusals) + ".") if refusals else ""
+    left = note("No shares for " + "; ".join(refusals) + ".") if refusals else ""
     if not charts:
         return left
     sizes = report.sizes.group(given["size_low"], given["size_high"])
-    how = (f"Shares of the variance that each input explains among faulty gearboxes of {sizes}, for "
-           f"{given['feature']}: alone, and together with all others (Sobol indices, with intervals "
-           f"at {percent(report.confidence)}). What no input explains is chance: noise, and what the "
-           "fitted model does not see.")
-    return page.figure(f"Which inputs decide, at {noise(report.levels[report.reference])}", charts,
+    how = (f"Share of the variance that each input explains among faulty gearboxes of {sizes}, "
+           f"for {given['feature']}: alone and including interactions (first-order and total "
+           f"Sobol indices, with intervals at {percent(report.confidence)}). The unexplained part "
+           "is noise and effects outside the fitted model.")
+    return page.figure("Influence of the inputs, at "
+                       f"{noise(report.levels[report.reference])}", charts,
                        how, "".join(tables)) + left
 
 
@@ -51,7 +52,7 @@ def _index_chart(report, page, feature, what, indices):
     inputs = indices["inputs"]
     figure, axes = panel(1.7 + 0.27 * max(1, len(inputs)))
     for offset, key, paint, mark, label in ((-0.14, "first", colour(0), "o", "alone"),
-                                            (0.14, "total", colour(1), "s", "with all others")):
+                                            (0.14, "total", colour(1), "s", "with interactions")):
         for row, i in enumerate(inputs):
             if i[f"{key}_lower"] is not None and i[f"{key}_upper"] is not None:
                 axes.plot([i[f"{key}_lower"], i[f"{key}_upper"]], [row + offset] * 2, color=paint,
@@ -69,11 +70,11 @@ def _index_chart(report, page, feature, what, indices):
     top = "; ".join(f"{input_name(i['name'], i['unit'])} {number(i['total'], 2)}"
                     for i in inputs[:4])
     return to_svg(figure, f"Shares of the variance of {what}, {feature}",
-                  f"Largest, with all others: {top}", page.names)
+                  f"Largest, with interactions: {top}", page.names)
 
 
 def _effects(report, f, n):
-    """The inputs of a feature at a noise level, those with the clearest influence first."""
+    """Inputs of a feature at a noise level, the most significant first."""
     robustness = report.reliability.get("robustness") or {}
     effects = []
     for name, entry in robustness.items():
@@ -95,15 +96,15 @@ def rates_by_input(report, page):
     shown = (_clear(effects) or effects[:3])[:MOST_CHARTS]
     if not shown:
         return note("No detection rates by input: no random input varies where detection is "
-                    "neither certain nor absent.")
+                    "neither certain nor impossible.")
     charts = [_bin_chart(report, page, f, effect) for effect in shown]
     sizes = report.sizes.group(shown[0][2]["size_low"], shown[0][2]["size_high"])
     clear = [input_name(e[0], e[1]) for e in _clear(effects)]
     how = (f"Share of faulty gearboxes of {sizes} that {report.names[f]} finds, in bins of one input "
            f"with equally many gearboxes; lines are Wilson intervals at {percent(report.confidence)}. "
-           + (f"The curve of detection changes with {joined(clear)} (likelihood ratio, 5 % for all "
-              "inputs together)." if clear
-              else "For no input does the curve of detection change by more than chance."))
+           + (f"The detection curve changes significantly with {joined(clear)} (likelihood ratio, "
+              "5 % for all inputs together)." if clear
+              else "The detection curve does not change significantly with any input."))
     data = "".join(_bin_table(report, f, effect) for effect in effects)
     return page.figure(f"Detection rate against single inputs at {noise(report.levels[n])}", charts,
                        how, data)
@@ -133,7 +134,7 @@ def _bin_chart(report, page, f, effect):
 
 
 def _axis_scale(bins, unit):
-    """A factor that keeps the axis' numbers short, and the unit with it."""
+    """Factor that keeps the numbers of the axis short, and the unit with its prefix."""
     largest = max((abs(b["high"]) for b in bins), default=0.0)
     shown = quantity(1, unit).removeprefix("1").strip()
     for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k")):
@@ -157,7 +158,7 @@ def _bin_table(report, f, effect):
 
 
 def a90_maps(report, page):
-    """a90 over noise and one input, for the inputs that matter."""
+    """a90 over noise and one input, for the inputs with a significant influence."""
     maps = report.reliability.get("a90_maps")
     if not maps:
         return ""
@@ -169,10 +170,11 @@ def a90_maps(report, page):
         return ""
     charts = [_map_chart(report, page, f, name, maps[name]) for name in shown]
     tables = [_map_table(report, f, name, maps[name]) for name in shown]
-    how = (f"Fault size that {report.names[f]} finds with 90 % probability (estimate), for gearboxes "
-           "with the given value of one input (its 5, 25, 50, 75 and 95 % quantiles, or all its "
-           "values), at each noise level. Dark: only large faults are found; ‘>’: larger than "
-           "tested, ‘<’: smaller than tested, –: no curve. Bounds stand with the numbers.")
+    how = (f"Fault size that {report.names[f]} finds with 90 % probability (estimate), for "
+           "gearboxes with the given value of one input (its 5, 25, 50, 75 and 95 % quantiles, "
+           "or all its values), at each noise level. Dark: only large faults are found; ‘>’: "
+           "larger than tested, ‘<’: smaller than tested, –: no curve. Bounds are listed with "
+           "the numbers.")
     return page.figure("Smallest fault found over noise and input", charts, how, "".join(tables))
 
 
@@ -234,7 +236,7 @@ def _map_table(report, f, name, entry):
 
 
 def combined(report, page):
-    """All features as one detector against the best single one."""
+    """All features combined compared with the best single feature."""
     given = [level.get("combined") for level in report.reliability["levels"]]
     if not any(given):
         return ""
@@ -270,7 +272,7 @@ def combined(report, page):
     svg = to_svg(figure, "Area under the ROC of all features together and of the best single one",
                  "; ".join(texts), page.names)
     bound = f"a90/{number(100 * report.confidence)}"
-    data = table("Graded on gearboxes that were held back",
+    data = table("Performance on held-out gearboxes",
                  ["noise", "best single", "its area", "combined area", "p of equal areas",
                   f"{bound} single", f"{bound} combined"], rows)
     data += "".join(table(f"Weights at {noise(report.levels[n])}, in log odds per standard deviation",
@@ -280,10 +282,11 @@ def combined(report, page):
     left = sorted({line for _, c in graded for line in c["left_out"] + c["warnings"]})
     clear = [noise(report.levels[n]) for n, c in graded
              if c["p_value"] is not None and c["p_value"] < 0.05 and (c["gain"] or 0) > 0]
-    how = ("All features as one detector (logistic regression), trained on half of the gearboxes and "
-           "graded on the other half, beside the best single feature on the same gearboxes. "
-           + (f"Together they find more at {joined(clear)}." if clear
-              else "Together they find no more than the best single one, as far as this sample tells."))
+    how = ("All features combined into one detector (logistic regression), trained on half of "
+           "the gearboxes and tested on the other half, compared with the best single feature on "
+           "the same gearboxes. "
+           + (f"The combination is significantly better at {joined(clear)}." if clear
+              else "The combination is not significantly better than the best single feature."))
     return page.figure("All features as one detector", [svg], how,
                        data + "".join(note(line) for line in left)) + refused
 

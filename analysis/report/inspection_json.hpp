@@ -1,4 +1,4 @@
-// A table of inspections' POD as JSON.
+// POD of a table of inspections as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,14 +8,15 @@
 
 namespace gearpod::analysis {
 
-// What the table is about, for text and page.
+// Names used in text and page.
 struct InspectionWords {
-    std::string table;  // its file
-    SizeUnit size;      // name and unit of the size's column
-    std::string value;  // name of what was measured
-    std::string unit;   // of responses; may be empty
+    std::string table;  // file of the table
+    SizeUnit size;      // name and unit of the size column
+    std::string value;  // name of the measured value
+    std::string unit;   // unit of responses; may be empty
 };
 
+// JSON form:
 // {"kind": "inspection", "table", "size": {"name", "unit"}, "value": {"name", "unit"},
 //  "confidence", "specimens", "repeats", "refusal",
 //  "data": {"size", "value"},

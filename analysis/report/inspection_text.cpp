@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kDigits = 4;
 
-// What both kinds of curve say of sizes.
+// Sizes common to both kinds of curve.
 struct Sizes {
     const SizeBounds &a50, &a90;
     double smallest, largest;
@@ -35,10 +35,11 @@ void add_sizes(std::string& out, const Sizes& sizes, const InspectionRequest& re
     out += row("a50", sizes.a50, sizes, unit) + row("a90", sizes.a90, sizes, unit);
     const double percent = 100.0 * request.confidence;
     const bool handbook = request.convention == BoundConvention::handbook;
-    add_wrapped(out,
-                fmt::format("a90/{:g} is a90's upper bound: {}{}", percent, bound_text(sizes.rule),
-                            handbook ? " (the handbook's convention, MIL-HDBK-1823A)" : ""),
-                0);
+    add_wrapped(
+        out,
+        fmt::format("a90/{:g} is the upper bound of a90: {}{}", percent, bound_text(sizes.rule),
+                    handbook ? " (the handbook's convention, MIL-HDBK-1823A)" : ""),
+        0);
 }
 
 void add_curve(std::string& out, double location, double scale, const Eigen::Matrix2d& covariance,
@@ -64,19 +65,19 @@ void add_hit_miss(std::string& out, const InspectionRequest& request,
     }
     add_sizes(out, {pod.a50, pod.a90, pod.smallest, pod.largest, pod.rule}, request, words.size);
     const PodCurve& curve = pod.chosen.curve;
-    add_wrapped(
-        out,
-        fmt::format("curve: {}{}; {}{}; {} curve(s) of {} within the bounds", form_text(curve.form),
-                    curve.form.free_ceiling ? fmt::format(" at {:.3g}", curve.ceiling) : "",
-                    fit_text(pod.chosen.fit), pod.doubtful ? " (rejected)" : "", pod.supported.size(),
-                    pod.candidates.size()),
-        4);
+    add_wrapped(out,
+                fmt::format("curve: {}{}; {}{}; the bounds cover {} of {} candidate curves",
+                            form_text(curve.form),
+                            curve.form.free_ceiling ? fmt::format(" at {:.3g}", curve.ceiling) : "",
+                            fit_text(pod.chosen.fit), pod.doubtful ? " (rejected)" : "",
+                            pod.supported.size(), pod.candidates.size()),
+                4);
     add_curve(out, -curve.intercept / curve.slope, 1.0 / curve.slope, pod.covariance,
               curve.form.log_size);
     if (result.repeats > 0) {
         add_wrapped(out,
-                    "Outcomes of one specimen hang together: the bounds are Wald's with the robust "
-                    "covariance of clusters.",
+                    "Repeated outcomes of one specimen are correlated: the bounds are Wald bounds "
+                    "with cluster-robust covariance.",
                     4);
     }
 }
@@ -90,7 +91,7 @@ void add_responses(std::string& out, const InspectionRequest& request,
     if (!pod.refusal.empty()) {
         add_wrapped(out, "no curve: " + pod.refusal, 4);
         if (!pod.candidates.empty()) {
-            out += "Naming both --size-scale and --response-scale fits them all the same.\n";
+            out += "To fit anyway, give both --size-scale and --response-scale.\n";
         }
         return;
     }
@@ -125,11 +126,12 @@ void add_false_calls(std::string& out, const InspectionRequest& request,
     if (!result.noise.empty()) {
         const NoiseLaw& law = result.noise.front();
         const bool high = request.alarm == Alarm::high;
-        add_wrapped(out,
-                    fmt::format("noise: {} ({:.5g}, {:.5g}), false calls by it {:.3g}",
-                                law_name(law.kind), law.first, law.second,
-                                high ? law.above(result.threshold) : law.below(result.threshold)),
-                    4);
+        add_wrapped(
+            out,
+            fmt::format("noise: {} distribution ({:.5g}, {:.5g}), false-call probability {:.3g}",
+                        law_name(law.kind), law.first, law.second,
+                        high ? law.above(result.threshold) : law.below(result.threshold)),
+            4);
     }
 }
 
@@ -156,11 +158,11 @@ void add_trade_off(std::string& out, const InspectionResult& result, const SizeU
 void add_more(std::string& out, const InspectionRequest& request, const InspectionResult& result,
               const SizeUnit& unit) {
     const double percent = 100.0 * request.confidence;
-    add_wrapped(
-        out,
-        fmt::format("At one size alone, {} specimens all found show a POD of 90 % at {:g} %.",
-                    result.all_found, percent),
-        0);
+    add_wrapped(out,
+                fmt::format("At a single size, {} specimens without a miss demonstrate a POD of 90 "
+                            "% at {:g} % confidence.",
+                            result.all_found, percent),
+                0);
     if (!request.target) {
         return;
     }
@@ -169,17 +171,17 @@ void add_more(std::string& out, const InspectionRequest& request, const Inspecti
     const std::string target = with_unit(*request.target, unit);
     if (std::isfinite(factor) && factor > 1.0) {
         add_wrapped(out,
-                    fmt::format("For a90/{:g} at {}: {:.0f} more specimens like these {} ({:.3g} "
-                                "times as many)",
+                    fmt::format("For a90/{:g} at {}: {:.0f} more specimens like these {} are "
+                                "needed ({:.3g} times as many)",
                                 percent, target,
                                 std::ceil((factor - 1.0) * static_cast<double>(result.specimens)),
                                 result.specimens, factor),
                     4);
     } else if (std::isfinite(factor)) {
-        out += fmt::format("a90/{:g} lies below {} already.\n", percent, target);
+        out += fmt::format("a90/{:g} is already below {}.\n", percent, target);
     } else {
         out +=
-            fmt::format("No number of such specimens brings a90/{:g} to {}: a90 is no smaller.\n",
+            fmt::format("More specimens cannot bring a90/{:g} to {}: a90 itself is not below it.\n",
                         percent, target);
     }
 }

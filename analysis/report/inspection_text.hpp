@@ -1,4 +1,4 @@
-// A table of inspections' POD as a reader sees it in the terminal.
+// POD of a table of inspections for the terminal.
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace gearpod::analysis {
 
-// Sizes with POD 50 and 90 % with their bounds, by which rule, the curve, its parameters and what
-// speaks against it, false calls, what other thresholds trade, and how many more specimens.
+// Report text: sizes with POD 50 and 90 % with their bounds and the rule of the bounds, the curve
+// with its parameters and warnings, false calls, the trade-off over thresholds, and the number of
+// further specimens needed.
 std::string inspection_text(const InspectionRequest& request, const InspectionResult& result,
                             const InspectionWords& words);
 

@@ -1,4 +1,4 @@
-// Numbers, reasons and sizes as all of the JSON writes them; null where there is none.
+// Conversion of numbers, reasons and sizes to JSON; null where there is no value.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ inline Json text_or_null(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-// {"where": "reached", "below_tested" or "not_reached", "size": number or null}
+// JSON form: {"where": "reached", "below_tested" or "not_reached", "size": number or null}
 inline Json to_json(const SizeEstimate& estimate) {
     const char* where[] = {"reached", "below_tested", "not_reached"};
     return {{"where", where[static_cast<int>(estimate.where)]},

@@ -1,5 +1,5 @@
-// POD curves and areas under the ROC as JSON: the entries "hit_miss", "signal_response" and "auc"
-// of reliability_json.hpp.
+// POD curves and areas under the ROC curve as JSON: the entries "hit_miss", "signal_response" and
+// "auc" of reliability_json.hpp.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
-// POD curves, areas, ranking, misses and detection by condition as JSON. Numbers that do not exist
-// are null; refusals are texts beside them, null where there is none.
+// POD curves, areas, ranking, misses and detection by condition as JSON. Missing numbers are null.
+// A "refusal" gives the reason in words, null where there is a result.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,10 +8,11 @@
 
 namespace gearpod::analysis {
 
+// JSON form:
 // {"size": {"name", "unit"}, "confidence",
 //  "levels": [{"noise_level",
 //    "smallest_fault": {"feature", "size", "from_curve",
-//      "source": {"feature", "noise_level"} whose bound it is, or null: its own} or null,
+//      "source": {"feature", "noise_level"} of the bound, or null: the feature itself} or null,
 //    "ranking": {"healthy", "faulty", "refusal", "left_out",
 //      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}, "combined", "sensitivity"}],
 //  "features": [{"name", "alarm", "levels": [{"noise_level",
@@ -24,9 +25,9 @@ namespace gearpod::analysis {
 //    "smallest_fault": as above}]}],
 //  "conditions": [...], "robustness", "a90_maps"}
 // Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},
-// the bounds one-sided. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size
+// with one-sided bounds. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size
 // or its natural logarithm.
-// Robustness, a90_maps: robustness_json.hpp; combined, sensitivity: detector_json.hpp.
+// robustness, a90_maps: robustness_json.hpp; combined, sensitivity: detector_json.hpp.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
 
 }  // namespace gearpod::analysis

@@ -13,7 +13,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr long kFewest = 10;  // healthy and faulty ones for the text to say anything
+constexpr long kFewest = 10;  // fewest healthy and faulty gearboxes for a report
 
 std::string auc_text(const Auc& auc) {
     if (std::isnan(auc.auc)) {
@@ -24,7 +24,7 @@ std::string auc_text(const Auc& auc) {
                                                       auc.bounds.lower, auc.bounds.upper);
 }
 
-// The features in order of rank, those without a rank last.
+// Features in order of rank, those without a rank last.
 std::vector<const FeatureReliability*> in_order(const Reliability& reliability, std::size_t level) {
     std::vector<const FeatureReliability*> order;
     for (const std::size_t f : in_rank_order(reliability, level)) {
@@ -64,7 +64,7 @@ void add_feature(std::string& out, const FeatureReliability& feature, std::size_
     add_wrapped(out, row, name_width + 22);
 }
 
-// What inputs that are not known leave open, beside what the number of gearboxes does.
+// Adds the uncertainty from epistemic inputs, separate from that of the number of gearboxes.
 void add_uncertain(std::string& out, const std::vector<const FeatureReliability*>& features,
                    std::size_t n, const SizeUnit& unit) {
     std::string list;
@@ -83,12 +83,13 @@ void add_uncertain(std::string& out, const std::vector<const FeatureReliability*
                             text(level.uncertain.a90_low), text(level.uncertain.a90_high));
     }
     if (inputs != nullptr) {
-        add_wrapped(out,
-                    fmt::format("NOT KNOWN of the machine, which more gearboxes do not tell: {}. "
-                                "Over the middle 90 % of what they may be, a90{} is{}",
-                                fmt::join(*inputs, ", "),
-                                unit.shown_unit().empty() ? "" : " in " + unit.shown_unit(), list),
-                    4);
+        add_wrapped(
+            out,
+            fmt::format("UNKNOWN properties of the machine, which more gearboxes do not resolve: "
+                        "{}. Over the middle 90 % of their possible values, a90{} is{}",
+                        fmt::join(*inputs, ", "),
+                        unit.shown_unit().empty() ? "" : " in " + unit.shown_unit(), list),
+            4);
     }
 }
 
@@ -106,7 +107,7 @@ void add_signal_response(std::string& out, const std::vector<const FeatureReliab
             return size_estimate_text(estimate, pod.band.front().size, pod.band.back().size, unit);
         };
         add_wrapped(out,
-                    fmt::format("a-hat against a: {} ({}): a50 {}, a90 {}, with bound {}",
+                    fmt::format("a-hat against a: {} ({}): a50 {}, a90 {}, upper bound {}",
                                 feature->feature, fit.scale.text(), text(pod.a50.estimate),
                                 text(pod.a90.estimate), text(pod.a90.upper)),
                     4);
@@ -126,20 +127,21 @@ void add_ranking(std::string& out, const FeatureRanking& ranking) {
                 same += (same.empty() ? "" : ", ") + ranking.ranks[i].name;
             }
         }
-        add_wrapped(out,
-                    same.empty()
-                        ? fmt::format("{} has the largest AUC, distinguishable from all others",
-                                      ranking.ranks.front().name)
-                        : fmt::format("{} has the largest AUC, not distinguishable from: {}",
-                                      ranking.ranks.front().name, same),
-                    4);
+        add_wrapped(
+            out,
+            same.empty()
+                ? fmt::format("{} has the largest AUC, significantly larger than all others",
+                              ranking.ranks.front().name)
+                : fmt::format("{} has the largest AUC, not significantly larger than: {}",
+                              ranking.ranks.front().name, same),
+            4);
     }
     for (const std::string& line : ranking.left_out) {
         add_wrapped(out, "not ranked: " + line, 4);
     }
 }
 
-// Of the best ranked feature, and of the feature whose alarms cost least.
+// Adds false alarms of the best ranked feature, and of the feature with the least expected cost.
 void add_false_alarms(std::string& out, const std::vector<const FeatureReliability*>& features,
                       std::size_t n, const DetectionRequest& request) {
     if (!features.empty()) {
@@ -173,9 +175,9 @@ void add_misses(std::string& out, const FeatureReliability& feature, std::size_t
         return;
     }
     const std::string range = range_text({misses.smallest, misses.largest}, unit);
-    std::string text =
-        fmt::format("misses of {} at {} ({} of {}), chance that a missed gearbox has the larger",
-                    feature.feature, range, misses.misses, misses.misses + misses.hits);
+    std::string text = fmt::format(
+        "misses of {} at {} ({} of {}), probability that a missed gearbox has the larger",
+        feature.feature, range, misses.misses, misses.misses + misses.hits);
     bool any = false;
     for (const InputInfluence& input : misses.inputs) {
         if (input.p_value < kTestLevel) {
@@ -184,35 +186,36 @@ void add_misses(std::string& out, const FeatureReliability& feature, std::size_t
             any = true;
         }
     }
-    add_wrapped(out,
-                any ? text
-                    : fmt::format("misses of {} ({} of {}): no random input has a distinguishable "
-                                  "influence",
-                                  feature.feature, misses.misses, misses.misses + misses.hits),
-                4);
+    add_wrapped(
+        out,
+        any ? text
+            : fmt::format("misses of {} ({} of {}): no random input has a significant influence",
+                          feature.feature, misses.misses, misses.misses + misses.hits),
+        4);
 }
 
 std::string basis_text(const SmallestFault& least) {
-    const std::string tested = least.from_curve ? "" : "a tested size, no curve fits";
+    const std::string tested =
+        least.from_curve ? "" : "demonstrated at a tested size, no curve fits";
     if (least.own) {
         return tested.empty() ? "" : " (" + tested + ")";
     }
-    return fmt::format(" (by the bound of {} at noise x {:g}, which finds no more of any size{})",
+    return fmt::format(" (from {} at noise x {:g}, which finds no more faults of any size{})",
                        least.source.feature, least.source.noise_level,
                        tested.empty() ? "" : "; " + tested);
 }
 
-// Of faults without a size: no curves.
-// Of how many features nothing is known, as they have no threshold at that level; "" of none.
+// Number of features without a threshold at the level, whose detection is therefore unknown; "" if
+// all have one.
 std::string silent_text(const Reliability& reliability, std::size_t n) {
     const auto silent = std::ranges::count_if(
         reliability.features,
         [&](const FeatureReliability& feature) { return !feature.levels[n].has_threshold; });
-    return silent == 0 ? ""
-                       : fmt::format(
-                             "; {} of the {} features {} no threshold, which says nothing "
-                             "of them",
-                             silent, reliability.features.size(), silent == 1 ? "has" : "have");
+    return silent == 0
+               ? ""
+               : fmt::format(
+                     "; {} of the {} features {} no threshold, so their detection is unknown",
+                     silent, reliability.features.size(), silent == 1 ? "has" : "have");
 }
 
 void add_unsized_level(std::string& out, const Reliability& reliability, std::size_t n) {
@@ -246,7 +249,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
                         percent, with_unit(least->size, unit), least->feature, basis_text(*least)),
             4);
     } else if (without_threshold(reliability, n)) {
-        out += "no threshold: nothing is known of the faults found\n";
+        out += "no threshold, so detection is unknown\n";
     } else {
         add_wrapped(
             out,
@@ -274,7 +277,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
     out += robustness_text(reliability, n, request);
 }
 
-// Gearboxes of the feature and noise level that have most.
+// Gearboxes of the feature and noise level that have the most.
 struct Sample {
     long healthy = 0, faulty = 0;
 };
@@ -290,7 +293,7 @@ Sample largest_sample(const Reliability& reliability) {
     return sample;
 }
 
-// What the figures of all levels are.
+// Description of the figures at all levels.
 std::string figures_text(const DetectionRequest& request) {
     const double percent = 100.0 * request.confidence;
     if (!has_sizes(request)) {
@@ -311,10 +314,11 @@ void add_levels(std::string& out, const Reliability& reliability, const Detectio
                 Subject subject) {
     const Sample sample = largest_sample(reliability);
     if (std::min(sample.healthy, sample.faulty) < kFewest) {
-        out += fmt::format(
-            "no POD curves, areas and ranking: {} healthy and {} faulty {} have values, "
-            "{} of each are needed\n",
-            sample.healthy, sample.faulty, many(subject), kFewest);
+        add_wrapped(out,
+                    fmt::format("no POD curves, areas and ranking: only {} healthy and {} faulty "
+                                "{} have values, {} of each are needed",
+                                sample.healthy, sample.faulty, many(subject), kFewest),
+                    4);
         return;
     }
     add_wrapped(out, figures_text(request), 0);
@@ -362,7 +366,7 @@ std::string reliability_text(const Reliability& reliability, const DetectionRequ
         std::string refusal;
         for (const ConditionDetection& detection : reliability.conditions) {
             if (!detection.refusal.empty()) {
-                refusal = detection.refusal;  // the input's, so the same for all features
+                refusal = detection.refusal;  // reason from the input, so the same for all features
                 continue;
             }
             add_condition(out, detection, request.size);

@@ -1,8 +1,9 @@
-"""The report's JSON (gearpod report --json), with what several parts of the page ask of it."""
+"""The report's JSON (gearpod report --json), with derived values used by several parts of the
+page."""
 
 from words import Sizes
 
-FEWEST = 10  # healthy and faulty gearboxes below which nothing is said of detection
+FEWEST = 10  # fewest healthy and faulty gearboxes for statements on detection
 
 
 class Report:
@@ -20,7 +21,7 @@ class Report:
         return self.data.get("title") or "Detection study"
 
     def reliable(self, feature, level):
-        """What the reliability part says of a feature at a noise level, by number."""
+        """Entry of a feature at a noise level in the reliability part, by number."""
         return self.reliability["features"][feature]["levels"][level]
 
     def cells(self, feature, level):
@@ -32,8 +33,8 @@ class Report:
     def smallest_fault(self, level):
         if self.reliability:
             return self.reliability["levels"][level]["smallest_fault"]
-        # Without curves: from which tested size on the rates alone vouch for a feature.
-        # Of equal ones the feature that finds most.
+        # Without curves: the smallest size demonstrated by the tested rates alone. Of equal sizes,
+        # the feature that finds most.
         tested = [(at["reliable_size"][1], -sum(cell["pd"] or 0 for cell in at["sizes"]), name)
                   for name, at in ((f["name"], f["levels"][level]) for f in self.detection)
                   if at["reliable_size"]]
@@ -43,14 +44,15 @@ class Report:
         return {"feature": name, "size": size, "from_curve": False, "source": None}
 
     def without_threshold(self, level):
-        """That no size is found then says nothing."""
+        """True if no feature has a threshold at the level; a missing smallest fault then carries no
+        information."""
         return all(f["levels"][level]["threshold"] is None for f in self.detection)
 
     def unit(self, name):
         return self.data["features"][self.feature_number(name)]["unit"]
 
     def order(self, level):
-        """Numbers of the features, the best ranked first, those without a rank last."""
+        """Numbers of the features in order of rank, those without a rank last."""
         if not self.reliability:
             return list(range(len(self.names)))
         ranks = [rank["name"] for rank in self.reliability["levels"][level]["ranking"]["ranks"]]
@@ -58,7 +60,8 @@ class Report:
         return ranked + [f for f in range(len(self.names)) if f not in ranked]
 
     def sample(self):
-        """Healthy and faulty gearboxes with a value, of the feature and noise that have most."""
+        """Number of healthy and of faulty gearboxes with a value, for the feature and noise that
+        have most."""
         healthy = faulty = 0
         for feature in self.detection:
             for level in feature["levels"]:
@@ -70,21 +73,21 @@ class Report:
         return healthy, faulty
 
     def silence(self):
-        """Why nothing can be said of detection, or None."""
+        """Reason why detection cannot be assessed, or None."""
         healthy, faulty = self.sample()
         if not self.names or not self.levels:
             return "The study computes no feature, so there is nothing to detect a fault with."
         if healthy == 0 and faulty == 0:
-            return "No gearbox has a value of any feature, so nothing can be said of detection."
+            return "No gearbox has a value of any feature, so detection cannot be assessed."
         if faulty == 0:
-            return ("No gearbox of this study has a fault, so it says nothing of detection: only "
-                    "what healthy gearboxes look like.")
+            return ("No gearbox of this study has a fault, so detection cannot be assessed; only "
+                    "healthy gearboxes are shown.")
         if healthy == 0:
-            return ("No healthy gearbox has a value, so no alarm threshold can be set and nothing "
-                    "can be said of detection.")
+            return ("No healthy gearbox has a value, so no alarm threshold can be set and "
+                    "detection cannot be assessed.")
         if all(self.without_threshold(n) for n in range(len(self.levels))):
             return self.data["detection"]["shortage"]
         if min(healthy, faulty) < FEWEST:
-            return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; fewer than "
-                    f"{FEWEST} of a kind say too little of detection to be judged.")
+            return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; at least "
+                    f"{FEWEST} of each are needed to assess detection.")
         return None

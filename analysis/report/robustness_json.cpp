@@ -36,7 +36,7 @@ const InputEffect* effect_of(const LevelReliability& level, const std::string& i
     return nullptr;
 }
 
-// Every input that varies among the graded gearboxes of any feature: name and unit.
+// Name and unit of every input that varies among the graded gearboxes of any feature.
 std::vector<std::pair<std::string, std::string>> inputs_of(const Reliability& reliability) {
     std::vector<std::pair<std::string, std::string>> inputs;
     for (const FeatureReliability& feature : reliability.features) {
@@ -100,7 +100,7 @@ Json by_feature(const Reliability& reliability, LevelJson json_of) {
     return features;
 }
 
-// All faulty gearboxes at every noise level.
+// Detection of all faulty gearboxes at every noise level.
 Json noise_json(const Reliability& reliability, double confidence) {
     Json features = Json::array();
     for (const FeatureReliability& feature : reliability.features) {

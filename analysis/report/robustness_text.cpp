@@ -10,14 +10,14 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kShare = 0.01;  // of the variance, from which on an input is named
+constexpr double kShare = 0.01;  // smallest share of the variance for which an input is named
 
 std::string a90_text(const HeldOutDetector& detector, const SizeUnit& unit) {
     const HitMissPod& pod = detector.pod;
     if (!pod.refusal.empty()) {
         return "no curve";
     }
-    return fmt::format("a90 {}, with bound {}",
+    return fmt::format("a90 {}, upper bound {}",
                        size_estimate_text(pod.a90.estimate, pod.smallest, pod.largest, unit),
                        size_estimate_text(pod.a90.upper, pod.smallest, pod.largest, unit));
 }
@@ -37,9 +37,8 @@ void add_combined(std::string& out, const CombinedDetector& combined, const Size
     }
     add_wrapped(
         out,
-        fmt::format("combined detector, on the half that it was not trained on: "
-                    "AUC {:.3f} "
-                    "(gain {:+.3f} over {}, {}), {}; {}: {}; weights {}",
+        fmt::format("combined detector, tested on the held-out half: AUC {:.3f} (gain {:+.3f} over "
+                    "{}, {}), {}; {}: {}; weights {}",
                     combined.combined.auc.auc, combined.combined.auc.auc - combined.single.auc.auc,
                     combined.single.name,
                     std::isnan(combined.p_value) ? std::string("not testable")
@@ -73,14 +72,13 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
     std::stable_sort(mattering.begin(), mattering.end(),
                      [](const auto* a, const auto* b) { return a->statistic > b->statistic; });
     const std::string shown = unit.shown_unit();
-    add_wrapped(
-        out,
-        fmt::format("{} against its inputs: Pd at {} in the lowest and highest fifth of each "
-                    "that matters; a90{} at its 5, 50 and 95 % quantile",
-                    feature.feature, range_text({effects.smallest, effects.largest}, unit),
-                    shown.empty() ? "" : " in " + shown),
-        4);
-    // Names on lines of their own, with p, where they and the numbers are too wide for one.
+    add_wrapped(out,
+                fmt::format("{} by random input: Pd at {} in the lowest and highest fifth of each "
+                            "significant input; a90{} at its 5, 50 and 95 % quantiles",
+                            feature.feature, range_text({effects.smallest, effects.largest}, unit),
+                            shown.empty() ? "" : " in " + shown),
+                4);
+    // Names are on separate lines, with p, if they and the numbers are too wide for one line.
     constexpr std::size_t kNumbers = 84;
     const bool apart = width + kNumbers > text_width();
     const auto row = [&](const std::string& name, const std::string& p, const auto&... numbers) {
@@ -116,12 +114,13 @@ void add_sensitivity(std::string& out, const LevelSensitivity& sensitivity, cons
                                 index.total_bounds.lower, index.total_bounds.upper);
         }
     }
-    add_wrapped(out,
-                fmt::format("share of the variance of {}'s misses at {} ({} of them; Sobol, first "
-                            "order and total):{}; all inputs {:.2f}, the rest is noise",
-                            sensitivity.feature, range_text(sensitivity.sizes, unit), misses.count,
-                            list.empty() ? " no input above 0.01" : list, misses.explained),
-                4);
+    add_wrapped(
+        out,
+        fmt::format("share of the variance of {}'s misses at {} ({} gearboxes; Sobol indices, "
+                    "first order and total):{}; all inputs {:.2f}, the rest is noise",
+                    sensitivity.feature, range_text(sensitivity.sizes, unit), misses.count,
+                    list.empty() ? " no input above 0.01" : list, misses.explained),
+        4);
 }
 
 }  // namespace

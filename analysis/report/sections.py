@@ -1,4 +1,4 @@
-"""The sections of the page below the answer."""
+"""Sections of the page below the answer."""
 
 import detection_figures
 import influence_figures
@@ -16,8 +16,9 @@ def detection(report, page):
     if report.reliability and report.silence() is None:
         body += detection_figures.pod(report, page)
     else:
-        body += note(report.silence() or "No detection curves, areas and ranking: they need the "
-                     "values of all gearboxes at once, and this study has too many.")
+        body += note(report.silence() or
+                     "No detection curves, areas and ranking: they need the values of all "
+                     "gearboxes at once, and this study has too many.")
     tested = any(c["tested"] for f in report.detection for level in f["levels"]
                  for c in level["sizes"])
     if tested:
@@ -41,7 +42,7 @@ def inputs(report, page):
     by_condition = influence_figures.conditions(report)
     if by_condition:
         body += "<h3>Thresholds by operating condition</h3>" + by_condition
-    return page.section("misses", "What makes a fault be missed", body)
+    return page.section("misses", "Why faults are missed", body)
 
 
 def signals(report, page):
@@ -80,13 +81,13 @@ def stiffness(report, page):
 def _tail_row(feature, level, choice):
     first = choice is level["tail"]["choices"][0]
     return [feature["name"], f"× {number(level['noise_level'])}",
-            f"{number(level['tail']['extrapolation'], 2)}-fold" if first else "",
+            f"{number(level['tail']['extrapolation'], 2)} times" if first else "",
             count(choice["exceedances"]), number(choice["above"], 4), number(choice["shape"], 2),
             number(choice["threshold"], 4), number(choice["rate"], 2)]
 
 
 def _costs(report):
-    """The threshold of least expected cost at the noise shown, if costs were given."""
+    """Thresholds of least expected cost at the noise shown, if costs were given."""
     n = report.reference
     rows = []
     for f in report.order(n):
@@ -99,7 +100,7 @@ def _costs(report):
                          f"{number(least['bounds'][1])}]", number(least["without"])])
     if not rows:
         return ""
-    return table(f"Thresholds of least expected cost a record, at {noise(report.levels[n])}",
+    return table(f"Thresholds of least expected cost per record, at {noise(report.levels[n])}",
                  ["feature", "alarm beyond", "false-alarm rate", "Pd of the study's faults", "cost",
                   "without any alarm"], rows)
 
@@ -122,34 +123,36 @@ def thresholds(report, page):
                 tilted.append([feature["name"], f"× {number(level['noise_level'])}",
                                count(level["tilted"]["gearboxes"]),
                                number(level["tilted"]["carrying"], 3),
-                               f"{number(level['tilted']['extrapolation'], 2)}-fold"])
+                               f"{number(level['tilted']['extrapolation'], 2)} times"])
     units = ", ".join(f"{f['name']} in {f['unit']}" for f in report.data["features"]
                       if f["unit"] not in ("", "1"))
     body = paragraph(
-        f"Thresholds are set on a healthy sample of their own for a false-alarm rate of "
+        "Thresholds are set on a separate healthy sample for a false-alarm rate of "
         f"{percent(report.data['detection']['false_alarm_rate'])}; intervals are at "
         f"{percent(report.confidence)}." + (f" Units: {units}; others are pure numbers." if units else ""))
     body += ('<details><summary>Thresholds of every feature and noise level</summary>'
-             + table("Alarm thresholds", ["feature", "noise", "alarm if", "alarms in the sample",
-                                          "its false-alarm rate", "with graded healthy gearboxes"], rows)
+             + table("Alarm thresholds",
+                     ["feature", "noise", "alarm if", "alarms in the healthy sample",
+                      "false-alarm rate, interval", "with graded healthy gearboxes"], rows)
              + "</details>")
     if report.reliability and report.silence() is None:
         body += influence_figures.false_alarm_curves(report, page) + _costs(report)
     if extrapolated:
-        body += (note("Thresholds beyond the healthy sample are extrapolated by a generalised Pareto law "
-                      "of its most extreme values.")
-                 + "<details><summary>How far, and what fewer values would have said</summary>"
+        body += (note("Thresholds beyond the healthy sample are extrapolated by a generalised "
+                      "Pareto distribution of its most extreme values.")
+                 + "<details><summary>How far, and results with fewer values</summary>"
                  + table("Extrapolated thresholds",
-                         ["feature", "noise", "beyond the sample", "values fitted", "that lie beyond",
-                          "shape", "threshold", "rate expected of the threshold set"], extrapolated)
+                         ["feature", "noise", "rarer than one in the sample", "values fitted",
+                          "fitted above", "shape", "threshold",
+                          "expected rate of the threshold used"], extrapolated)
                  + "</details>")
     if tilted:
-        body += (note("Thresholds from tilted records: most have a stretch of noise drawn towards an alarm, "
-                      "and a weight that undoes it.")
-                 + "<details><summary>Which, and how many gearboxes carry them</summary>"
-                 + table("Thresholds from tilted records",
-                         ["feature", "noise", "healthy gearboxes", "of which carry the rate",
-                          "rarer than one in these"], tilted)
+        body += (note("Thresholds by importance sampling (exponential tilting): in most records "
+                      "part of the noise is drawn towards an alarm, and a weight corrects for it.")
+                 + "<details><summary>Which, and from how many gearboxes</summary>"
+                 + table("Thresholds by importance sampling",
+                         ["feature", "noise", "healthy gearboxes", "effective number",
+                          "rate rarer than one in these"], tilted)
                  + "</details>")
     body += '<details><summary>What the features are</summary>' + table(
         "Features", ["feature", "unit", "alarms when", "definition"],
@@ -174,8 +177,8 @@ def failures(report, page):
     failed = given["diverged"] + given["not_settled"]
     body = paragraph(
         f"{count(failed)} of {plural(given['gearboxes'], 'gearbox', 'gearboxes')} failed: "
-        f"{count(given['diverged'])} diverged, {count(given['not_settled'])} did not settle. Failed "
-        "ones are counted, and stand for neither a detection nor a miss.")
+        f"{count(given['diverged'])} diverged, {count(given['not_settled'])} did not converge to "
+        "the periodic orbit. Failed gearboxes count neither as detected nor as missed.")
     if given["first_rows"]:
         meaning = dict(part.strip().split(" ", 1) for part in given["status_meanings"].split(","))
         named = ", ".join(f"{row['row']} ({meaning.get(str(row['status']), row['status'])})"
@@ -185,27 +188,27 @@ def failures(report, page):
     without = [f"{f['name']} at {noise(level)}: {count(number_)}" for f in given["no_value"]
                for level, number_ in zip(report.levels, f["gearboxes"]) if number_]
     if without:
-        body += paragraph("Gearboxes that worked, but for which a feature has no value (not a "
-                          "number):") + bullets(without)
+        body += paragraph("Gearboxes that did not fail, but for which a feature has no value "
+                          "(not a number):") + bullets(without)
     elif given["gearboxes"] > failed:
-        body += paragraph("Every feature has a value for every gearbox that worked.")
+        body += paragraph("Every feature has a value for every gearbox that did not fail.")
     warnings = [f"{f['name']}: {warning}" for f in report.detection for warning in f["warnings"]]
     if warnings:
         body += paragraph("Warnings:") + bullets(warnings)
     return page.section("failures", "Failures and warnings", body)
 
 
-# Too long for a table.
+# Entries too long for a table.
 _LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes"]
 
 
 def _watched(report):
-    """What a monitor says that sees the recordings one after another."""
+    """HTML on monitoring the recordings in sequence."""
     data = report.data.get("monitoring")
     if not data:
         return ""
     if data["refusal"]:
-        return paragraph("Not watched one after another: " + data["refusal"] + ".")
+        return paragraph("No monitoring in time order: " + data["refusal"] + ".")
     rows = []
     for one in data["watched"]:
         if one["threshold"] is None:
@@ -218,17 +221,18 @@ def _watched(report):
                              f"{gearbox['alarms']} of {gearbox['recordings']}",
                              f"{number(first['time'])} ({first['recording'].split('/')[-1]})"
                              if first else "none"])
-    return (paragraph("One after another, against each gearbox's first "
-                      f"{data['baseline_records']} recordings; thresholds at a false-alarm rate of "
-                      f"{number(data['false_alarm_rate'])}; every alarm starts the detector anew."
+    return (paragraph("Recordings in time order, compared with each gearbox's first "
+                      f"{data['baseline_records']} recordings; thresholds at a false-alarm rate "
+                      f"of {number(data['false_alarm_rate'])}; the detector restarts after every "
+                      "alarm."
                       + (f" Here {data['note']}." if data["note"] else ""))
-            + table("Watched one after another",
+            + table("Monitoring in time order",
                     ["feature", "detector", "threshold", "healthy alarms", "later alarms",
                      "first alarm"], rows))
 
 
 def over_time(report, page):
-    """Of measured recordings whose times are known."""
+    """Section on measured recordings with known times."""
     groups = report.data.get("over_time")
     if not groups:
         return ""
@@ -248,7 +252,7 @@ def provenance(report, page):
         rows.insert(0, ["results file", report.data["results"]])
     body = table("Where the numbers come from", ["entry", "value"], rows)
     if report.data["timing"]:
-        body += "<details><summary>Where the time went</summary>" + table(
+        body += "<details><summary>Computing time</summary>" + table(
             "Seconds; thread seconds are sums over all threads", ["part", "s"],
             [[name.replace("_", " ").removesuffix(" s"), number(value)]
              for name, value in sorted(report.data["timing"].items())]) + "</details>"

@@ -1,4 +1,4 @@
-"""What the two example gearboxes send, and how stiff their teeth are."""
+"""Figures of the signals of the two example gearboxes, and of the mesh stiffness."""
 
 from blocks import note, paragraph, table
 from charts import INK, NOISY, colour, dash, legend_above, panel, shade, to_svg
@@ -23,7 +23,7 @@ def _turn(gearbox, key):
 
 
 def _time_charts(report, page, key, scale, axis, what):
-    """One chart a gearbox, on one scale."""
+    """One chart per gearbox, all with the same scale."""
     gearboxes = [g for g in report.data["examples"]["gearboxes"] if g[key]]
     level = report.data["examples"]["noise_level"]
     largest = max(abs(v) for g in gearboxes for part in ("clean", "noisy")
@@ -63,14 +63,14 @@ def _time_charts(report, page, key, scale, axis, what):
 def sensor(report, page):
     charts, data = _time_charts(report, page, "sensor", 1.0, "Acceleration, m/s²",
                                 "Sensor signal over one turn")
-    how = ("What the sensor measures, behind its low-pass filter, over one turn of the monitored "
-           "gear. Shaded: the faulty tooth is in mesh. Long signals are drawn by the smallest and "
-           "largest value of each stretch, so no peak is lost.")
+    how = ("Sensor signal after its low-pass filter over one turn of the monitored gear. Shaded: "
+           "the faulty tooth is in mesh. Long signals are drawn by the smallest and largest "
+           "value of each interval, so no peak is lost.")
     return page.figure("Sensor signal", charts, how, data)
 
 
 def contact_loss(report):
-    """Share of time out of contact of every mesh; nothing where teeth cannot part."""
+    """Table of the contact loss ratio of every mesh; empty where teeth cannot separate."""
     meshes = report.data.get("contact_loss")
     if not meshes:
         return ""
@@ -88,8 +88,8 @@ def transmission_error(report, page):
     charts, data = _time_charts(report, page, "te", 1e6, "Transmission error, µrad",
                                 "Transmission error over one turn")
     how = ("Averaged transmission error over one turn of the monitored gear, mean removed, as in "
-           "Park et al. (2016), Fig. 11. Shaded: the faulty tooth is in mesh, which a fault of consequence "
-           "sets apart from its neighbours.")
+           "Park et al. (2016), Fig. 11. Shaded: the faulty tooth is in mesh; a large fault "
+           "makes it differ from its neighbours.")
     return page.figure("Transmission error", charts, how, data)
 
 
@@ -109,10 +109,11 @@ def spectrum(report, page):
         tables.append(table(f"Largest lines without noise around the largest of all, "
                             f"{_name(report, g)}",
                             ["frequency, Hz", "mesh frequencies", "amplitude, m/s²"], rows))
-    how = ("One-sided amplitudes over the whole span that windowing looks at, where every tooth of "
-           "the monitored gear has met every tooth of its mate; of many lines the largest of each "
-           "stretch. The second row looks closer, around each gearbox's largest line: sidebands "
-           "between the lines of the healthy gearbox tell a fault. The scale is logarithmic.")
+    how = ("One-sided amplitudes over the whole windowing span, in which every tooth of the "
+           "monitored gear meets every tooth of its mate; of dense lines the largest of each "
+           "interval is drawn. The second row is enlarged around each gearbox's largest line: "
+           "sidebands between the lines of the healthy gearbox indicate a fault. The scale is "
+           "logarithmic.")
     return page.figure("Spectrum of the sensor signal", charts, how, "".join(tables)
                        + note("The drawn points are in the JSON, examples.gearboxes.spectrum."))
 
@@ -180,9 +181,9 @@ def tooth_rms(report, page):
             f"{number(values[worst] / (_median(values) or 1), 4)} times the median", page.names))
     count = max((len(c) for c in columns), default=0)
     rows = [[str(i + 1)] + [number(c[i], 4) for c in columns] for i in range(count)]
-    how = ("Windowing gathers what the sensor hears of each tooth, as in Liang (2016), Fig. 5.8. A "
-           "faulty tooth stands out; window_ratio is the largest value over the median. Teeth are "
-           "counted from the first window.")
+    how = ("Windowing collects the sensor signal of each tooth, as in Liang (2016), Fig. 5.8. A "
+           "faulty tooth stands out; window_ratio is the largest value over the median. Teeth "
+           "are counted from the first window.")
     return page.figure("RMS of each tooth's signal", charts, how,
                        table("RMS of each tooth's signal", head, rows))
 
@@ -196,7 +197,7 @@ def _median(values):
 
 
 def gearbox_table(report):
-    """Which gearboxes the examples are."""
+    """Inputs and features of the example gearboxes."""
     gearboxes = report.data["examples"]["gearboxes"]
     level = report.data["examples"]["noise_level"]
     rows = []
@@ -212,7 +213,8 @@ def gearbox_table(report):
 
 
 def stiffness(report, page):
-    """Healthy pairs over a mesh period, and the faulty pair while its faulty tooth passes."""
+    """Stiffness of healthy pairs over a mesh period, and of the faulty pair while its faulty tooth
+    is engaged."""
     given = report.data["stiffness"]
     out, charts, rows = "", [], []
     figure, axes = panel(3.0)
@@ -236,14 +238,15 @@ def stiffness(report, page):
         chart, passage_rows = _passage(report, page, passage)
         charts.append(chart)
         faults += passage_rows
-    how = ("A pair is stiff while two teeth share the load and soft while one bears it. sp1 is the "
-           "sun with planet 1, rp1 the ring with planet 1, m1 the pair of fixed shafts; pairs of a "
-           "kind differ in phase alone. " + (
-               "While the faulty tooth passes, its pair is softer, the more the larger the fault."
+    how = ("A gear pair is stiff while two tooth pairs share the load and soft while one carries "
+           "it. sp1 is the sun with planet 1, rp1 the ring with planet 1, m1 the pair of fixed "
+           "shafts; pairs of one kind differ only in phase. " + (
+               "While the faulty tooth is in mesh, its pair is softer, and more so for larger "
+               "faults."
                if given["passages"] else "The study names no fault, so there is no faulty pair."))
     data = table("Healthy pairs, GN/m", ["pair", "smallest", "mean of the points", "largest"], rows)
     if faults:
-        data += table("While the faulty tooth passes, GN/m",
+        data += table("While the faulty tooth is in mesh, GN/m",
                       ["pair", "size", "smallest", "largest loss"], faults)
     return out + page.figure("Mesh stiffness", charts, how, data
                              + note("The drawn points are in the JSON, stiffness."))
@@ -277,17 +280,18 @@ def _passage(report, page, passage):
     axes.set_title(f"{passage['pair']} with the faulty tooth", fontsize=10, loc="left")
     axes.legend(loc="lower right", ncol=2, fontsize=8, columnspacing=1, handlelength=1.5)
     about = "; ".join(f"{r[1]}: smallest {r[2]} GN/m, loses up to {r[3]}" for r in rows)
-    return to_svg(figure, f"Stiffness of {passage['pair']} while the faulty tooth passes", about,
-                  page.names), rows
+    return to_svg(figure, f"Stiffness of {passage['pair']} while the faulty tooth is in mesh",
+                  about, page.names), rows
 
 
 def same_bits(report):
-    """Whether what was computed again is what the results hold."""
+    """Text that tells whether the gearboxes computed again have the features of the results
+    file."""
     gearboxes = report.data["examples"]["gearboxes"]
     other = [str(g["row"]) for g in gearboxes if not g["same_bits"]]
     if other:
-        return ("Computed again, the features of row " + " and ".join(other) + " differ from those "
-                "in the results file: another version of the program made it, so the signals below "
-                "are not exactly those that were graded.")
+        return ("Computed again, the features of row " + " and ".join(other) +
+                " differ from those in the results file: another version of the program made it, "
+                "so the signals below are not exactly those of the results.")
     return ("The gearboxes were computed again from the study in the results file; their features "
             "have the same bits as those in it.")

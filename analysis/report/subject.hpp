@@ -1,4 +1,4 @@
-// What the rows of a report are, and so what it calls them.
+// Kind of the rows of a report, and the word for them.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ inline std::string many(Subject subject) {
     return subject == Subject::gearboxes ? "gearboxes" : "recordings";
 }
 
-// The size's name where faults have none, only a label.
+// Name of the size where faults have no size, only a label.
 inline constexpr const char* kNoSize = "label";
 inline bool has_sizes(const DetectionRequest& request) {
     return request.size.name != kNoSize;

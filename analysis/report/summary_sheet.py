@@ -1,4 +1,5 @@
-"""A report on one sheet of A4, as PDF: the answer, how it depends on noise, and what limits it."""
+"""Summary of a report on one A4 sheet as PDF: the answer, its dependence on noise, and what limits
+it."""
 
 import io
 import warnings
@@ -21,8 +22,8 @@ SCALES = (1.0, 0.94, 0.88, 0.82, 0.76, 0.7, 0.64, 0.58, 0.52)
 
 
 class Sheet:
-    """Texts from the top down, wrapped by their measured width; `y` is the next line's top, in
-    inches from the top."""
+    """Places texts from the top down, wrapped by their measured width. `y` is the top of the next
+    line, in inches from the top of the sheet."""
 
     def __init__(self, scale):
         self.figure = Figure(figsize=(WIDTH, HEIGHT), facecolor=PAPER)
@@ -35,7 +36,7 @@ class Sheet:
         return self.renderer.get_text_width_height_descent(text, font, False)[0] / self.figure.dpi
 
     def lines(self, text, size, weight, room):
-        """A word that is wider than the room alone is broken."""
+        """Breaks a text into lines. A word wider than the room is split."""
         out, line = [], ""
         for word in text.split(" "):
             while self.width(word, size, weight) > room:
@@ -56,7 +57,8 @@ class Sheet:
                          color=colour, va="top", ha="left", parse_math=False)
 
     def text(self, text, size, weight="normal", colour=INK, indent=0.0, mark="", bar=None):
-        """A paragraph; `mark` hangs left of it, `bar` is the colour of a line beside it."""
+        """Adds a paragraph. `mark` is a bullet to its left; `bar` is the colour of a vertical line
+        to its left."""
         size *= self.scale
         step, top = 1.32 * size / 72, self.y
         if mark:
@@ -73,8 +75,8 @@ class Sheet:
         self.y += inches * self.scale
 
     def table(self, head, rows, bold):
-        """`bold`: the number of the row that is shown so. Columns as wide as they need, smaller
-        where they need more than there is."""
+        """Adds a table; `bold` is the number of the row shown in bold. Columns have the width they
+        need; the font shrinks if the table is too wide."""
         size = 9 * self.scale
 
         def widths():
@@ -98,14 +100,14 @@ class Sheet:
             self.y += 0.02
 
     def axes(self, left, right, height):
-        """Shares of the sheet's width between the margins."""
+        """Adds axes; `left` and `right` are shares of the width between the margins."""
         room = WIDTH - 2 * MARGIN
         return self.figure.add_axes(((MARGIN + left * room) / WIDTH, 1 - (self.y + height) / HEIGHT,
                                      (right - left) * room / WIDTH, height / HEIGHT))
 
 
 def _chosen(report):
-    """Noise levels in the table: all, or the one that is shown and others evenly."""
+    """Noise levels in the table: all, or the reference level and others spaced evenly."""
     count = len(report.levels)
     if count <= MOST_LEVELS:
         return list(range(count))
@@ -137,7 +139,7 @@ def _table(sheet, report):
 
 
 def _by_noise(axes, report):
-    """The smallest fault found over noise, by any feature."""
+    """Draws the smallest fault found by any feature over noise."""
     largest = max((c["size_high"] for f in report.detection for level in f["levels"]
                    for c in level["sizes"]), default=0.0)
     found = [report.smallest_fault(n) for n in range(len(report.levels))]
@@ -166,7 +168,7 @@ def _figures(sheet, report, height):
     level = report.reference
     found = report.smallest_fault(level)
     best = report.feature_number(found["feature"]) if found else report.order(level)[0]
-    axes = height - 0.75  # titles and labels stand outside
+    axes = height - 0.75  # titles and labels are outside the axes
     sheet.y += 0.25
     detection_figures.of_feature(sheet.axes(0.075, 0.48, axes), report, best)
     _by_noise(sheet.axes(0.6, 1.0, axes), report)
@@ -184,7 +186,8 @@ def _provenance(report):
 
 
 def _filled(report, scale):
-    """The sheet, and how far its last line is above the lower margin (inches)."""
+    """The sheet, and the distance of its last line from the lower margin (inches); negative if it
+    does not fit."""
     speaks = report.silence() is None
     sheet = Sheet(scale)
     sheet.text(report.title(), 10, colour=MUTED)
@@ -197,7 +200,7 @@ def _filled(report, scale):
     if speaks:
         _table(sheet, report)
     above, sheet.y = sheet.y, 0.0
-    # What comes below the figures is placed from their lower end.
+    # The text below the figures is placed from their lower edge.
     rest = Sheet(scale)
     _below(rest, report, speaks)
     below = rest.y - MARGIN
@@ -225,9 +228,10 @@ def _below(sheet, report, speaks):
 
 
 def sheet_of(report):
-    """The largest letters with which everything fits."""
+    """The sheet with the largest font scale at which everything fits."""
     with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph")  # those the font lacks are boxes
+        # Glyphs missing in the font are drawn as boxes.
+        warnings.filterwarnings("ignore", message="Glyph")
         for scale in SCALES:
             sheet, left = _filled(report, scale)
             if left >= -1e-6:
@@ -237,7 +241,7 @@ def sheet_of(report):
 
 def pdf(report):
     buffer = io.BytesIO()
-    # Real text.
+    # Embed fonts, so that text stays text.
     with rc_context({"pdf.fonttype": 42, "svg.fonttype": "path"}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph")
         sheet_of(report).figure.savefig(buffer, format="pdf", facecolor=PAPER, metadata={

@@ -19,12 +19,12 @@ void set_text_width(std::size_t columns) {
     columns_of_text = std::max<std::size_t>(80, columns);
 }
 
-void add_wrapped(std::string& out, const std::string& text, std::size_t indent) {
+void add_wrapped(std::string& out, const std::string& text, std::size_t indent, std::size_t width) {
     std::string line;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find(' ', at), text.size());
         const std::string word = text.substr(at, end - at);
-        if (!line.empty() && line.size() + 1 + word.size() > text_width()) {
+        if (!line.empty() && line.size() + 1 + word.size() > width) {
             out += line + '\n';
             line = std::string(indent, ' ') + word;
         } else {

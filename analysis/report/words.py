@@ -1,4 +1,4 @@
-"""Numbers, units and names as the page says them."""
+"""Numbers, units and names as shown on the page."""
 
 import html
 import math
@@ -9,7 +9,8 @@ def escape(text):
 
 
 def number(value, digits=3):
-    """Significant digits, the whole part in full; an exponent only where that is shorter."""
+    """Number with significant digits and a complete integer part; with an exponent only where that
+    is shorter."""
     if value is None or not math.isfinite(value):
         return "–"
     if value == 0:
@@ -32,7 +33,7 @@ def superscript(integer):
 
 
 def rate(value):
-    """A probability with two decimals, more next to 0 and 1."""
+    """Probability with two decimals, more next to 0 and 1."""
     if value is None or not math.isfinite(value):
         return "–"
     if 0 < value < 5e-5:
@@ -58,7 +59,7 @@ def percent(value):
 
 
 def count(value):
-    """With thin spaces between thousands."""
+    """Integer with thin spaces between thousands."""
     return f"{value:,}".replace(",", "\u202f")
 
 
@@ -73,7 +74,7 @@ def plural(amount, singular, many=None):
 
 
 def joined(texts):
-    """"a", "a and b", "a, b and c"."""
+    """Enumeration: "a", "a and b", "a, b and c"."""
     texts = list(texts)
     if len(texts) < 2:
         return "".join(texts)
@@ -89,7 +90,8 @@ def _suffix(unit):
 
 
 def input_name(name, unit):
-    """planet_bearing_stiffness_N_m: planet bearing stiffness."""
+    """Name of an input without its unit: planet_bearing_stiffness_N_m gives planet bearing
+    stiffness."""
     if name == "noise_m_s2":
         return "sensor noise"
     suffix = _suffix(unit)
@@ -98,7 +100,7 @@ def input_name(name, unit):
     return name.replace("_", " ")
 
 
-TESTED_ALONE = "* a tested size; no detection curve vouches for one between."
+TESTED_ALONE = "* a tested size; there is no detection curve for sizes in between."
 
 _SHOWN = {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": "", "N/m": "N/m"}
 
@@ -113,7 +115,7 @@ def quantity(value, unit, digits=3):
 
 
 class Sizes:
-    """Fault sizes: metres are shown in mm, others as they are."""
+    """Formatting of fault sizes: metres are shown in mm, other units unchanged."""
 
     def __init__(self, size):
         self.name = input_name(size["name"], size["unit"])

@@ -36,7 +36,7 @@ AucShares auc_shares(std::span<const double> healthy, std::span<const double> fa
     }
     for (std::size_t j = 0; j < faulty.size(); ++j) {
         shares.faulty.push_back((joint[healthy.size() + j] - in_faulty[j]) / m);
-        shares.auc += joint[healthy.size() + j] - in_faulty[j];  // halves: exact
+        shares.auc += joint[healthy.size() + j] - in_faulty[j];  // multiples of one half: exact
     }
     shares.auc /= m * n;
     return shares;
@@ -51,7 +51,7 @@ double auc_covariance(const AucShares& a, const AucShares& b) {
 }
 
 Interval auc_interval(double auc, double variance, long pairs, double confidence) {
-    // Rounding of the shares' sum must not make a complete separation look incomplete.
+    // Rounding of the sum must not make a complete separation look incomplete.
     constexpr double kComplete = 1e-13;
     if (auc > 1.0 - kComplete) {
         return clopper_pearson_interval(pairs, pairs, confidence);

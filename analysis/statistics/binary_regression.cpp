@@ -48,13 +48,13 @@ Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const 
     return slopes;
 }
 
-// Steps from `b` until the gain of a further one is negligible; false if there is no maximum within
-// reach.
+// Fisher scoring from `b` until the gain of a further step is negligible. False if no maximum is
+// found within the limits.
 bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
             Eigen::VectorXd& b, Slopes& here) {
     constexpr int kMostSteps = 200;
-    constexpr double kConverged = 1e-10;  // of the log likelihood
-    constexpr double kFarthest = 1e3;     // coefficients of covariates of order 1
+    constexpr double kConverged = 1e-10;  // gain of the log likelihood
+    constexpr double kFarthest = 1e3;     // largest coefficient, for covariates of order 1
     for (int step = 0; step < kMostSteps; ++step) {
         const Eigen::VectorXd move = here.information.ldlt().solve(here.score);
         const double gain = here.score.dot(move);
@@ -86,14 +86,14 @@ bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const Bina
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
                      const BinaryModel& model, const Eigen::VectorXd& start) {
     if (design.rows() != static_cast<Eigen::Index>(yes.size()) || design.cols() == 0) {
-        throw std::invalid_argument("binary regression: a row of the design for each outcome");
+        throw std::invalid_argument("binary regression: needs one row of the design per outcome");
     }
     BinaryFit fit;
     const auto count = static_cast<double>(yes.size());
     const auto hits = static_cast<double>(
         std::count_if(yes.begin(), yes.end(), [](char outcome) { return outcome != 0; }));
     if (hits == 0.0 || hits == count) {
-        fit.refusal = count == 0.0 ? "no gearboxes" : "all outcomes are alike";
+        fit.refusal = count == 0.0 ? "no gearboxes" : "all outcomes are equal";
         return fit;
     }
     const double share =
@@ -103,7 +103,7 @@ BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
     b.head(start.size()) = start;
     Slopes here = evaluate(design, yes, model, b);
     if (!ascend(design, yes, model, b, here)) {
-        fit.refusal = "the likelihood has no maximum within reach";
+        fit.refusal = "the maximum-likelihood fit does not converge";
         return fit;
     }
     const Eigen::LDLT<Eigen::MatrixXd> solver(here.information);

@@ -1,8 +1,8 @@
-// Yes/no outcomes against several covariates: P(yes) = floor + (ceiling - floor) F(design * b),
-// with the floor and the ceiling given. By Fisher scoring with step halving: P. McCullagh, J. A.
-// Nelder, Generalized Linear Models (1989), section 2.5. `ridge` penalises ridge / 2 times the sum
-// of the squared coefficients except the first (the intercept): S. le Cessie, J. C. van
-// Houwelingen, Appl. Stat. 41 (1992), 191-201.
+// Regression of binary outcomes on several covariates: P(yes) = floor + (ceiling - floor) F(design
+// * b), with given floor and ceiling. Fisher scoring with step halving: P. McCullagh, J. A. Nelder,
+// Generalized Linear Models (1989), section 2.5. `ridge` penalises ridge / 2 times the sum of the
+// squared coefficients except the first (the intercept): S. le Cessie, J. C. van Houwelingen, Appl.
+// Stat. 41 (1992), 191-201.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,13 +22,13 @@ struct BinaryModel {
 
 struct BinaryFit {
     Eigen::VectorXd coefficients;
-    Eigen::MatrixXd covariance;   // inverse of Fisher's information, penalty included
+    Eigen::MatrixXd covariance;   // inverse of the Fisher information, penalty included
     double log_likelihood = 0.0;  // without the penalty
-    std::string refusal;          // why there is no fit, else empty
+    std::string refusal;          // reason why there is no fit, or ""
 };
 
-// `design`: outcomes x coefficients, its first column 1; the others should be of order 1. `start`:
-// the first coefficients of a fit with fewer, to set out from.
+// Fits the model. `design`: outcomes x coefficients, its first column 1; the others should be of
+// order 1. `start`: initial values of the first coefficients, from a fit with fewer.
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
                      const BinaryModel& model, const Eigen::VectorXd& start = {});
 

@@ -1,4 +1,4 @@
-// Tails of normal scores that have a share of their variance in common.
+// Tail probabilities of normal scores that share part of their variance.
 #pragma once
 
 namespace gearpod::analysis {
@@ -7,8 +7,8 @@ namespace gearpod::analysis {
 double normal_beyond(double z);
 double normal_exceeded(double p);
 
-// P(both of two standard normals that are correlated by `share`, 0 to 1, exceed the value that each
-// exceeds with probability `rate`).
+// Probability that both of two standard normals with correlation `share` (0 to 1) exceed the value
+// that each exceeds with probability `rate`.
 double both_beyond(double rate, double share);
 
 }  // namespace gearpod::analysis

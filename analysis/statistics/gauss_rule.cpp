@@ -14,7 +14,7 @@ GaussRule gauss_rule(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& bes
 GaussRule normal_gauss_rule(int nodes) {
     Eigen::VectorXd beside(nodes - 1);
     for (Eigen::Index k = 0; k < beside.size(); ++k) {
-        beside[k] = std::sqrt(static_cast<double>(k + 1));  // Hermite's recurrence
+        beside[k] = std::sqrt(static_cast<double>(k + 1));  // recurrence of the Hermite polynomials
     }
     return gauss_rule(Eigen::VectorXd::Zero(nodes), beside, 1.0);
 }

@@ -1,11 +1,11 @@
-// Bounds of an estimate.
+// Interval of an estimate, and the value that marks a missing estimate.
 #pragma once
 
 #include <limits>
 
 namespace gearpod::analysis {
 
-// What could not be estimated.
+// Marks a quantity that could not be estimated.
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {

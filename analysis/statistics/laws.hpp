@@ -1,6 +1,6 @@
-// Quantiles and probabilities of the usual laws. Boost.Math's templates for them are compiled here
-// alone: they take the compiler longer than all that asks for them. NaN or infinity where an
-// argument or a result is out of range (quiet_policy.hpp).
+// Quantiles and probabilities of the usual distributions. The Boost.Math templates are compiled
+// here only, because they take longer to compile than all their callers. Results are NaN or
+// infinity where an argument or a result is out of range (quiet_policy.hpp).
 #pragma once
 
 namespace gearpod::analysis {
@@ -18,7 +18,7 @@ double beta_upper_quantile(double a, double b, double tail);
 double gamma_quantile(double shape, double scale, double probability);
 double gamma_upper_quantile(double shape, double scale, double tail);
 
-// P(at most `found` of `tried`).
+// P(at most `found` successes in `tried` trials).
 double binomial_cdf(double tried, double rate, double found);
 
 double log_gamma(double value);

@@ -11,7 +11,7 @@ namespace gearpod::analysis {
 
 namespace {
 
-// Of 1 - exp(-exp(eta)).
+// Values of 1 - exp(-exp(eta)).
 LinkValues cloglog_values(double eta) {
     const double rate = std::exp(eta);
     const double down = std::exp(-rate);

@@ -34,7 +34,7 @@ LinkBlock::LinkBlock(Link link, const Block& eta) {
 }
 
 Block block_log(const Block& values) {
-    // Eigen takes many logarithms at once only in an array of their own.
+    // Eigen vectorises the logarithm only for an expression that is an array of its own.
     return values.max(std::numeric_limits<double>::min()).log();
 }
 

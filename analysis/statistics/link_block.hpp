@@ -1,4 +1,4 @@
-// link_values() of many etas at once. Eigen's exponential and logarithm have the same bits on every
+// Vectorised link_values(). Eigen's exponential and logarithm give the same bits on every
 // processor.
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace gearpod::analysis {
 
-inline constexpr Eigen::Index kBlock = 128;  // arrays of a block stay on the stack
+// Small enough that the arrays of a block stay on the stack.
+inline constexpr Eigen::Index kBlock = 128;
 using Block = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kBlock, 1>;
 
 struct LinkBlock {
@@ -17,7 +18,7 @@ struct LinkBlock {
     LinkBlock(Link link, const Block& eta);
 };
 
-// Natural logarithms, of what is below the least normal number as of that number.
+// Natural logarithms. Values below the smallest normal number are replaced by that number.
 Block block_log(const Block& values);
 
 }  // namespace gearpod::analysis

@@ -16,7 +16,7 @@ std::vector<double> midranks(std::span<const double> values) {
         while (last < order.size() && values[order[last]] == values[order[first]]) {
             ++last;
         }
-        // Ranks first + 1 ... last.
+        // Mean of the ranks first + 1 ... last.
         const double rank = 0.5 * static_cast<double>(first + 1 + last);
         for (std::size_t i = first; i < last; ++i) {
             ranks[order[i]] = rank;

@@ -1,4 +1,4 @@
-// Ranks from 1, tied values sharing their mean rank.
+// Ranks from 1; tied values share their mean rank.
 #pragma once
 
 #include <span>

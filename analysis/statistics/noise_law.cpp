@@ -20,7 +20,7 @@ double mean_of(std::span<const double> values) {
     return sum / static_cast<double>(values.size());
 }
 
-// With the logarithm of the normal density at its greatest likelihood.
+// Normal distribution of the values, or of their logarithms with the Jacobian of the logarithm.
 NoiseLaw normal_law(std::span<const double> values, Kind kind, double jacobian) {
     const double mean = mean_of(values);
     double squares = 0.0;

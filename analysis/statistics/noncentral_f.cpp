@@ -11,13 +11,15 @@
 namespace gearpod::analysis {
 namespace {
 
-// Boost sums some multiples of the noncentrality's root in terms, and counts them in an int.
+// Limits beyond which far_out() replaces Boost. Boost sums several multiples of the square root of
+// the noncentrality in terms and counts them in an int.
 constexpr double kLarge = 1e5;
 constexpr double kOfFreedom = 100.0;
 
-// Far out the numerator's root is as good as normal: its mean and variance such that its square has
-// the noncentral law's mean and variance. It scatters far less than the denominator there, so that
-// the expectation over it of the central law is that of a smooth function.
+// Approximation for large noncentrality. The square root of the numerator is then nearly normal;
+// its mean and variance are chosen such that its square has the noncentral distribution's mean and
+// variance. It scatters far less than the denominator, so the expectation of the central
+// distribution over it is that of a smooth function.
 double far_out(double f, double numerator, double denominator, double noncentrality) {
     static const GaussRule rule = normal_gauss_rule(24);
     const double mean = noncentrality + numerator;
@@ -28,7 +30,8 @@ double far_out(double f, double numerator, double denominator, double noncentral
     double probability = 0.0;
     for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
         const double root = centre + spread * rule.nodes[i];
-        const double least = denominator * (root / (numerator * f)) * root;  // of the denominator
+        // Least value of the denominator.
+        const double least = denominator * (root / (numerator * f)) * root;
         probability +=
             rule.weights[i] * boost::math::gamma_q(0.5 * denominator, 0.5 * least, QuietPolicy());
     }

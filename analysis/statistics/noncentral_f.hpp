@@ -1,12 +1,12 @@
-// The noncentral F law: the ratio of a noncentral chi-squared variable to an independent central
-// one, each over its degrees of freedom (N. L. Johnson, S. Kotz, N. Balakrishnan, Continuous
-// Univariate Distributions 2 (1995), chapter 30).
+// Noncentral F distribution: the ratio of a noncentral chi-squared variable to an independent
+// central one, each divided by its degrees of freedom (N. L. Johnson, S. Kotz, N. Balakrishnan,
+// Continuous Univariate Distributions 2 (1995), chapter 30).
 #pragma once
 
 namespace gearpod::analysis {
 
-// Probability of a value of f or less. Within 1e-9 for up to a million degrees of freedom and
-// any finite noncentrality; NaN for arguments without a meaning.
+// Probability of a value of at most f. Accurate to 1e-9 for up to a million degrees of freedom and
+// any finite noncentrality; NaN for arguments out of range.
 double noncentral_f_cdf(double f, double numerator_freedom, double denominator_freedom,
                         double noncentrality);
 

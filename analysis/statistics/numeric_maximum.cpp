@@ -9,7 +9,7 @@ namespace {
 
 using Function = std::function<double(const Eigen::VectorXd&)>;
 
-constexpr double kStep = 1e-4;  // of the differences, against parameters of order 1
+constexpr double kStep = 1e-4;  // step of the differences, for parameters of order 1
 
 struct Curvature {
     Eigen::VectorXd score;
@@ -40,7 +40,7 @@ Curvature differences(const Function& function, const Eigen::VectorXd& at, doubl
     return curvature;
 }
 
-// Newton's step; towards the steepest rise as far as the function is not concave.
+// Newton's step, damped towards steepest ascent as far as the function is not concave.
 Eigen::VectorXd uphill(const Curvature& curvature) {
     const double scale = std::max(1e-12, curvature.information.diagonal().cwiseAbs().maxCoeff());
     for (double damping = 0.0; damping < 1e8; damping = damping == 0.0 ? 1e-6 : 10.0 * damping) {
@@ -59,7 +59,7 @@ Eigen::VectorXd uphill(const Curvature& curvature) {
 NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& start) {
     constexpr int kMostSteps = 200;
     constexpr double kConverged = 1e-9;  // gain of a step
-    constexpr double kLongest = 2.0;     // of a parameter
+    constexpr double kLongest = 2.0;     // longest change of a parameter in one step
     NumericMaximum maximum;
     maximum.at = start;
     maximum.value = function(start);

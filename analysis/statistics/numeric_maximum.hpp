@@ -1,5 +1,5 @@
-// The maximum of a smooth function of few parameters, by Newton's steps with slopes and curvature
-// from central differences, damped where the function is not concave.
+// Maximum of a smooth function of few parameters by Newton's method, with gradient and Hessian from
+// central differences, damped where the function is not concave.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +10,12 @@ namespace gearpod::analysis {
 struct NumericMaximum {
     Eigen::VectorXd at;
     double value = 0.0;
-    Eigen::MatrixXd information;  // the negative second derivatives
+    Eigen::MatrixXd information;  // negative Hessian
     bool converged = false;
 };
 
-// Parameters should be of order 1. The function may be -infinity or NaN where it has no value, but
-// not at `start`.
+// Maximises `function` from `start`. Parameters should be of order 1. The function may return
+// -infinity or NaN where it is undefined, but not at `start`.
 NumericMaximum numeric_maximum(const std::function<double(const Eigen::VectorXd&)>& function,
                                const Eigen::VectorXd& start);
 

@@ -1,5 +1,5 @@
-// Boost.Math throws by default where an argument or a result is out of range. Here it answers with
-// NaN or infinity instead: one odd value must not end the analysis of a finished run.
+// Boost.Math policy that returns NaN or infinity where an argument or a result is out of range,
+// instead of throwing. One unusual value must not end the analysis of a finished run.
 #pragma once
 
 #include <boost/math/policies/policy.hpp>

@@ -28,7 +28,8 @@ double sum_of_squares(const std::vector<double>& values) {
 
 CheckResult quadratic_term(std::span<const double> x, std::span<const double> y,
                            const RegressionLine& line, double line_squares) {
-    // The centred square made orthogonal to the line; its coefficient takes the squares away.
+    // Centred square made orthogonal to the line. Its coefficient explains part of the residual sum
+    // of squares.
     const double spread = std::sqrt(line.sum_xx / static_cast<double>(x.size()));
     std::vector<double> square;
     for (const double value : x) {
@@ -50,7 +51,7 @@ double RegressionLine::leverage(double x) const {
 
 RegressionLine regression_line(std::span<const double> x, std::span<const double> y) {
     if (x.size() != y.size() || x.size() < 3) {
-        throw std::invalid_argument("regression line: needs three points at least");
+        throw std::invalid_argument("regression line: needs at least three points");
     }
     const auto n = static_cast<double>(x.size());
     RegressionLine line;
@@ -82,7 +83,7 @@ CheckResult linearity_check(std::span<const double> x, std::span<const double> y
     const auto sizes = static_cast<double>(groups.size());
     const double freedom = static_cast<double>(x.size()) - sizes;
     constexpr double kReplicates =
-        5.0;  // points an x, on average; with fewer the F test sees little
+        5.0;  // mean number of points per x; with fewer the F test has little power
     if (groups.size() < 3 || static_cast<double>(x.size()) < kReplicates * sizes) {
         return quadratic_term(x, y, line, line_squares);
     }
@@ -134,7 +135,7 @@ CheckResult normality_check(std::span<const double> x, std::span<const double> y
         p = 1.0 - std::exp(-8.318 + 42.796 * a - 59.938 * a * a);
     } else if (a < 0.6) {
         p = std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
-    } else if (a < 13.0) {  // beyond, the formula no longer falls
+    } else if (a < 13.0) {  // beyond this the formula no longer falls
         p = std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
     }
     return {"Anderson-Darling", statistic, p};

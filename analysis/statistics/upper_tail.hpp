@@ -1,5 +1,5 @@
-// Probabilities of a larger statistic. Infinity has 0, NaN has NaN, and what rounding left below 0
-// has 1.
+// Upper tail probabilities. A statistic of infinity gives 0, NaN gives NaN, and a value that
+// rounding left below 0 gives 1.
 #pragma once
 
 namespace gearpod::analysis {

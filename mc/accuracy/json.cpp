@@ -1,4 +1,4 @@
-// accuracy_json().
+// accuracy_json(): writes an accuracy report as JSON.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// JSON has no infinity.
+// Number, or null if it is not finite, which JSON cannot represent.
 json number(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);
 }

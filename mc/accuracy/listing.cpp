@@ -12,14 +12,14 @@
 namespace gearpod::mc {
 namespace {
 
-// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
+// Candidates have up to this many times the steps of an integrator's own rule, which aims at 0.1 %.
 constexpr double kBeyondOwnRule = 1.5;
-// Each graded grid takes a pilot, so there are but three; and none where its fewest steps would
-// cost so many times the cheapest integrator's own.
+// Only three graded grids are measured, because each one costs a pilot. None is made if its fewest
+// steps would cost more than this many times the least expensive integrator's own steps.
 constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
 constexpr double kWorthGrading = 3.0;
 
-// Of the integrator's own equal steps, in steps of rk4.
+// Cost of the integrator's own uniform steps, in rk4 steps.
 double own_cost(const Study& study, const Flight& flight) {
     const auto cost = step_cost(study, flight.integrator, flight.other);
     return cost && flight.own_steps > 0 ? *cost * flight.own_steps : INFINITY;
@@ -30,8 +30,8 @@ void add_graded(const Study& study, const Flight& flight, double least_cost,
     const double over = kFewestGraded * own_cost(study, flight) / least_cost;
     if (over > kWorthGrading) {
         all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
-                       fmt::format("not tried: an eighth of its {} equal steps would cost {:.0f} "
-                                   "times the cheapest integrator's",
+                       fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
+                                   "times as much as the steps of the least expensive integrator",
                                    flight.own_steps, over)});
         return;
     }

@@ -1,4 +1,4 @@
-// measure_accuracy().
+// measure_accuracy(): measures time and error of the solver settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,15 +20,14 @@
 namespace gearpod::mc {
 namespace {
 
-// Rungs slower than so many times the fastest that is as close are timed once, and not settled more
-// loosely.
+// Settings slower than equally accurate ones by more than this factor are timed only once.
 constexpr double kNearFrontier = 3.0;
-// Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
+// Settings within this factor of the fastest for a tolerance are timed more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
-// The reference's share of the time.
+// Fraction of the processor time for the reference.
 constexpr double kReferenceShare = 1.0 / 3.0;
-// Tried on the fastest rung for each tolerance.
+// Stiffness tolerances tried with the fastest setting for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
 class Measurement {
@@ -50,7 +49,7 @@ class Measurement {
     }
 
     AccuracyReport run() {
-        request_.progress("reference: two methods until they agree");
+        request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
         reference.seconds = kReferenceShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
@@ -59,7 +58,7 @@ class Measurement {
             add(listed.rung, listed.refusal);
         }
         times_.resize(report_.rungs.size());
-        request_.progress(fmt::format("{} rungs", report_.rungs.size()));
+        request_.progress(fmt::format("{} solver settings", report_.rungs.size()));
         march_first(0);
         finish_times();
         for (const double tolerance : request_.tolerances) {
@@ -68,10 +67,9 @@ class Measurement {
         settle_loosely();
         for (int repeat = 1; repeat < request_.repeats; ++repeat) {
             finish_times();
-            request_.progress(fmt::format("time {} of {}", repeat + 1, request_.repeats));
+            request_.progress(fmt::format("timing {} of {}", repeat + 1, request_.repeats));
             if (!march_again()) {
-                leave_out(
-                    fmt::format("all but {} of {} timings of each rung", repeat, request_.repeats));
+                leave_out(fmt::format("all but {} of {} timings", repeat, request_.repeats));
                 break;
             }
         }
@@ -99,10 +97,10 @@ class Measurement {
         report_.rungs.back().refusal = refusal;
     }
 
-    // The fastest rung for each tolerance with fewer terms in the stiffness curves.
+    // Measures the fastest settings again with fewer terms in the stiffness curves.
     void thin_stiffness() {
         if (!time_.enough()) {
-            return leave_out("rungs with thinner stiffness curves");
+            return leave_out("settings with shorter stiffness series");
         }
         finish_times();
         std::vector<Rung> fastest_rungs;
@@ -129,14 +127,14 @@ class Measurement {
         }
         times_.resize(report_.rungs.size());
         request_.progress(
-            fmt::format("{} with thinner stiffness curves", report_.rungs.size() - first));
+            fmt::format("{} settings with shorter stiffness series", report_.rungs.size() - first));
         march_first(first);
     }
 
-    // Rungs with the same steps stand together, so that a scene serves them all.
+    // Measures looser convergence tolerances; settings with the same steps use one scene in turn.
     void settle_loosely() {
         if (!time_.enough()) {
-            return leave_out("rungs settled more loosely");
+            return leave_out("settings with a looser settle_tolerance");
         }
         finish_times();
         std::vector<Rung> loose;
@@ -158,7 +156,8 @@ class Measurement {
             }
         }
         times_.resize(report_.rungs.size());
-        request_.progress(fmt::format("{} settled more loosely", report_.rungs.size() - first));
+        request_.progress(fmt::format("{} settings with a looser settle_tolerance",
+                                      report_.rungs.size() - first));
         march_first(first);
     }
 
@@ -173,7 +172,8 @@ class Measurement {
 
     void leave_out(const std::string& what) { report_.left_out.push_back(what); }
 
-    // Processor seconds that a rung will take at least: all meshes take as many times as long.
+    // Lower bound of the processor time of a setting, s; only known where every mesh period is
+    // integrated.
     double least_s(const Rung& rung) const {
         const RungResult& own = report_.rungs[0];
         return marches_everything(rung) && own.meshes > 0.0 && !times_[0].march.empty()
@@ -193,11 +193,11 @@ class Measurement {
             march(i, true);
         }
         if (untried > 0) {
-            leave_out(fmt::format("{} rungs", untried));
+            leave_out(fmt::format("{} solver settings", untried));
         }
     }
 
-    // Whether there was time for all.
+    // Times the settings again; false if the time ran out.
     bool march_again() {
         for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
             if (!time_.enough()) {
@@ -232,7 +232,7 @@ class Measurement {
         result.meshes = record.meshes_per_tile();
         result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
         result.error = pilot_error(record, report_.reference.record);
-        // The study's own rung may leave the integrator to the program.
+        // The study's own setting may have the integrator "auto".
         const std::string integrator = result.rung.integrator == "auto"
                                            ? std::string(lockstep::name(own_integrator_))
                                            : result.rung.integrator;
@@ -245,14 +245,14 @@ class Measurement {
                result.error.largest_feature() <= tolerance;
     }
 
-    // The rung that the tolerance chooses joins the ladder if it is not on it.
+    // Finds the setting that numerics.tolerance chooses, and measures it if it is new.
     void choose(double tolerance) {
-        request_.progress(fmt::format("choice for {:g}", tolerance));
+        request_.progress(fmt::format("choice for a tolerance of {:g}", tolerance));
         ChoiceCheck check;
         check.tolerance = tolerance;
         if (!time_.enough()) {
-            check.refusal = "not asked: the time was up";
-            leave_out(fmt::format("what numerics.tolerance = {:g} chooses", tolerance));
+            check.refusal = "not tried: the time had run out";
+            leave_out(fmt::format("the choice for numerics.tolerance = {:g}", tolerance));
             report_.choices.push_back(check);
             return;
         }
@@ -273,7 +273,7 @@ class Measurement {
         report_.choices.push_back(check);
     }
 
-    // Interleaved: what the machine does meanwhile slows all of them alike.
+    // Times the contenders alternately, so that other load slows all of them equally.
     void time_contenders() {
         finish_times();
         std::vector<std::size_t> contenders;
@@ -289,12 +289,12 @@ class Measurement {
         }
         std::sort(contenders.begin(), contenders.end());
         contenders.erase(std::unique(contenders.begin(), contenders.end()), contenders.end());
-        request_.progress(fmt::format("{} contenders again", contenders.size()));
+        request_.progress(fmt::format("the {} fastest settings again", contenders.size()));
         for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
             for (const std::size_t place : contenders) {
                 if (!time_.enough()) {
-                    leave_out(fmt::format("all but {} of {} timings of the fastest rungs", repeat,
-                                          kContenderRepeats));
+                    leave_out(fmt::format("all but {} of {} timings of the fastest settings",
+                                          repeat, kContenderRepeats));
                     return;
                 }
                 march(place, false);
@@ -361,7 +361,7 @@ class Measurement {
         });
     }
 
-    // Measured time of a step over rk4's, against the table.
+    // Compares the measured time of a step relative to rk4's with the cost model's table.
     void check_step_costs() {
         std::map<std::string, std::vector<double>> measured;
         for (const RungResult& result : report_.rungs) {

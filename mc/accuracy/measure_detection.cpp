@@ -8,7 +8,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the pilot ensemble, both groups: by default, and fewest for which anything is said.
+// Number of gearboxes of the pilot ensemble, both groups: default, and smallest for which results
+// are given.
 constexpr long kPilotGearboxes = 480;
 constexpr long kFewestGearboxes = 60;
 
@@ -39,7 +40,7 @@ std::vector<std::size_t> rungs_that_matter(const AccuracyReport& report) {
     return places;
 }
 
-// How many gearboxes there is time for; none where so few would say nothing.
+// Number of gearboxes for which there is time; 0 if too few for a result.
 long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
                 const std::vector<std::size_t>& places, AccuracyReport& report) {
     if (request.gearboxes) {
@@ -57,10 +58,10 @@ long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLe
     }
     const long some = static_cast<long>(std::max(0.0, time.seconds()) / gearbox_s);
     report.left_out.push_back(
-        fmt::format("detection rates of {} gearboxes by {} rungs{} (--gearboxes {} asks for them: "
-                    "about {:.0f} processor seconds)",
+        fmt::format("detection rates of {} gearboxes with {} settings{} (use --gearboxes {}: about "
+                    "{:.0f} processor seconds)",
                     all, places.size(),
-                    some >= kFewestGearboxes ? fmt::format(", but for {} gearboxes", some) : "",
+                    some >= kFewestGearboxes ? fmt::format(", except for {} gearboxes", some) : "",
                     all, needed_s));
     return some >= kFewestGearboxes ? some : 0;
 }
@@ -82,7 +83,7 @@ void measure_detection(const Study& study, const AccuracyRequest& request, const
     }
     for (const std::size_t place : places) {
         RungResult& result = report.rungs[place];
-        request.progress(fmt::format("detection rates by {}", result.rung.text()));
+        request.progress(fmt::format("detection rates with {}", result.rung.text()));
         result.detection =
             detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
     }

@@ -1,5 +1,5 @@
-// Detection rates by the rungs that matter: the frontier's, the study's own and the chosen ones,
-// against the closest rung of all.
+// Detection rates with the most relevant solver settings (the Pareto frontier, the study's own and
+// the chosen ones), compared with the most accurate setting.
 #pragma once
 
 #include "mc/accuracy/report.hpp"
@@ -7,8 +7,8 @@
 
 namespace gearpod::mc {
 
-// Fills RungResult::detection, of as many gearboxes as asked for or as there is time for, and what
-// is left out.
+// Fills RungResult::detection for the requested number of gearboxes, or as many as there is time
+// for, and records what was omitted.
 void measure_detection(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
                        AccuracyReport& report);
 

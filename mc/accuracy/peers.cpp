@@ -1,4 +1,4 @@
-// read_peers().
+// read_peers(): reads a table of other programs' results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Cells of a line; a cell in quotation marks may hold commas.
+// Cells of a CSV line; a quoted cell may contain commas.
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;
@@ -32,7 +32,7 @@ double number_in(const std::string& cell, const std::string& where, const std::s
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size() || !(value >= 0.0)) {
         throw std::runtime_error(
-            fmt::format("{}: {}: \"{}\" is no number >= 0", where, column, cell));
+            fmt::format("{}: {}: \"{}\" is not a number >= 0", where, column, cell));
     }
     return value;
 }
@@ -43,7 +43,7 @@ std::vector<PeerResult> read_peers(const std::string& path) {
     std::ifstream file(path);
     std::string line;
     if (!file || !std::getline(file, line)) {
-        throw std::runtime_error(path + ": cannot be read, or is empty");
+        throw std::runtime_error(path + ": cannot be read or is empty");
     }
     const std::vector<std::string> head = cells_of(line);
     const std::vector<std::string> first{"name", "command", "march_s", "mesh_s", "sensor", "te"};
@@ -56,8 +56,8 @@ std::vector<PeerResult> read_peers(const std::string& path) {
         const std::string where = fmt::format("{}:{}", path, number);
         const std::vector<std::string> cells = cells_of(line);
         if (cells.size() != head.size()) {
-            throw std::runtime_error(fmt::format("{}: has {} cells, the first line {}", where,
-                                                 cells.size(), head.size()));
+            throw std::runtime_error(fmt::format("{}: has {} cells, but the first line has {}",
+                                                 where, cells.size(), head.size()));
         }
         PeerResult peer{cells[0], cells[1], 0.0, 0.0, 0.0, 0.0, {}};
         double* const into[] = {&peer.march_s, &peer.mesh_s, &peer.sensor, &peer.te};

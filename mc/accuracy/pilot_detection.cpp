@@ -13,7 +13,7 @@ namespace {
 
 using analysis::SizeEstimate;
 
-// Whether a value raises the alarm.
+// True if a value raises the alarm.
 bool alarm(const analysis::FeatureDetection& feature, std::size_t level, double value) {
     return analysis::is_alarm(value, feature.levels[level].threshold, feature.alarm);
 }

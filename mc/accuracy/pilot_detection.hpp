@@ -1,4 +1,4 @@
-// What a rung does to detection rates: the same ensemble, computed in two ways.
+// Effect of a solver setting on detection rates: the same ensemble computed with two settings.
 #pragma once
 
 #include <optional>
@@ -10,27 +10,26 @@
 
 namespace gearpod::mc {
 
-// An ensemble's rows and what follows from them.
+// Results of a pilot ensemble and the reliability derived from them.
 struct PilotEnsemble {
     Results results;
     std::optional<analysis::Reliability> reliability;
 };
 
-// The study with at most `gearboxes` in all, shared out as the study does.
+// Study with at most `gearboxes` gearboxes, in the study's proportion of the two groups.
 Study pilot_ensemble_study(const Study& study, long gearboxes);
 PilotEnsemble run_pilot_ensemble(const Study& study);
 
-// Whether its healthy sample is large enough for thresholds.
+// True if the healthy sample is large enough for thresholds.
 bool has_rates(const PilotEnsemble& pilot);
 
 struct DetectionChange {
-    long gearboxes = 0;          // graded
-    double alarms = 0.0;         // share of verdicts (gearbox, feature, noise level) that differ
-    double pd = 0.0;             // largest change of a detection rate
+    long gearboxes = 0;   // graded
+    double alarms = 0.0;  // fraction of alarm decisions (gearbox, feature, noise level) that differ
+    double pd = 0.0;      // largest change of a detection rate
     double pd_half_width = 0.0;  // of that rate's interval, in the reference
-    double a90 = -1.0;          // largest change of an a90 that both reach, as a share; -1: none is
-    double a90_interval = 0.0;  // of that a90: upper bound less estimate, as a share; infinite if
-                                // not reached
+    double a90 = -1.0;           // largest relative change of an a90 that both reach; -1: none
+    double a90_interval = 0.0;   // of that a90: (upper bound - a90) / a90; infinite if not reached
 };
 DetectionChange detection_change(const PilotEnsemble& here, const PilotEnsemble& reference);
 

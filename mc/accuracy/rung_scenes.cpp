@@ -15,7 +15,7 @@ const Scene& RungScenes::of(const Rung& rung) {
     return *last_;
 }
 
-// How closely orbits settle changes no grid.
+// The convergence tolerance does not affect the grid.
 const Scene& RungScenes::graded(const Rung& rung) {
     Rung grid = rung;
     grid.settle_tolerance = own_.study().numerics.settle_tolerance;

@@ -1,5 +1,5 @@
-// The scenes that a ladder's rungs march. They share what they have alike, and there is one plan
-// for each graded grid, which takes a pilot to make.
+// Scenes of the solver settings that are measured. They share equal parts, and there is one plan
+// for each graded grid, because making one costs a pilot.
 #pragma once
 
 #include <map>
@@ -12,21 +12,22 @@ namespace gearpod::mc {
 
 class RungScenes {
   public:
-    // `study` without a tolerance. Throws SceneError.
+    // Precondition: `study` has no numerics.tolerance. Throws SceneError.
     explicit RungScenes(const Study& study);
-    // As the study says.
+    // Scene with the study's own numerics.
     const Scene& own() const { return own_; }
-    // Valid until the next call. Throws SceneError.
+    // Scene of a setting, valid until the next call. Throws SceneError.
     const Scene& of(const Rung& rung);
 
   private:
     const Scene& graded(const Rung& rung);
 
     const Scene own_;
-    // The next rung on equal steps often settles otherwise and is the same for the rest.
+    // Last scene with uniform steps: the next setting often differs only in its convergence
+    // tolerance.
     std::unique_ptr<const Scene> last_;
     std::map<std::string, std::unique_ptr<const Scene>> graded_;
-    std::unique_ptr<const Scene> settled_;  // of a graded one
+    std::unique_ptr<const Scene> settled_;  // last scene with a graded grid
 };
 
 }  // namespace gearpod::mc

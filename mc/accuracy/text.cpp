@@ -1,4 +1,4 @@
-// accuracy_text().
+// accuracy_text(): writes an accuracy report as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,49 +27,71 @@ std::string worst_feature(const AccuracyReport& report, const PilotError& error)
     return report.features[worst];
 }
 
+// Adds words in lines of at most 80 columns, each one indented.
+void add_words(const std::string& words, std::size_t indent, Text out) {
+    constexpr std::size_t kWidth = 80;
+    std::string line;
+    for (std::size_t at = 0; at < words.size();) {
+        const std::size_t end = std::min(words.find(' ', at), words.size());
+        if (!line.empty() && indent + line.size() + 1 + end - at > kWidth) {
+            fmt::format_to(out, "{}{}\n", std::string(indent, ' '), line);
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + words.substr(at, end - at);
+        at = end + 1;
+    }
+    fmt::format_to(out, "{}{}\n", std::string(indent, ' '), line);
+}
+
 void add_head(const AccuracyReport& report, Text out) {
     const Reference& r = report.reference;
     fmt::format_to(
         out,
         "pilot: {} gearboxes, signals over {} mesh period(s), features over {}\n"
-        "reference: {}{}; against {}{}:\n"
+        "reference: {}{}\n"
+        "compared with: {}{}\n"
         "  relative L2 {:.1e} (sensor), {:.1e} (TE), worst feature {:.1e}{}\n",
         report.gearboxes, report.signal_meshes, report.span_meshes, r.first.text(),
-        r.first_order > 0 ? fmt::format(", extrapolated at order {:g}", r.first_order) : "",
+        r.first_order > 0 ? fmt::format("\n  extrapolated at order {:g}", r.first_order) : "",
         r.second.text(),
-        r.second_order > 0 ? fmt::format(", extrapolated at order {:g}", r.second_order) : "",
+        r.second_order > 0 ? fmt::format("\n  extrapolated at order {:g}", r.second_order) : "",
         r.agreement.sensor, r.agreement.te, r.agreement.largest_feature(),
-        r.reached ? "" : "; signals do not agree to 1e-8");
+        r.reached ? "" : "\n  the signals do not agree to 1e-8");
 }
 
 void add_heading(Text out) {
     fmt::format_to(
         out,
-        "\ntime: processor time of one gearbox in a full tile of eight, of sixteen in "
-        "singles (march alone); error: relative L2 of the\nnoise-free sensor signal and of the TE "
-        "without its mean; feature: the worst, rms over the gearboxes; * frontier\n\n"
-        "{:<44} {:>6} {:>7} {:>9} {:>9} {:>8} {:>8} {:>8}  {}\n",
-        "rung", "steps", "meshes", "us/mesh", "us/box", "sensor", "TE", "feature", "worst");
+        "\ntime: processor time of one gearbox in a full tile of eight lanes (sixteen in\n"
+        "single precision), time integration only; error: relative L2 of the noise-free\n"
+        "sensor signal and of the transmission error (TE) without its mean; feature: the\n"
+        "worst one, rms over the gearboxes; *: Pareto frontier of time and error\n\n"
+        "solver setting\n"
+        "{:>7} {:>6} {:>8} {:>10} {:>7} {:>7} {:>7}  {}\n",
+        "steps", "meshes", "us/mesh", "us/gearbox", "sensor", "TE", "feature", "worst");
 }
 
 void add_row(const AccuracyReport& report, const RungResult& r, const char* mark, Text out) {
     if (!r.refusal.empty()) {
-        fmt::format_to(out, "{:<44} refused: {}\n", mark + r.rung.integrator, r.refusal);
+        fmt::format_to(out, "{}\n", mark + r.rung.integrator);
+        add_words("refused: " + r.refusal, 4, out);
         return;
     }
-    fmt::format_to(out, "{:<44} {:>6} {:>7.0f} {:>9.2f} {:>9.1f} {:>8} {:>8} {:>8}  {}{}\n",
-                   mark + r.rung.text(), r.steps, r.meshes, 1e6 * r.mesh_s, 1e6 * r.march_s,
-                   short_number(r.error.sensor), short_number(r.error.te),
-                   short_number(r.error.largest_feature()), worst_feature(report, r.error),
-                   r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : "");
+    fmt::format_to(out, "{}{}\n{:>7} {:>6.0f} {:>8.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n",
+                   mark + r.rung.text(),
+                   r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : "", r.steps, r.meshes,
+                   1e6 * r.mesh_s, 1e6 * r.march_s, short_number(r.error.sensor),
+                   short_number(r.error.te), short_number(r.error.largest_feature()),
+                   worst_feature(report, r.error));
 }
 
-// With fewer terms in the stiffness curves.
+// True for settings with fewer terms in the stiffness curves.
 bool is_thin(const Rung& rung) {
     return !rung.other.empty() && rung.other.back().starts_with("numerics.stiffness_tolerance");
 }
 
-// Of each flight at the tightest settling, of the frontier, and the study's own.
+// True for settings that are listed: those of each family with the tightest convergence tolerance,
+// the frontier, the chosen ones and the study's own.
 bool worth_a_line(const AccuracyReport& report, std::size_t i) {
     const RungResult& r = report.rungs[i];
     return r.frontier || static_cast<int>(i) == report.own ||
@@ -81,54 +103,60 @@ bool worth_a_line(const AccuracyReport& report, std::size_t i) {
 
 void add_explicit_limit(const AccuracyReport& report, Text out) {
     const ExplicitLimit& e = report.explicit_limit;
-    fmt::format_to(out,
-                   "\nclassical Runge-Kutta at its stability limit ({}): {:.0f} steps of {:.1f} ns "
-                   "(measured) = {:.3g} us/mesh, x {:.0f} meshes = {:.3g} us/box\n",
-                   e.refused ? "refused; computed" : "computed", e.steps, 1e9 * e.step_s,
-                   1e6 * e.mesh_s(), e.meshes, 1e6 * e.march_s());
+    fmt::format_to(out, "\n");
+    add_words(fmt::format("rk4 at its stability limit ({}): {:.0f} steps of {:.1f} ns (measured) = "
+                          "{:.3g} us/mesh, x {:.0f} meshes = {:.3g} us/gearbox",
+                          e.refused ? "refused; computed" : "computed", e.steps, 1e9 * e.step_s,
+                          1e6 * e.mesh_s(), e.meshes, 1e6 * e.march_s()),
+              0, out);
 }
 
 void add_choices(const AccuracyReport& report, Text out) {
     fmt::format_to(out, "\nnumerics.tolerance\n");
     for (const ChoiceCheck& c : report.choices) {
         if (c.chosen < 0) {
-            fmt::format_to(out, "  {:g}: no choice: {}\n", c.tolerance, c.refusal);
+            add_words(fmt::format("{:g}: no choice: {}", c.tolerance, c.refusal), 2, out);
             continue;
         }
         const RungResult& chosen = report.rungs[static_cast<std::size_t>(c.chosen)];
-        fmt::format_to(out, "  {:g}: {}, worst feature {:.1e}, {:.1f} us/box\n", c.tolerance,
-                       chosen.rung.text(), chosen.error.largest_feature(), 1e6 * chosen.march_s);
+        add_words(
+            fmt::format("{:g}: {}, worst feature {:.1e}, {:.1f} us/gearbox", c.tolerance,
+                        chosen.rung.text(), chosen.error.largest_feature(), 1e6 * chosen.march_s),
+            2, out);
+        std::string comparison;
         if (c.best >= 0) {
             const RungResult& best = report.rungs[static_cast<std::size_t>(c.best)];
-            fmt::format_to(out, "    {:+.0f} % of the fastest that keeps it ({}); ",
-                           100.0 * c.over_best, best.rung.text());
+            comparison = fmt::format("{:+.0f} % against the fastest setting that keeps it ({}); ",
+                                     100.0 * c.over_best, best.rung.text());
         }
-        fmt::format_to(out, "1/{:.3g} of Runge-Kutta at its limit a mesh, 1/{:.3g} a gearbox\n",
-                       report.explicit_limit.mesh_s() / chosen.mesh_s,
-                       report.explicit_limit.march_s() / chosen.march_s);
+        comparison += fmt::format(
+            "1/{:.3g} of rk4's time at its limit per mesh period, 1/{:.3g} "
+            "per gearbox",
+            report.explicit_limit.mesh_s() / chosen.mesh_s,
+            report.explicit_limit.march_s() / chosen.march_s);
+        add_words(comparison, 4, out);
     }
     if (!report.step_costs.empty()) {
-        fmt::format_to(out, "  cost of a step over Runge-Kutta's: {}\n",
-                       fmt::join(report.step_costs, "; "));
+        add_words(
+            fmt::format("time of a step relative to rk4's: {}", fmt::join(report.step_costs, "; ")),
+            2, out);
     }
 }
 
 void add_features(const AccuracyReport& report, Text out) {
-    fmt::format_to(out, "\nfeatures, relative error on the frontier\n{:<44}", "");
-    for (const std::string& feature : report.features) {
-        fmt::format_to(out, " {:>12.12}", feature);
-    }
-    fmt::format_to(out, "\n");
+    fmt::format_to(out, "\nrelative errors of the features on the frontier\n");
     for (const RungResult& r : report.rungs) {
         if (!r.frontier) {
             continue;
         }
-        fmt::format_to(out, "{:<44}", r.rung.text());
+        fmt::format_to(out, "{}\n", r.rung.text());
+        std::string errors;
         for (std::size_t f = 0; f < report.features.size(); ++f) {
-            fmt::format_to(out, " {:>12}",
-                           short_number(r.error.feature(static_cast<int>(f), report.levels())));
+            errors +=
+                fmt::format("{}{}={}", errors.empty() ? "" : ", ", report.features[f],
+                            short_number(r.error.feature(static_cast<int>(f), report.levels())));
         }
-        fmt::format_to(out, "\n");
+        add_words(errors, 4, out);
     }
 }
 
@@ -149,40 +177,40 @@ void add_detection(const AccuracyReport& report, Text out) {
         return;
     }
     fmt::format_to(out,
-                   "\ndetection: the same {} graded gearboxes by the closest rung and by these; "
-                   "largest change over features, sizes, noise levels\n"
-                   "{:<44} {:>15} {:>22}  {}\n",
-                   first->detection->gearboxes, "", "alarms changed", "Pd (half width)", "a90");
+                   "\ndetection: the same {} graded gearboxes with the most accurate setting and\n"
+                   "with these; largest change over features, sizes and noise levels\n"
+                   "{:>16} {:>22}  {}\n",
+                   first->detection->gearboxes, "alarms changed", "Pd (half width)", "a90");
     for (const RungResult& r : report.rungs) {
         if (!r.detection) {
             continue;
         }
         const DetectionChange& d = *r.detection;
-        fmt::format_to(out, "{:<44} {:>13.3f} % {:>22}  {}\n", r.rung.text(), 100.0 * d.alarms,
+        fmt::format_to(out, "{}\n{:>14.3f} % {:>22}  {}\n", r.rung.text(), 100.0 * d.alarms,
                        fmt::format("{:.4f} ({:.3f})", d.pd, d.pd_half_width), sizes_text(d));
     }
 }
 
 void add_left_out(const AccuracyReport& report, Text out) {
     if (!report.left_out.empty()) {
-        fmt::format_to(out, "\nleft out, the time was up (--seconds 0: nothing is)\n");
+        fmt::format_to(out, "\nomitted because the time had run out (--seconds 0: no limit)\n");
         for (const std::string& what : report.left_out) {
-            fmt::format_to(out, "  {}\n", what);
+            add_words(what, 2, out);
         }
     }
 }
 
 void add_peers(const AccuracyReport& report, Text out) {
     for (const PeerResult& p : report.peers) {
-        fmt::format_to(out, "{:<44} {:>6} {:>7} {:>9.3g} {:>9.3g} {:>8} {:>8} ", p.name, "", "",
+        fmt::format_to(out, "  {}\n{:>7} {:>6} {:>8.3g} {:>10.3g} {:>7} {:>7} ", p.name, "", "",
                        1e6 * p.mesh_s, 1e6 * p.march_s, short_number(p.sensor), short_number(p.te));
         const auto worst =
             std::max_element(p.features.begin(), p.features.end(),
                              [](const auto& a, const auto& b) { return a.second < b.second; });
         if (worst == p.features.end()) {
-            fmt::format_to(out, "{:>8}\n", "-");
+            fmt::format_to(out, "{:>7}\n", "-");
         } else {
-            fmt::format_to(out, "{:>8}  {}\n", short_number(worst->second), worst->first);
+            fmt::format_to(out, "{:>7}  {}\n", short_number(worst->second), worst->first);
         }
     }
 }

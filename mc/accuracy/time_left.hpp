@@ -1,5 +1,4 @@
-// What is left of the processor time that a measurement was given. Nothing new is begun when it is
-// up.
+// Remaining processor time of a measurement. No new part is started when it has run out.
 #pragma once
 
 #include <cmath>
@@ -10,7 +9,7 @@ namespace gearpod::mc {
 
 class TimeLeft {
   public:
-    // 0: as long as it takes.
+    // `seconds` 0: no limit.
     explicit TimeLeft(double seconds)
         : end_s_(seconds > 0.0 ? thread_processor_s() + seconds : INFINITY) {}
 

@@ -27,7 +27,7 @@ std::optional<std::size_t> time_column(const Results& frame) {
     return std::nullopt;
 }
 
-// The last time of each group.
+// Returns the last time of each group.
 std::vector<double> ends_of(const std::vector<double>& times) {
     const std::set<double> distinct(times.begin(), times.end());
     if (distinct.size() <= kMostGroups) {
@@ -123,7 +123,7 @@ std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& grou
     const std::size_t time = *time_column(frame);
     const std::string unit = frame.parameters[time].unit;
     std::string out =
-        fmt::format("Alarms over time{} (alarms of recordings; median of the feature)\n",
+        fmt::format("Alarms over time{} (recordings with an alarm; median of the feature)\n",
                     unit == "1" ? "" : ", " + unit);
     out += fmt::format("{:<16}{:>10}", "time", "recordings");
     for (const std::size_t f : order) {

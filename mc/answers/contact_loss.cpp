@@ -9,7 +9,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The value below which a share of the sorted values lies; linear between two of them.
+// Quantile of sorted values, interpolated linearly.
 double quantile(const std::vector<double>& sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(at);

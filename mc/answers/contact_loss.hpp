@@ -1,4 +1,5 @@
-// Share of time out of contact over the gearboxes of an ensemble, mesh by mesh.
+// Contact loss ratio (fraction of time out of contact) of each mesh, over the gearboxes of an
+// ensemble.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// The contact loss ratio of one mesh over the gearboxes that worked.
+// Contact loss ratio of one mesh, over the gearboxes that did not fail.
 struct ContactLossSummary {
     std::string mesh;
     double mean = 0.0;
@@ -16,11 +17,11 @@ struct ContactLossSummary {
     std::size_t rows = 0;
 };
 
-// One entry a mesh that has a value in some row; none where teeth cannot part.
+// Returns one entry for each mesh that has a value in some row; none where teeth cannot separate.
 std::vector<ContactLossSummary> summarise_contact_loss(const Results& frame, const RowSource& rows);
 
-// "sun-planet 4.2 % (1.1 % to 9.3 %), ring-planet ...": means and the range of the middle 90 % of
-// the gearboxes; "" without meshes.
+// Lists means and the central 90 % range over the gearboxes, for example
+// "sun-planet 4.2 % (1.1 % to 9.3 %), ring-planet ...". "" without meshes.
 std::string contact_loss_text(const std::vector<ContactLossSummary>& meshes);
 
 }  // namespace gearpod::mc

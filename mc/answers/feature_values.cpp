@@ -39,7 +39,7 @@ bool any_threshold(const Results& frame) {
     });
 }
 
-// The graded rows, none if there are more than one reads.
+// Returns the graded rows, or none if there are more than kMostRead.
 std::vector<ReadRow> graded_rows(const RowShape& shape, const RowSource& rows) {
     std::vector<ReadRow> graded;
     std::size_t seen = 0;
@@ -63,7 +63,7 @@ std::string value_text(double value) {
     return std::isnan(value) ? "none" : fmt::format("{:.5g}", value);
 }
 
-// The row's number, the fault's size and the other inputs that differ.
+// Columns with the row number, the fault size and the other inputs that differ between rows.
 std::vector<TextColumn> input_columns(const Results& frame, const std::vector<ReadRow>& graded) {
     std::vector<TextColumn> columns(1, {"row", {}});
     for (const ReadRow& row : graded) {
@@ -101,7 +101,7 @@ void add_columns(std::string& out, const std::vector<const TextColumn*>& columns
     }
 }
 
-// Features side by side, as many as fit the width beside the inputs.
+// Adds blocks of feature columns, as many as fit into the text width next to the inputs.
 void add_level(std::string& out, const std::vector<TextColumn>& inputs,
                const std::vector<TextColumn>& features) {
     std::size_t begin = 0;
@@ -135,7 +135,7 @@ std::string feature_values_text(const Results& frame, const RowSource& rows) {
         return "";
     }
     const std::vector<TextColumn> inputs = input_columns(frame, graded);
-    std::string out = "Feature values, as there is no threshold to hold them against\n";
+    std::string out = "Feature values (there is no threshold to compare them with)\n";
     for (std::size_t n = 0; n < frame.noise_levels.size(); ++n) {
         std::vector<TextColumn> features;
         for (std::size_t f = 0; f < frame.features.size(); ++f) {

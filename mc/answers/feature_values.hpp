@@ -1,5 +1,5 @@
-// The features' values themselves, gearbox by gearbox: what a study says that has too few healthy
-// gearboxes for any threshold, as those of published figures.
+// Table of feature values for each gearbox. It replaces the detection rates if a study has too few
+// healthy gearboxes for any threshold, such as the studies of published figures.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace gearpod::mc {
 
-// Of the graded rows at every noise level, with the inputs that differ between them. "" where a
-// feature has a threshold, and where there are more rows than one reads. `frame.detection` must be
-// up to date (detect_all).
+// Returns the values of the graded rows at every noise level, with the inputs that differ between
+// the rows. Returns "" if a feature has a threshold, or if there are more than 60 rows.
+// `frame.detection` must be up to date (detect_all).
 std::string feature_values_text(const Results& frame, const RowSource& rows);
 
 }  // namespace gearpod::mc

@@ -12,6 +12,7 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/monitoring/own_baseline.hpp"
 #include "analysis/report/json_values.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -29,12 +30,12 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-// One gearbox's recordings in time order.
+// Recordings of one gearbox in time order.
 struct Records {
     std::string name;
     std::vector<std::size_t> rows;
-    std::vector<char> healthy, faulty;        // as known
-    std::vector<double> time, torque;         // torque: empty without
+    std::vector<char> healthy, faulty;        // both 0: condition unknown
+    std::vector<double> time, torque;         // torque: may be empty
     std::vector<std::vector<double>> values;  // by feature
 
     bool has_baseline(std::size_t records) const {
@@ -71,7 +72,8 @@ Columns columns_of(const Results& frame, const RowSource& rows, std::size_t time
     return columns;
 }
 
-// Recordings without a name are those of one gearbox if none has a name; else they are left out.
+// Groups recordings by gearbox. If no recording has a gearbox name, all belong to one gearbox;
+// otherwise recordings without a name are omitted.
 std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std::string>& names) {
     std::map<std::string, std::vector<std::size_t>> rows_of;
     for (std::size_t row = 0; row < columns.time.size(); ++row) {
@@ -107,7 +109,7 @@ std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std:
     return gearboxes;
 }
 
-// The healthy recordings behind the baseline, as a life of as many "hours".
+// Healthy recordings after the baseline, as a life in which each recording counts as one hour.
 analysis::HealthyLife healthy_life(const Records& gearbox, const std::vector<double>& deviations) {
     analysis::HealthyLife life;
     for (std::size_t i = 0; i < deviations.size(); ++i) {
@@ -146,7 +148,7 @@ std::optional<std::size_t> parameter_place(const Results& frame, const std::stri
     return std::nullopt;
 }
 
-// Every feature by itself, and those that the study uses as one.
+// Monitors every feature separately, and the study's features combined ("fused").
 class Watching {
   public:
     Watching(const Results& frame, const Study& study, const std::vector<Records>& gearboxes)
@@ -218,11 +220,12 @@ class Watching {
     const std::vector<Records>& gearboxes_;
 };
 
-// Why these gearboxes cannot be watched; "" if they can.
+// Reason why these gearboxes cannot be monitored; "" if they can.
 std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, double rate) {
     if (gearboxes.empty()) {
-        return fmt::format("no gearbox has more than {} recordings that begin before its fault",
-                           baseline);
+        return fmt::format(
+            "no gearbox has more than {0} recordings of which the first {0} are without a fault",
+            baseline);
     }
     long healthy = 0;
     for (const Records& gearbox : gearboxes) {
@@ -232,8 +235,8 @@ std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, doub
     return healthy >= needed
                ? ""
                : fmt::format(
-                     "{} healthy recordings behind the first {} of a gearbox are too few "
-                     "for a false-alarm rate of {:g}: at least {} are needed",
+                     "{} healthy recordings after the first {} of a gearbox are too few for a "
+                     "false-alarm rate of {:g}: at least {} are needed",
                      healthy, baseline, rate, needed);
 }
 
@@ -257,7 +260,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     monitoring.time_unit = unit == "1" ? "" : unit;
     if (asked.torque_regression && !torque) {
         monitoring.refusal =
-            "monitoring.torque_regression asks for the torque of each recording, and the manifest "
+            "monitoring.torque_regression needs the torque of each recording, but the manifest "
             "has no column torque";
         return monitoring;
     }
@@ -265,7 +268,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
                                   lines_of(frame.provenance_value("recorded_gearboxes")));
     if (gearboxes.size() == 1 && gearboxes.front().name.empty()) {
         monitoring.note =
-            "no recording has a gearbox's name (column gearbox): all are taken for one machine's";
+            "no recording names its gearbox (column gearbox): all are assumed to be of one machine";
     }
     std::erase_if(gearboxes, [&](const Records& one) {
         return !one.has_baseline(static_cast<std::size_t>(asked.baseline_records));
@@ -281,26 +284,31 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
 std::string monitoring_text(const MonitoringOverTime& monitoring,
                             const std::vector<std::string>& features) {
     if (!monitoring.refusal.empty()) {
-        return "Watched over time: not possible: " + monitoring.refusal + "\n";
+        return wrapped_text("Monitoring over time is not possible: " + monitoring.refusal, 2) +
+               "\n";
     }
     std::string out =
-        monitoring.baseline_records > 0
-            ? fmt::format(
-                  "Watched over time (deviations from a gearbox's first {} recordings{}; "
-                  "thresholds: {:g} of the\nhealthy recordings behind these alarm; an "
-                  "alarm starts the detector anew)\n",
-                  monitoring.baseline_records,
-                  monitoring.torque_regression ? ", along a line in the torque" : "",
-                  monitoring.false_alarm_rate)
-            : fmt::format(
-                  "Watched over time (thresholds: {:g} of the healthy recordings alarm; an "
-                  "alarm starts the detector anew)\n",
-                  monitoring.false_alarm_rate);
+        wrapped_text(
+            monitoring.baseline_records > 0
+                ? fmt::format(
+                      "Monitoring over time (deviations from the first {} recordings of a "
+                      "gearbox{}; thresholds: {:g} of the later healthy recordings alarm; an "
+                      "alarm resets the detector)",
+                      monitoring.baseline_records,
+                      monitoring.torque_regression ? ", with a linear regression on the torque"
+                                                   : "",
+                      monitoring.false_alarm_rate)
+                : fmt::format(
+                      "Monitoring over time (thresholds: {:g} of the healthy recordings alarm; an "
+                      "alarm resets the detector)",
+                      monitoring.false_alarm_rate),
+            2) +
+        "\n";
     if (!monitoring.note.empty()) {
-        out += monitoring.note + "\n";
+        out += wrapped_text(monitoring.note, 2) + "\n";
     }
-    out += fmt::format("{:<20}{:<20}{:>10}{:>11}{:>11}  {}\n", "feature", "detector", "threshold",
-                       "healthy", "later", "first alarm");
+    out += fmt::format("{:<20}{:<13}{:>9}{:>9}{:>9}  {}\n", "feature", "detector", "threshold",
+                       "healthy", "others", "first alarm");
     for (const WatchedFeature& one : monitoring.watched) {
         if (one.feature != kFused &&
             std::find(features.begin(), features.end(), one.feature) == features.end()) {
@@ -316,8 +324,8 @@ std::string monitoring_text(const MonitoringOverTime& monitoring,
                 first = fmt::format("{:g} {}, {}", gearbox.first_time, monitoring.time_unit,
                                     name.substr(name.rfind('/') + 1));
             }
-            out += fmt::format("{:<20}{:<20}{:>10.3g}{:>11}{:>11}  {}{}\n", one.feature,
-                               one.detector, one.threshold.value,
+            out += fmt::format("{:<20}{:<13}{:>9.3g}{:>9}{:>9}  {}{}\n", one.feature, one.detector,
+                               one.threshold.value,
                                fmt::format("{}/{}", one.threshold.alarms, one.threshold.records),
                                fmt::format("{}/{}", gearbox.alarms, gearbox.recordings),
                                gearbox.name.empty() ? "" : gearbox.name + ": ", first);

@@ -1,6 +1,6 @@
-// Measured recordings of gearboxes in time order, watched as a monitor would: each gearbox against
-// its own first recordings, by every detector of the study (analysis/monitoring), with thresholds
-// from the recordings known to be healthy.
+// Monitoring of measured recordings in time order. Every detector of the study compares each
+// gearbox with its own first recordings (analysis/monitoring). The thresholds come from the
+// recordings known to be healthy.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,37 +13,37 @@
 
 namespace gearpod::mc {
 
-// What a detector says of one gearbox's recordings that are not known to be healthy.
+// Alarms of a detector in one gearbox's recordings that are not known to be healthy.
 struct WatchedGearbox {
-    std::string name;  // "" if it is not known
+    std::string name;  // "": unknown
     long recordings = 0, alarms = 0;
-    std::optional<std::size_t> first;  // of the alarms: row
+    std::optional<std::size_t> first;  // row of the first alarm
     double first_time = 0.0;
 };
 
 struct WatchedFeature {
-    std::string feature;  // "fused": all that the study uses
+    std::string feature;  // "fused": all features that the study uses, combined
     std::string detector;
-    // Of a rate per 1000 recordings: `hours` counts recordings.
+    // Here the rate is per 1000 recordings, and `hours` counts recordings.
     analysis::MonitorThreshold threshold;
     std::vector<WatchedGearbox> gearboxes;
 };
 
 struct MonitoringOverTime {
     int baseline_records = 0;
-    double false_alarm_rate = 0.0;  // of a recording
+    double false_alarm_rate = 0.0;  // per recording
     bool torque_regression = false;
-    std::vector<WatchedFeature> watched;  // the frame's features, then fused; by detector
-    std::vector<std::string> names;       // of the recordings, by row
-    std::string time_unit;                // "" without
-    std::string note;                     // what is taken for granted; else empty
-    std::string refusal;                  // why nothing is watched; else empty
+    std::vector<WatchedFeature> watched;  // each feature of the frame, then fused; by detector
+    std::vector<std::string> names;       // recording names, by row
+    std::string time_unit;                // "": none
+    std::string note;                     // assumption made; else empty
+    std::string refusal;                  // why monitoring is impossible; else empty
 };
 
-// None unless the rows are recordings with times.
+// Returns nothing unless the rows are recordings with times.
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, const RowSource& rows);
 
-// A line for each detector of the features named, "fused" always. Ends with a newline.
+// Table with a line for each detector of the given features and of "fused". Ends with a newline.
 std::string monitoring_text(const MonitoringOverTime& monitoring,
                             const std::vector<std::string>& features);
 

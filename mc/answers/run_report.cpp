@@ -11,6 +11,7 @@
 #include "mc/answers/contact_loss.hpp"
 #include "mc/answers/feature_values.hpp"
 #include "mc/answers/monitoring_over_time.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/results/failure_text.hpp"
@@ -26,7 +27,7 @@ struct TimeRow {
 };
 constexpr TimeRow kTimeRows[] = {{"sampling", [](const CrewTimes& t) { return t.work.sampling; }},
                                  {"stiffness", [](const CrewTimes& t) { return t.work.stiffness; }},
-                                 {"march", [](const CrewTimes& t) { return t.work.march; }},
+                                 {"integration", [](const CrewTimes& t) { return t.work.march; }},
                                  {"signals", [](const CrewTimes& t) { return t.work.signals; }},
                                  {"noise", [](const CrewTimes& t) { return t.work.noise; }},
                                  {"features", [](const CrewTimes& t) { return t.work.features; }},
@@ -78,8 +79,7 @@ std::string results_text(const Results& frame, const RowSource& rows,
     if (const std::string part = frame.provenance_value("part"); !part.empty()) {
         analysis::add_wrapped(
             text,
-            fmt::format("Part {} of the study alone; `gearpod merge` makes the whole of all.",
-                        part),
+            fmt::format("Part {} of the study only; join all parts with `gearpod merge`.", part),
             2);
     }
     if (const std::string shortage =
@@ -113,8 +113,8 @@ std::string results_text(const Results& frame, const RowSource& rows,
         text += "\n";
         analysis::add_wrapped(
             text,
-            "Share of time that a tooth pair is out of contact, mean (5 to 95 % of "
-            "the gearboxes): " +
+            "Share of time that a tooth pair is out of contact, mean (5 to 95 % range of the "
+            "gearboxes): " +
                 loss + ".",
             2);
     }
@@ -127,19 +127,21 @@ std::string results_text(const Results& frame, const RowSource& rows,
 }
 
 void print_failures(const RowCounts& rows, int max_meshes) {
-    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n", rows.failed(),
+    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not converge)\n", rows.failed(),
                rows.all, rows.diverged, rows.not_settled);
     for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
                                 Status::no_equilibrium}) {
         const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
         if (count > 0) {
-            fmt::print("  {} of them: each {}\n", count, failure_text(status));
+            const std::string reason =
+                fmt::format("{} of them: each {}", count, failure_text(status));
+            fmt::print("  {}\n", wrapped_text(reason, 2));
         }
     }
     if (rows.not_settled > 0) {
         fmt::print(
-            "  (their orbit or the fault's disturbance was not back within {} mesh periods: "
-            "raise numerics.max_meshes, or numerics.settle_tolerance)\n",
+            "  (no convergence to the periodic orbit within {} mesh periods: raise\n"
+            "  numerics.max_meshes or numerics.settle_tolerance)\n",
             max_meshes);
     }
 }
@@ -147,13 +149,13 @@ void print_failures(const RowCounts& rows, int max_meshes) {
 void print_times(const EnsembleOutcome& outcome) {
     const int threads = outcome.threads();
     const std::size_t ranks = outcome.crews.size();
-    fmt::print("where the time went ({} rank{}, {} thread{} in all, {:.1f} s):\n", ranks,
+    fmt::print("computing time ({} rank{}, {} thread{} in total, {:.1f} s):\n", ranks,
                ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", outcome.wall_s);
-    fmt::print("  {:<10} {:>7} {:>12}{}\n", "", "share", "thread s",
-               ranks > 1 ? "   of a rank: least, mean, most" : "");
+    fmt::print("  {:<11} {:>7} {:>12}{}\n", "", "share", "thread s",
+               ranks > 1 ? "   per rank: least, mean, most" : "");
     const double total = std::max(1e-9, threads * outcome.wall_s);
     const auto print_row = [&](const char* name, const Spread& spread) {
-        fmt::print("  {:<10} {:5.1f} % {:12.2f}", name, 100.0 * spread.sum / total, spread.sum);
+        fmt::print("  {:<11} {:5.1f} % {:12.2f}", name, 100.0 * spread.sum / total, spread.sum);
         if (ranks > 1) {
             fmt::print("   {:9.2f} {:9.2f} {:9.2f}", spread.least,
                        spread.sum / static_cast<double>(ranks), spread.most);
@@ -166,11 +168,11 @@ void print_times(const EnsembleOutcome& outcome) {
     const Seconds work = outcome.work();
     if (const long records = work.superposed + work.marched_instead; records > 0) {
         fmt::print(
-            "  (march: {} of {} records superposed; {} marched whole, for a tooth pair may lose "
-            "contact, or a fault's passages fill the span)\n",
+            "  (integration: {} of {} records superposed; {} integrated in full, because a\n"
+            "  tooth pair may lose contact or the fault acts during the whole span)\n",
             work.superposed, records, work.marched_instead);
     }
-    fmt::print("  (output: checkpoints, written by rank 0's main thread beside the others)\n");
+    fmt::print("  (output: checkpoints, written in parallel by the main thread of rank 0)\n");
 }
 
 }  // namespace gearpod::mc

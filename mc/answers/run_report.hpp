@@ -1,4 +1,4 @@
-// What a run says at its end, beside its detection rates.
+// Text report of a run: assumptions, detection rates, failures and computing times.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace gearpod::mc {
 
-// All gearboxes, and those without a value; `diverged` holds all but those that did not settle.
+// Number of gearboxes by status. `diverged` counts every failure except those that did not converge
+// to the periodic steady state.
 struct RowCounts {
     std::size_t all = 0, diverged = 0, not_settled = 0;
     std::array<std::size_t, kStatuses> with_status{};
@@ -17,17 +18,19 @@ struct RowCounts {
     std::size_t failed() const { return diverged + not_settled; }
 };
 
-// `records`: rows of each gearbox that sets thresholds (DetectionRequest::threshold_records).
+// Counts gearboxes. `records`: rows of each threshold gearbox
+// (DetectionRequest::threshold_records); only the first one counts.
 RowCounts count_rows(const RowSource& rows, std::size_t records);
 
-// What the answer takes for granted, detection rates, reliability and, if it was verified, the
-// numerical error.
+// Report with assumptions, detection rates, reliability and, if it was verified, the numerical
+// error.
 std::string results_text(const Results& frame, const RowSource& rows,
                          const std::optional<analysis::Reliability>& reliability);
 
 void print_failures(const RowCounts& rows, int max_meshes);
 
-// Where the time went: of the threads of all ranks, and the least, mean and most of a rank.
+// Prints the computing time by task, summed over all threads, with the least, mean and largest
+// value of a rank.
 void print_times(const EnsembleOutcome& outcome);
 
 }  // namespace gearpod::mc

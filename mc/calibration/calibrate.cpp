@@ -13,9 +13,9 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kShare = 0.2;  // of the draws that are kept
+constexpr double kShare = 0.2;  // fraction of the simulated sets that ABC accepts
 
-// Draws inside a region, by their place in it.
+// Simulated sets whose parameters lie inside a region, with parameters relative to it.
 struct Draws {
     analysis::AbcDraws abc;
     std::vector<const SimulatedSet*> sets;
@@ -53,7 +53,7 @@ std::vector<double> column(const std::vector<double>& table, std::size_t width, 
     return values;
 }
 
-// Places in the prior, of the posterior in a region.
+// Posterior sample of parameter p, given in a region, as quantiles of the prior.
 std::vector<double> in_prior(const analysis::AbcPosterior& posterior, const PriorRegion& region,
                              std::size_t p) {
     std::vector<double> values = column(posterior.unit, region.low.size(), p);
@@ -63,7 +63,7 @@ std::vector<double> in_prior(const analysis::AbcPosterior& posterior, const Prio
     return values;
 }
 
-// Where the posterior is, and as much again to either side.
+// Range of the posterior, extended by half its width on both sides.
 PriorRegion narrowed(const analysis::AbcPosterior& posterior, const PriorRegion& region) {
     constexpr double kTail = 0.005;
     PriorRegion next = region;
@@ -94,8 +94,8 @@ FoundInput found_input(const CalibratedInput& input, std::span<const double> val
     return found;
 }
 
-// Places of a weighted sample's members that stand for it, equally likely: the member at every
-// `count`-th of the cumulated weight.
+// Indices of `count` equally likely members that represent a weighted sample: those at equidistant
+// values of the cumulative weight.
 std::vector<std::size_t> equally_likely(std::span<const double> weights, std::size_t count) {
     std::vector<std::size_t> members;
     double cumulated = weights.front();
@@ -179,10 +179,10 @@ std::vector<FeatureCheck> checks(const analysis::AbcPosterior& posterior, const 
 void check_count(const Draws& draws, std::size_t of, std::size_t inputs) {
     constexpr std::size_t kFewest = 50;
     if (draws.sets.size() < kFewest * inputs) {
-        throw std::runtime_error(fmt::format(
-            "only {} of {} simulated sets have all features, and it takes {}: more --draws, or a "
-            "prior where the gearboxes work",
-            draws.sets.size(), of, kFewest * inputs));
+        throw std::runtime_error(
+            fmt::format("only {} of {} simulated sets have all features, but at least {} are "
+                        "needed; raise --draws, or use a prior for which the gearboxes work",
+                        draws.sets.size(), of, kFewest * inputs));
     }
 }
 

@@ -1,4 +1,4 @@
-// calibrated_study(): what was found, as a study file.
+// Implements calibrated_study().
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Draws of all inputs together, in rows: what the recordings know of combinations stays known.
+// Joint sample of all inputs, in rows: this keeps the correlations that the recordings determine.
 std::string distribution_of(const std::vector<double>& draws) {
     std::string values;
     for (const double value : draws) {
@@ -20,18 +20,18 @@ std::string distribution_of(const std::vector<double>& draws) {
 std::string comment_of(const CalibrationResult& result, std::size_t p) {
     const FoundInput& found = result.found[p];
     std::string text =
-        fmt::format("# found: {:.4g}, 90 % from {:.4g} to {:.4g} (prior {:g} to {:g}{})",
+        fmt::format("# median {:.4g}, 90 % interval {:.4g} to {:.4g} (prior {:g} to {:g}{})",
                     found.median, found.low, found.high, found.input.low, found.input.high,
                     found.input.logarithmic ? ", log" : "");
-    text += found.told ? "\n" : ": THE RECORDINGS DO NOT TELL IT, this is the prior\n";
+    text += found.told ? "\n" : ": THE RECORDINGS DO NOT DETERMINE IT, this is the prior\n";
     if (found.told && !found.deciding.empty()) {
-        text += fmt::format("# by {}\n", fmt::join(found.deciding, ", "));
+        text += fmt::format("# most correlated with {}\n", fmt::join(found.deciding, ", "));
     }
     for (const BoundPair& pair : result.pairs) {
         if (pair.first == p || pair.second == p) {
             const std::size_t other = pair.first == p ? pair.second : pair.first;
             text += fmt::format(
-                "# known together with {} alone, rank correlation {:+.2f}: drawn in rows\n",
+                "# determined only together with {}, rank correlation {:+.2f}: sampled in rows\n",
                 result.found[other].input.key, pair.correlation);
         }
     }
@@ -52,7 +52,7 @@ std::string calibrated_study(const Study& study, const CalibrationResult& result
         found +=
             fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.draws[p]));
     }
-    // The study's own distributions of these inputs give way.
+    // The sample replaces the study's own distributions of these inputs.
     Study kept = study;
     kept.detection.uncertain_inputs.clear();
     for (const FoundInput& one : result.found) {

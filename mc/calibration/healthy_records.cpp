@@ -16,7 +16,7 @@ namespace {
 
 using features::Feature;
 
-// What one record of the set may give: the sensor's own features.
+// True for features of a single sensor record that need no healthy reference.
 bool of_sensor_alone(const Feature& feature) {
     return feature.from_sensor && (feature.needs & features::kHealthy) == 0;
 }
@@ -37,7 +37,7 @@ const Feature* record_feature(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
-// Of one of these.
+// Index of a feature in features::record_features().
 std::size_t place_of(const Feature& feature) {
     return static_cast<std::size_t>(&feature - features::record_features().data());
 }
@@ -53,7 +53,7 @@ class TableReading {
             any_ = any_ || std::ranges::find(known, column.name) != known.end();
         }
         if (!any_) {
-            problems_.push_back({table_.path, 0, "", "has no column named after a sensor's feature",
+            problems_.push_back({table_.path, 0, "", "has no column named after a sensor feature",
                                  "its columns are " + table_.names()});
         }
         std::vector<HealthyRecord> records;
@@ -81,7 +81,7 @@ class TableReading {
         }
         const auto number = number_of(turns, false);
         if (!number || !(*number >= 1.0) || *number > 1e6) {
-            reject("planet_turns", fmt::format("\"{}\" is no number of turns", turns),
+            reject("planet_turns", fmt::format("\"{}\" is not a number of turns", turns),
                    "give 1 or more");
             return scene_.span_meshes();
         }
@@ -101,7 +101,7 @@ class TableReading {
             const auto factor = feature.unit == "m/s^2" ? unit_factor(Quantity::acceleration, unit)
                                                         : std::optional<double>(1.0);
             if (!number || !std::isfinite(*number)) {
-                reject(name, fmt::format("\"{}\" is no finite number", field), "");
+                reject(name, fmt::format("\"{}\" is not a finite number", field), "");
             } else if (!factor) {
                 reject(name, "unknown unit " + unit, known_units(Quantity::acceleration));
             } else {
@@ -132,10 +132,10 @@ std::vector<const Feature*> wanted_features(const std::vector<HealthyRecord>& re
         const auto known = usable_names();
         const Feature* feature = record_feature(name);
         if (std::ranges::find(known, name) == known.end()) {
-            problems.push_back({"--feature", 0, name, "is no feature of a sensor's record alone",
+            problems.push_back({"--feature", 0, name, "is not a feature of a single sensor record",
                                 suggest(name, known)});
         } else if (!all_have(records, *feature)) {
-            problems.push_back({"--feature", 0, name, "not all records have it", ""});
+            problems.push_back({"--feature", 0, name, "is missing from some records", ""});
         } else {
             chosen.push_back(feature);
         }
@@ -150,12 +150,12 @@ std::vector<const Feature*> wanted_features(const std::vector<HealthyRecord>& re
         }
     }
     if (chosen.empty()) {
-        problems.push_back({"calibrate", 0, "", "no feature that all records have", ""});
+        problems.push_back({"calibrate", 0, "", "no feature is present in all records", ""});
     }
     return chosen;
 }
 
-// `most` of them at even distances, all if they are fewer.
+// At most `most` of the elements, at even distances.
 template <class Value>
 std::vector<Value> thinned(std::vector<Value> all, std::size_t most) {
     if (all.size() <= most) {

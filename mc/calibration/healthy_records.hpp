@@ -1,4 +1,4 @@
-// The records that a study is calibrated by: of which gearbox, how long, with what features.
+// Records with which a study is calibrated: their gearbox, length and features.
 #pragma once
 
 #include <string>
@@ -11,34 +11,35 @@
 namespace gearpod::mc {
 
 struct HealthyRecord {
-    std::string gearbox;  // "": one of its own
+    std::string gearbox;  // "": a separate gearbox
     int meshes = 0;
-    std::vector<double> values;  // by features::record_features(); NaN: none
+    std::vector<double> values;  // in the order of features::record_features(); NaN if missing
 };
 
-// A table as `features --csv` writes it (text_table.hpp), a line a record: columns named after
-// features, and, if there are, gearbox, label (faulty lines are left out), planet_turns (default:
-// the span's) and problem (lines that have one are left out). Problems name the line. Throws
-// SignalError if the table itself cannot be read.
+// Reads a table as written by `features --csv` (text_table.hpp), one record per line. Columns are
+// named after features. Optional columns: gearbox, label (faulty lines are skipped), planet_turns
+// (default: the span's) and problem (lines with a problem are skipped). Problems name the line.
+// Throws SignalError if the table cannot be read.
 std::vector<HealthyRecord> read_feature_table(const std::string& path, const Scene& scene,
                                               Problems& problems);
 
-// At most so many gearboxes, and records of each, are simulated; of more, evenly chosen ones.
+// Largest number of gearboxes, and of records of each, that are simulated. From more, evenly spaced
+// ones are selected.
 inline constexpr std::size_t kMostGearboxes = 16, kMostRecords = 8;
 
 struct HealthySet {
     RecordLengths lengths;
-    RecordValues values;  // by `features`
+    RecordValues values;  // in the order of `features`
     std::vector<const features::Feature*> features;
-    std::size_t records = 0, left_out = 0;  // taken, and not for want of room
+    std::size_t records = 0, left_out = 0;  // number selected, and number not selected
 
-    // Of the records taken; 0 without the feature.
+    // Mean over the selected records; 0 without the feature.
     double mean_of(const std::string& feature) const;
 };
 
-// `wanted`: features by name; without any, those of the sensor that all records have and that need
-// neither other healthy records nor the sun's or the ring's teeth. Problems name what a record has
-// not.
+// Selects records and features. `wanted` holds names of features. If it is empty, all sensor
+// features are used that all records have, that need no healthy reference, and that do not refer to
+// the teeth of the sun or the ring. Missing features are added to the problems.
 HealthySet healthy_set(const std::vector<HealthyRecord>& records,
                        const std::vector<std::string>& wanted, Problems& problems);
 

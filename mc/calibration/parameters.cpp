@@ -59,7 +59,7 @@ class Reader {
         const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
         input.logarithmic = parts.size() == 3 && parts[2] == "log";
         if (!low || !high || parts.size() > 3 || (parts.size() == 3 && !input.logarithmic)) {
-            return reject("\"" + text.substr(equals + 1) + "\" is no range",
+            return reject("\"" + text.substr(equals + 1) + "\" is not a range",
                           "write LOW:HIGH or LOW:HIGH:log");
         }
         if (!std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {
@@ -121,7 +121,7 @@ std::vector<CalibratedInput> usual_inputs(const Study& study, double rms) {
     } else {
         usual.push_back({"gearbox.tooth_quality", 2.0, 11.0, false, 1.0});
     }
-    // In the key's unit, what makes a noise of that rms.
+    // Amplitude in the unit of the key that corresponds to an rms of 1 m/s^2.
     const double unit =
         noise_by_density(study)
             ? 1.0 / std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz))
@@ -129,7 +129,7 @@ std::vector<CalibratedInput> usual_inputs(const Study& study, double rms) {
     usual.push_back({noise_key(study), 0.01 * rms * unit, 1.05 * rms * unit, true, 1.0});
     usual.push_back({"sensor.gain", 0.05, 20.0, true, 1.0});
     usual.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
-    usual.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});  // where there are tones
+    usual.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});  // only for studies with tones
     std::erase_if(usual, [&](const CalibratedInput& input) {
         const bool forbidden = key_named(input.key)->presence(study).need == Need::forbidden;
         const bool no_path = input.key == "sensor.path_exponent" && study.effects.path == nullptr;

@@ -1,4 +1,4 @@
-// What calibrate looks for: random inputs of a study with their prior ranges.
+// Inputs to calibrate: random inputs of a study with their prior ranges.
 #pragma once
 
 #include <span>
@@ -13,27 +13,28 @@ namespace gearpod::mc {
 
 struct CalibratedInput {
     std::string key;           // "gearbox.tooth_quality"
-    double low = 0, high = 1;  // of the prior, in the key's unit
-    bool logarithmic = false;  // evenly in the logarithm
+    double low = 0, high = 1;  // range of the prior, in the unit of the key
+    bool logarithmic = false;  // uniform in the logarithm
     double to_si = 1.0;
 
-    // The value, in the key's unit, below which a share `unit` of the prior lies; and back.
+    // at(): quantile of the prior, in the unit of the key; unit_of(): its inverse.
     double at(double unit) const;
     double unit_of(double value) const;
-    // Whether the march knows nothing of it: a value of its own costs no march.
+    // True if the motion does not depend on this input, so that another value needs no integration.
     bool after_march() const;
-    // As an override of the study, which checks it.
+    // The prior as an override of the study.
     std::string as_override() const;
 };
 
-// "gearbox.tooth_quality=3:10", "sensor.noise_m_s2=0.01:1:log". Problems are of `--prior`.
+// Parses texts such as "gearbox.tooth_quality=3:10" and "sensor.noise_m_s2=0.01:1:log". Problems
+// refer to `--prior`.
 std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts, Problems& problems);
 
-// Those of a study whose sensor measures `rms` m/s^2: tooth errors, background, level of the tones,
-// gain and path exponent, whichever it may have.
+// Default inputs of a study whose sensor measures `rms` m/s^2: tooth errors, noise, level of the
+// tones, gain and path exponent, as far as the study allows them.
 std::vector<CalibratedInput> usual_inputs(const Study& study, double rms);
 
-// By their places in the priors, `unit` one for each.
+// Inputs at the given quantiles of their priors; `unit` has one value per input.
 std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,
                                  std::span<const double> unit);
 

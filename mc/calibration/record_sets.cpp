@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t kFewest = 3;
 
-// Of the logarithm, so that it is of order 1 whatever the unit; a spread of zero has none.
+// Logarithm of the standard deviation, so that its order of magnitude does not depend on the unit.
+// The small constant avoids the logarithm of zero.
 double spread(double squares, double count) {
     constexpr double kLeast = 1e-30;
     return 0.5 * std::log(squares / count + kLeast);

@@ -1,5 +1,4 @@
-// Sets of records of healthy gearboxes, measured or simulated alike, and what they say in a few
-// numbers.
+// Sets of records of healthy gearboxes, measured or simulated, and their summary statistics.
 #pragma once
 
 #include <span>
@@ -10,25 +9,27 @@
 
 namespace gearpod::mc {
 
-// How long each record of each gearbox is, in mesh periods: [gearbox][record].
+// Length of each record in mesh periods: [gearbox][record].
 using RecordLengths = std::vector<std::vector<int>>;
 
-// [gearbox][record][feature], the features of a set.
+// [gearbox][record][feature], in the order of the set's features.
 using RecordValues = std::vector<std::vector<std::vector<double>>>;
 
-// Of each feature its mean over the set, gearboxes counting alike; over three gearboxes or more the
-// spread of their means, and over three records or more in one, that of its records. Of the
-// logarithm, where all that was measured is positive.
+// Summary statistics of a set, for each feature: the mean over the gearboxes; the standard
+// deviation between gearboxes if there are at least three; and the standard deviation between
+// records if a gearbox has at least three. Taken of the logarithm if all measured values are
+// positive.
 class SetSummary {
   public:
     SetSummary(std::vector<const features::Feature*> features, const RecordValues& measured);
 
     const std::vector<const features::Feature*>& features() const { return features_; }
-    // "sensor_rms", "sensor_rms between gearboxes", "sensor_rms between records"
+    // Names such as "sensor_rms", "sensor_rms between gearboxes", "sensor_rms between records".
     const std::vector<std::string>& names() const { return names_; }
-    // In the order of the names; empty if a value is not finite, or not positive where it must be.
+    // Statistics in the order of the names. Empty if a value is not finite, or not positive
+    // although its logarithm is needed.
     std::vector<double> of(const RecordValues& values) const;
-    // A mean in the feature's own unit, where names()[i] is one.
+    // True if names()[i] is a mean; in_unit() converts such a mean to the unit of the feature.
     bool is_mean(std::size_t i) const { return i < features_.size(); }
     double in_unit(std::size_t i, double mean) const;
 

@@ -23,10 +23,10 @@ double uniform(Philox& engine) {
     return (static_cast<double>(engine() >> 11) + 0.5) * kUnit;
 }
 
-// One gearbox of a set, marched once and heard with several backgrounds.
+// One gearbox of a set: integrated once, and combined with several backgrounds.
 struct Item {
     std::size_t set = 0, gearbox = 0;
-    std::vector<std::vector<GivenInput>> given;  // of each background
+    std::vector<std::vector<GivenInput>> given;  // for each background
 };
 
 class Simulator {
@@ -40,14 +40,15 @@ class Simulator {
 
     int lanes() const { return scene_.study().numerics.lanes; }
 
-    // [item][background][record][feature]; nothing of a gearbox that failed.
+    // Values [item][background][record][feature]; empty for a gearbox that failed.
     std::vector<RecordValues> run(std::span<const Item> items) const {
         std::vector<GearboxId> ids;
         std::vector<InstanceInputs> inputs;
         for (const Item& item : items) {
             ids.push_back(id_of(item));
             inputs.push_back(sampler_.sample(ids.back(), item.given.front()));
-            inputs.back().gain = inputs.back().tone_level = 1.0;  // each background has its own
+            // gain and tone level are applied for each background
+            inputs.back().gain = inputs.back().tone_level = 1.0;
         }
         const GearboxTile tile =
             run_given(scene_, path_, ids, inputs, lanes(), {.with_records = true});
@@ -71,7 +72,7 @@ class Simulator {
                                    exponent, 0, scene_.signal_meshes(), tones);
     }
 
-    // The records of a gearbox with each background.
+    // Records of a gearbox with each background.
     RecordValues listen(const GearboxTile& tile, int lane, const Item& item,
                         const GearboxId& id) const {
         RecordValues values;
@@ -102,7 +103,7 @@ class Simulator {
         return values;
     }
 
-    // A record that begins at any mesh and has a background of its own.
+    // Record with the given background; its first mesh period and its noise are random.
     MeasuredSignal heard(const std::vector<double>& bare, const std::vector<double>& tones,
                          const InstanceInputs& inputs, int meshes, Philox& engine) const {
         const auto samples = static_cast<std::size_t>(scene_.samples_per_mesh());
@@ -135,8 +136,8 @@ class Simulator {
     const SetSummary& summary_;
 };
 
-// The places in the priors of each background of a marched draw. What is marched has one place for
-// all of them.
+// Quantiles of the inputs in the priors, for each background of one integrated set. Inputs of the
+// time integration have the same value in all of them.
 std::vector<std::vector<double>> places(const Study& study, std::span<const CalibratedInput> inputs,
                                         const PriorRegion& region, std::size_t number,
                                         std::size_t backgrounds) {

@@ -19,9 +19,9 @@ int accuracy_command(const AccuracyOptions& options) {
     const Study& study = made.scene->study();
     if (study.effects.quasi_static()) {
         print_problems({{options.study.path, 0, "effects.motion",
-                         "a quasi-static gearbox is not integrated in time, so its accuracy is not "
-                         "a matter of steps",
-                         "give it inertia, or take the results as they are"}});
+                         "a quasi-static study has no time integration, so there are no solver "
+                         "settings to compare",
+                         "choose a motion with inertia, e.g. \"translational-torsional\""}});
         return kBadInput;
     }
     AccuracyRequest request;

@@ -44,7 +44,7 @@ AskedResults read_asked(const std::string& path) {
     check_results(path, asked.frame, rows);
     StudyReading reading = read_study_text(asked.frame.provenance_value("study"), path);
     if (!reading.study) {
-        throw std::runtime_error(path + ": its study cannot be read");
+        throw std::runtime_error(path + ": the study in the file cannot be read");
     }
     asked.study = std::move(*reading.study);
     asked.frame.detection = detect_all(asked.frame, rows);
@@ -62,7 +62,7 @@ std::optional<AskedFeature> find_asked(const AskedResults& results, const std::s
         for (const FeatureResult& known : frame.features) {
             names.push_back(known.name);
         }
-        complaints.add("--feature", fmt::format("\"{}\" is not in {}, which has {}", feature,
+        complaints.add("--feature", fmt::format("\"{}\" is not in {}; its features are {}", feature,
                                                 results.path, fmt::join(names, ", ")));
         return std::nullopt;
     }
@@ -70,8 +70,9 @@ std::optional<AskedFeature> find_asked(const AskedResults& results, const std::s
         noise_level.value_or(frame.noise_levels[reference_level(frame.noise_levels)]);
     const auto level = std::ranges::find(frame.noise_levels, wanted);
     if (level == frame.noise_levels.end()) {
-        complaints.add("--noise-level", fmt::format("{:g} is none of the file's levels: {:g}",
-                                                    wanted, fmt::join(frame.noise_levels, ", ")));
+        complaints.add("--noise-level",
+                       fmt::format("{:g} is not a noise level of the file; choose from {:g}",
+                                   wanted, fmt::join(frame.noise_levels, ", ")));
         return std::nullopt;
     }
     const auto at = static_cast<std::size_t>(level - frame.noise_levels.begin());
@@ -82,14 +83,15 @@ void needs_threshold(const AskedFeature& asked, Complaints& complaints) {
     if (std::isnan(asked.detection->threshold)) {
         complaints.add("--feature",
                        fmt::format("\"{}\" has no threshold at noise x {:g}: too few healthy "
-                                   "gearboxes for the false-alarm rate",
+                                   "gearboxes for the false-alarm rate; run the study with more "
+                                   "(ensemble.threshold_instances)",
                                    asked.feature->name, asked.detection->noise_level));
     }
 }
 
 AskedSize ask_size(const Study& study, double size, Complaints& complaints) {
     if (!(size > 0.0) || std::isinf(size)) {
-        complaints.add("--size", fmt::format("{:g} is no fault", size));
+        complaints.add("--size", fmt::format("must be > 0 and finite, but is {:g}", size));
     }
     const Unit& unit = fault_size_key(study).unit;
     return {size * unit.to_si, size, unit.suffix.empty() ? "" : std::string(unit.name)};
@@ -101,9 +103,10 @@ const char* alarm_symbol_of(const std::string& feature) {
 
 std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
                          double threshold) {
-    return fmt::format("faults of {:g}{}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ",
-                       size.given, size.unit.empty() ? "" : " ", size.unit, feature, noise_level,
-                       alarm_symbol_of(feature), threshold);
+    return fmt::format(
+        "probability that {} misses a fault of {:g}{}{} at noise x {:g} (alarm if {} {:.5g}): ",
+        feature, size.given, size.unit.empty() ? "" : " ", size.unit, noise_level,
+        alarm_symbol_of(feature), threshold);
 }
 
 StudyScene scene_of_asked(const AskedResults& results, const Study& study) {
@@ -125,7 +128,7 @@ bool prepare_together(const Ranks& ranks, const std::string& results, const std:
                       const std::function<void()>& prepare) {
     std::string problem;
     if (ranks.leads() && !can_write({"--json", json}, {{"the results file", results}})) {
-        problem = "-";  // which has said why
+        problem = "-";  // can_write() has printed the reason
     } else {
         try {
             prepare();
@@ -161,7 +164,7 @@ int answer_together(const Ranks& ranks, Progress& progress, const std::string& j
         return answered.failed == 0 ? kDone : kSomeFailed;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;  // nothing is kept
+        return kBadInput;  // there is no checkpoint to resume from
     }
 }
 

@@ -1,4 +1,5 @@
-// Commands that compute more gearboxes of a finished run's study, for one of its features.
+// Shared parts of the commands that compute more gearboxes of a finished run's study, for one of
+// its features (`misses`, `rare`).
 #pragma once
 
 #include <functional>
@@ -16,11 +17,11 @@
 
 namespace gearpod::mc {
 
-// Every option that is wrong, a line each.
+// Collects one line for each wrong option.
 class Complaints {
   public:
     void add(const std::string& option, const std::string& what);
-    // Throws std::runtime_error if there are any.
+    // Throws std::runtime_error with all lines if there are any.
     void end() const;
 
   private:
@@ -29,53 +30,55 @@ class Complaints {
 
 struct AskedResults {
     std::string path;
-    Results frame;  // with detection
+    Results frame;  // includes the detection results
     Study study;
 };
-// Throws std::runtime_error naming the file where it is not what a run writes.
+// Reads a results file of `run`. Throws std::runtime_error naming the file if it is not one.
 AskedResults read_asked(const std::string& path);
 
-// One of the file's features at one of its noise levels.
+// Feature of the file at one of its noise levels.
 struct AskedFeature {
     const features::Feature* feature;
     const analysis::LevelDetection* detection;
 };
-// Without a level the one that reports show first. Complains of --feature and --noise-level.
+// Finds the requested feature. Without a noise level it uses reference_level(). Reports wrong
+// values of --feature and --noise-level to `complaints`.
 std::optional<AskedFeature> find_asked(const AskedResults& results, const std::string& feature,
                                        const std::optional<double>& noise_level,
                                        Complaints& complaints);
-// Complains of what has no threshold.
+// Reports --feature to `complaints` if the feature has no threshold.
 void needs_threshold(const AskedFeature& asked, Complaints& complaints);
 
-// A fault's size as it is asked for.
+// Fault size given by --size.
 struct AskedSize {
     double si = 0.0, given = 0.0;
-    std::string unit;  // of the study's key, "" of a pure number
+    std::string unit;  // of the study's key; "": a pure number
 };
-// Complains of --size. Of a study with a fault.
+// Reads --size and reports a wrong value to `complaints`. The study must have a fault.
 AskedSize ask_size(const Study& study, double size, Complaints& complaints);
-// ">" or "<", as its alarm is.
+// Alarm direction of a feature: ">" or "<".
 const char* alarm_symbol_of(const std::string& feature);
-// "faults of 2 mm that fm4 misses at noise x 1 (alarm if > 3.1): "
+// "probability that fm4 misses a fault of 2 mm at noise x 1 (alarm if > 3.1): "
 std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
                          double threshold);
 
-// Of a study made from the file's. Throws what is wrong with it: with the fault's size, of the
-// option --size, or with what the file holds.
+// Builds the scene of a study derived from the file's study. Throws std::runtime_error with every
+// problem. A problem with the fault size names --size, every other one names the file.
 StudyScene scene_of_asked(const AskedResults& results, const Study& study);
 
-// Calls `prepare`, which may throw, in every rank. False after its problem was printed.
+// Calls `prepare`, which may throw, in every rank. Returns false in all ranks if one of them
+// failed; rank 0 has then printed the problem.
 bool prepare_together(const Ranks& ranks, const std::string& results, const std::string& json,
                       const std::function<void()>& prepare);
 
-// What rank 0 answers.
+// Result of a command in rank 0.
 struct Answered {
     std::string text;
     nlohmann::json json;
     long failed = 0;  // gearboxes
 };
-// Calls `compute`, which may throw, in every rank; prints rank 0's text, unless JSON goes to the
-// terminal, and writes JSON where it is asked for. The exit code.
+// Calls `compute`, which may throw, in every rank. Rank 0 prints the text, unless JSON goes to
+// standard output, and writes the JSON if requested. Returns the exit code.
 int answer_together(const Ranks& ranks, Progress& progress, const std::string& json,
                     const std::function<Answered()>& compute);
 

@@ -1,4 +1,5 @@
-// calibrate STUDY --healthy REC...: what makes a study's healthy gearboxes look like measured ones.
+// Command `calibrate STUDY --healthy REC...`: finds the inputs with which simulated healthy
+// gearboxes match measured ones.
 #include "mc/calibration/calibrate.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +16,14 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// Of the lines of a manifest those labelled healthy, or all if none has a label.
+// Keeps the recordings labelled healthy, or all recordings if none has a label.
 void keep_healthy(RecordingList& list) {
     const bool labelled = std::ranges::any_of(
         list.recordings, [](const Recording& one) { return one.condition != Condition::unknown; });
@@ -30,7 +32,7 @@ void keep_healthy(RecordingList& list) {
     });
 }
 
-// The records' own features; what could not be read is a problem.
+// Computes the features of the recordings. Adds a problem for each recording that cannot be read.
 std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
                                             const RecordingList& list, const Scene& scene,
                                             Problems& problems) {
@@ -63,14 +65,16 @@ class Command {
         }
         if (scene->study().effects.quasi_static()) {
             problems_.push_back({options_.study.path, 0, "effects.motion",
-                                 "the study has no sensor to calibrate", "let it have inertia"});
+                                 "a quasi-static study has no acceleration signal to calibrate",
+                                 "choose a motion with inertia, e.g. \"translational-torsional\""});
             return stop();
         }
         const std::vector<HealthyRecord> records =
             options_.features.empty() ? measured_records(options_, list_, *scene, problems_)
                                       : read_feature_table(options_.features, *scene, problems_);
         if (records.empty() && problems_.empty()) {
-            problems_.push_back({"calibrate", 0, "", "no record of a healthy gearbox", ""});
+            problems_.push_back({"calibrate", 0, "", "no recording of a healthy gearbox",
+                                 "check the labels and sizes of the recordings"});
         }
         if (!problems_.empty()) {
             return stop();
@@ -93,7 +97,7 @@ class Command {
         if (sources != 1) {
             problems_.push_back(
                 {"calibrate", 0, "",
-                 sources == 0 ? "no records" : "more than one source of records",
+                 sources == 0 ? "no recordings" : "more than one source of recordings",
                  "give one of --healthy REC..., --manifest T.csv, --features T.csv"});
         }
         inputs_ = read_priors(options_.priors, problems_);
@@ -123,7 +127,7 @@ class Command {
         return can_write({"--json", options_.json}, read) && good;
     }
 
-    // Those named, or the usual ones.
+    // Uses the priors given by --prior, or else the default ones.
     void choose_inputs(const Study& study) {
         if (!inputs_.empty()) {
             return;
@@ -133,8 +137,10 @@ class Command {
             inputs_ = usual_inputs(study, rms);
         } else if (problems_.empty()) {
             problems_.push_back({"calibrate", 0, "",
-                                 "the range of the background is unknown without sensor_rms",
-                                 "give --prior sensor.noise_m_s2=LOW:HIGH:log, and the others"});
+                                 "the default prior of the background noise needs the feature "
+                                 "sensor_rms",
+                                 "give --prior sensor.noise_m_s2=LOW:HIGH:log and the other "
+                                 "priors"});
         }
     }
 
@@ -143,7 +149,7 @@ class Command {
         for (const CalibratedInput& input : inputs_) {
             random.overrides.push_back(input.as_override());
         }
-        // Teeth with errors ask for other defaults than teeth that are alike.
+        // Random tooth errors change the default values of other keys, so the study is read again.
         const StudyReading written = read_study(random.path, random.overrides);
         if (!written.study) {
             print_problems(written.problems);
@@ -172,7 +178,7 @@ class Command {
                 if (!options_.quiet) {
                     fmt::print(
                         stderr,
-                        "this round: about {:.0f} processor seconds, {:.0f} s on {} thread(s)\n",
+                        "this round: about {:.0f} s of processor time, {:.0f} s on {} thread(s)\n",
                         seconds, seconds / task.threads, task.threads);
                 }
             });
@@ -182,10 +188,10 @@ class Command {
     void say_cost(const CalibrationTask& task) const {
         if (!options_.quiet) {
             fmt::print(stderr,
-                       "{} record(s) of {} gearbox(es){}; {} rounds of {} marched draws, {} "
-                       "gearboxes, with {} backgrounds each\n",
+                       "{} record(s) of {} gearbox(es){}\n{} rounds of {} parameter sets, {} "
+                       "gearboxes, {} noise realizations each\n",
                        set_.records, set_.lengths.size(),
-                       set_.left_out > 0 ? fmt::format(", {} more left out", set_.left_out) : "",
+                       set_.left_out > 0 ? fmt::format(", {} more ignored", set_.left_out) : "",
                        kCalibrationRounds, task.marched, task.marched * set_.lengths.size(),
                        task.backgrounds);
         }
@@ -204,14 +210,12 @@ class Command {
 
     std::vector<std::string> intro(const Study& study, const CalibrationResult& result) const {
         std::vector<std::string> lines{
-            fmt::format("Calibrated on {} record(s) of {} healthy gearbox(es), by approximate "
-                        "Bayesian computation:",
+            fmt::format("Calibrated on {} record(s) of {} healthy gearbox(es) by approximate",
                         set_.records, set_.lengths.size()),
-            fmt::format(
-                "{} simulated sets ({} failed), seed {}. Each distribution is what is known "
-                "of one value that",
-                result.sets, result.failed, study.ensemble.seed),
-            "all gearboxes share, so a run with it carries that uncertainty."};
+            fmt::format("Bayesian computation: {} simulated sets ({} failed), seed {}.",
+                        result.sets, result.failed, study.ensemble.seed),
+            "Each distribution is the uncertainty of one value that all gearboxes share.",
+            "A run with this study includes that uncertainty."};
         for (const FeatureCheck& check : result.checks) {
             if (check.outside()) {
                 lines.push_back(fmt::format("NOT REPRODUCED: {} {:.4g}, simulated {:.4g} to {:.4g}",
@@ -222,28 +226,32 @@ class Command {
     }
 
     static void print_table(const CalibrationResult& result) {
-        fmt::print("{:<28}{:>11}{:>11}{:>11}{:>8}  {}\n", "input", "median", "5 %", "95 %", "left",
-                   "told by (rank correlation)");
+        fmt::print("{:<36}{:>11}{:>11}{:>11}{:>8}\n", "input", "median", "5 %", "95 %", "width");
         for (const FoundInput& one : result.found) {
-            fmt::print("{:<28}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %  {}\n", one.input.key,
-                       one.median, one.low, one.high, 100.0 * one.left,
-                       one.told ? fmt::format("{}", fmt::join(one.deciding, ", "))
-                                : "NOT TOLD by the recordings: this is the prior");
+            const std::string source =
+                one.told ? fmt::format("determined by {}", fmt::join(one.deciding, ", "))
+                         : "NOT DETERMINED by the recordings: this is the prior";
+            fmt::print("{:<36}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %\n    {}\n", one.input.key,
+                       one.median, one.low, one.high, 100.0 * one.left, wrapped_text(source, 4));
         }
         for (const BoundPair& pair : result.pairs) {
-            fmt::print("{} and {} are known together alone, rank correlation {:+.2f}\n",
-                       result.found[pair.first].input.key, result.found[pair.second].input.key,
-                       pair.correlation);
+            const std::string both =
+                fmt::format("{} and {} are only determined jointly, rank correlation {:+.2f}",
+                            result.found[pair.first].input.key, result.found[pair.second].input.key,
+                            pair.correlation);
+            fmt::print("{}\n", wrapped_text(both, 2));
         }
-        fmt::print("left: of the prior's 90 % interval\n\n{:<22}{:>12}{:>26}\n", "feature",
-                   "measured", "simulated, 98 %");
+        fmt::print(
+            "width: of the 90 % interval, relative to that of the prior\n"
+            "determined by: features with their rank correlations\n\n{:<22}{:>12}{:>26}\n",
+            "feature", "measured", "simulated, 98 %");
         for (const FeatureCheck& check : result.checks) {
             fmt::print("{:<22}{:>12.5g}{:>13.5g} to{:>10.5g}  {}\n", check.name, check.measured,
                        check.low, check.high, check.outside() ? "NOT REPRODUCED" : "");
         }
         if (result.failed > 0) {
-            fmt::print("{} of {} simulated sets have no features and were left out\n",
-                       result.failed, result.sets);
+            fmt::print("{} of {} simulated sets have no features and were ignored\n", result.failed,
+                       result.sets);
         }
     }
 

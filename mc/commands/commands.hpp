@@ -1,4 +1,5 @@
-// The program's commands. Each returns the exit code (mc/run/run_options.hpp).
+// Entry points of the program's commands, with the options of each. A command returns its exit code
+// (mc/run/run_options.hpp).
 #pragma once
 
 #include <optional>
@@ -14,8 +15,8 @@ namespace gearpod::mc {
 class Ranks;
 
 struct NewOptions {
-    std::string kind;     // of gearbox
-    std::string command;  // how it was called, for the study's first comment
+    std::string kind;     // gearbox kind
+    std::string command;  // command line, quoted in the study's first comment
     PlanetaryDatasheet planetary;
     std::string out = "-";  // "-": standard output
     bool force = false;     // overwrite a file
@@ -24,19 +25,19 @@ int new_command(const NewOptions& options);
 
 struct SweepOptions {
     StudyOptions study;
-    bool lives = false;             // points are `lives`, else `run`
+    bool lives = false;             // true: run `lives` at every point; false: `run`
     std::vector<std::string> vary;  // "section.key=[a, b, c]"
-    std::string out;                // folder of the results; "": the study's name with -sweep
+    std::string out;                // results folder; "": the study's name with -sweep
     std::string json, html;         // "": none; JSON "-": standard output
-    bool force = false;             // overwrite what a run with other numbers has written
+    bool force = false;             // overwrite the results of a different run
     bool quiet = false;
 };
 int sweep_command(const SweepOptions& options);
 
 struct MergeOptions {
-    std::vector<std::string> results;  // of the parts of a study
+    std::vector<std::string> results;  // results files of the parts of one study
     std::string out;
-    bool force = false;  // overwrite what a run with other numbers has written
+    bool force = false;  // overwrite the results of a different run
     bool quiet = false;
 };
 int merge_command(const MergeOptions& options);
@@ -47,8 +48,8 @@ struct ReportOptions {
     std::string html, pdf;  // "": none
     std::string csv;        // folder for every table; "": none
     std::string figures;    // folder for the page's figures as SVG and PNG; "": none
-    std::string condition;  // random input whose values get thresholds of their own; "": none
-    // Of a false alarm and of a missed fault, and the share of records with a fault; all or none.
+    std::string condition;  // random input; each of its values gets its own threshold; "": none
+    // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     std::optional<double> alarm_cost, miss_cost, fault_share;
 };
 int report_command(const ReportOptions& options);
@@ -56,10 +57,10 @@ int report_command(const ReportOptions& options);
 struct MissesOptions {
     std::string results;
     std::string feature;
-    double size = 0.0;                  // of the fault, in its unit
-    std::optional<double> noise_level;  // empty: the one that reports show first
+    double size = 0.0;                  // fault size in the unit of the study's key
+    std::optional<double> noise_level;  // empty: reference_level()
     long gearboxes = 200;
-    int records = 64;  // of each, most with tilted noise
+    int records = 64;  // per gearbox, most of them with exponentially tilted noise
     std::string json;  // "": none; "-": standard output instead of the text
     bool quiet = false;
 };
@@ -68,25 +69,25 @@ int misses_command(const MissesOptions& options);
 struct RareOptions {
     std::string results;
     std::string feature;
-    std::optional<double> rate;         // of false alarms whose threshold is asked for
-    std::optional<double> size;         // or of a fault whose misses are, in its unit
-    std::optional<double> noise_level;  // empty: the one that reports show first
-    long gearboxes = 1000;              // of a level
+    std::optional<double> rate;         // false-alarm rate; find its threshold
+    std::optional<double> size;         // or fault size in its unit; find its miss rate
+    std::optional<double> noise_level;  // empty: reference_level()
+    long gearboxes = 1000;              // per level
     std::string json;                   // "": none; "-": standard output instead of the text
     bool quiet = false;
 };
 int rare_command(const RareOptions& options);
 
 struct CompareOptions {
-    std::vector<std::string> results;  // the first is what the others are held against
+    std::vector<std::string> results;  // the others are compared with the first
     std::string json, html;            // "": none; JSON "-": standard output
 };
 int compare_command(const CompareOptions& options);
 
 struct DescribeOptions {
     StudyOptions study;
-    bool keys = false;  // print all keys of study files instead
-    int ranks = 0;      // also forecast a run of so many; 0: not
+    bool keys = false;  // print the keys of study files instead
+    int ranks = 0;      // also forecast a run with this many MPI ranks; 0: do not
 };
 int describe_command(const DescribeOptions& options);
 
@@ -95,16 +96,16 @@ struct LivesOptions {
     std::string json, html;  // "": none; JSON "-": standard output
 };
 int lives_command(const LivesOptions& options);
-// The same by ranks that are there already. All of them call it.
+// Runs `lives` with existing ranks. Every rank must call it.
 int lives_study(const LivesOptions& options, const Ranks& ranks);
-// Of the results file that it has written; `report` comes here with one.
+// Reports a results file written by `lives`. `report` calls it for such a file.
 int report_lives(const ReportOptions& options);
 
 struct StiffnessOptions {
     StudyOptions study;
     std::string csv;  // "": a summary; "-": standard output
     int points = 1000;
-    bool te = false;  // the loaded static transmission error in place of the stiffness
+    bool te = false;  // loaded static transmission error instead of the stiffness
 };
 int stiffness_command(const StiffnessOptions& options);
 
@@ -118,9 +119,9 @@ struct AccuracyOptions {
     StudyOptions study;
     std::string json;               // "": none; "-": standard output instead of the table
     std::string peers;              // table of other programs' results, "": none
-    int repeats = 3;                // of every rung's time
-    std::optional<long> gearboxes;  // of the pilot ensemble; 0: no detection rates
-    double seconds = 300.0;         // processor time; 0: as long as it takes
+    int repeats = 3;                // timings of each solver setting
+    std::optional<long> gearboxes;  // size of the pilot ensemble; 0: no detection rates
+    double seconds = 300.0;         // limit of processor time; 0: none
     bool quiet = false;
 };
 int accuracy_command(const AccuracyOptions& options);
@@ -135,31 +136,32 @@ int simulate_command(const SimulateOptions& options);
 
 struct FeaturesOptions {
     StudyOptions study;
-    std::vector<std::string> signals;  // files, or patterns of their names
-    std::string manifest;              // table of recordings instead
+    std::vector<std::string> signals;  // files, or glob patterns
+    std::string manifest;              // table of recordings, instead of signals
     SignalColumns columns;
     std::vector<std::string> healthy;  // recordings of healthy gearboxes
     std::string baseline;              // earlier recording of the same gearbox, "": none
-    double noise_level = 1.0;          // of the simulated ones, where there are no recordings
+    double noise_level = 1.0;          // of simulated healthy gearboxes, used without `healthy`
     std::string json;                  // "": none; "-": standard output
-    std::string out, csv;              // of many: results file and table
+    std::string out, csv;              // results file and table, for many recordings
     std::string against;               // results file of healthy gearboxes to compare with
-    std::string feature;               // that decides; "": the best ranked there
+    std::string feature;               // decides the alarm; "": the best ranked one in `against`
     bool quiet = false;
 };
-// Of one recording what it gives, of many a results file and a table.
+// Prints the features of one recording. For many recordings it calls recordings_command().
 int features_command(const FeaturesOptions& options);
+// Writes the features of many recordings to a results file and a table.
 int recordings_command(const FeaturesOptions& options);
 
 struct CalibrateOptions {
     StudyOptions study;
-    std::vector<std::string> healthy;  // files, or patterns of their names
-    std::string manifest;              // table of recordings instead
-    std::string features;              // table of their features instead
+    std::vector<std::string> healthy;  // files, or glob patterns
+    std::string manifest;              // table of recordings, instead of `healthy`
+    std::string features;              // table of features, instead of `healthy`
     SignalColumns columns;
-    std::vector<std::string> priors;   // KEY=LOW:HIGH[:log]; none: the usual ones
-    std::vector<std::string> feature;  // those that are compared; none: all
-    long draws = 200;                  // marched, in each round
+    std::vector<std::string> priors;   // KEY=LOW:HIGH[:log]; empty: the default priors
+    std::vector<std::string> feature;  // features to compare; empty: all
+    long draws = 200;                  // parameter sets integrated in each round
     std::string out, json;
     bool quiet = false;
 };
@@ -167,13 +169,13 @@ int calibrate_command(const CalibrateOptions& options);
 
 struct PodOptions {
     std::string table;
-    std::string size;                 // columns; "": by their usual names
-    std::vector<std::string> hits;    // of hit/miss, several are repeats
-    std::vector<std::string> values;  // of responses
+    std::string size;                 // size column; "": found by its usual names
+    std::vector<std::string> hits;    // hit/miss columns; several are repeated inspections
+    std::vector<std::string> values;  // response columns
     std::string specimen;
-    std::vector<std::string> links;  // "": all
-    std::string size_scale;          // "linear", "log", "": both
-    std::string response_scale;      // the same, "box-cox" or a power
+    std::vector<std::string> links;  // empty: all
+    std::string size_scale;          // "linear", "log"; "": both
+    std::string response_scale;      // "linear", "log", "box-cox" or a power; "": linear and log
     std::string convention = "handbook", bounds;
     std::string alarm = "high";
     std::optional<double> threshold, false_call_rate, left, right, floor, target;

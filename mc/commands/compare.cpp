@@ -1,4 +1,5 @@
-// compare A.h5 B.h5 ...: what a change of sensor, feature, noise or design does to detection.
+// Command `compare A.h5 B.h5 ...`: the effect of a change of sensor, feature, noise or design on
+// detection.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,10 +29,10 @@
 namespace gearpod::mc {
 namespace {
 
-// A results file with the rows of its two groups.
+// Results file with the rows of its two groups.
 struct Side {
     std::string path;
-    Results frame;                               // with the columns
+    Results frame;                               // includes the columns
     std::vector<std::size_t> threshold, graded;  // rows
     std::size_t gearboxes = 0;
     std::vector<std::optional<analysis::SmallestFault>> smallest;
@@ -40,12 +41,12 @@ struct Side {
     SamplingKind sampling = SamplingKind::plain;
 };
 
-// What is missing of a study, "" if nothing is.
+// Describes an incomplete file (part of a study, interrupted run); "" if it is complete.
 std::string not_whole(const Results& frame, std::size_t gearboxes) {
     const std::string part = frame.provenance_value("part");
     const std::string state = frame.provenance_value("state");
     const bool stopped = state == "running" || state.starts_with("interrupted");
-    return (part.empty() ? "" : fmt::format(", part {} of it alone", printable(part))) +
+    return (part.empty() ? "" : fmt::format(", part {} only", printable(part))) +
            (stopped ? fmt::format(", {} of {} gearboxes ({})", gearboxes,
                                   printable(frame.provenance_value("gearboxes_asked_for")),
                                   printable(state))
@@ -66,7 +67,8 @@ Side read_side(const std::string& path) {
     }
     for (std::size_t row = 0; row < side.frame.group.size(); ++row) {
         const bool threshold = side.frame.group[row] == static_cast<int>(Group::threshold);
-        // Gearboxes are resampled: of each that sets thresholds its first record.
+        // The bootstrap resamples gearboxes, so only the first record of each threshold gearbox is
+        // used.
         const bool repeats = threshold && row % side.frame.request.threshold_records != 0;
         if (side.frame.group[row] != kUngraded && !repeats) {
             (threshold ? side.threshold : side.graded).push_back(row);
@@ -90,10 +92,10 @@ double size_of(const Results& frame, std::size_t row) {
     return size != nullptr ? size->values[row] : 0.0;
 }
 
-// Rows of both that are compared, in pairs or not.
+// Rows of both files to be compared, paired or not.
 struct Rows {
     std::vector<std::size_t> threshold_a, graded_a, threshold_b, graded_b;
-    std::string unpaired;  // why not in pairs
+    std::string unpaired;  // why the rows are not paired; "": they are
 };
 
 Rows rows_of(const Side& a, const Side& b) {
@@ -110,10 +112,10 @@ Rows rows_of(const Side& a, const Side& b) {
         return rows;
     }
     if (a.sampling != b.sampling) {
-        rows.unpaired = "those of one fill their inputs' ranges evenly: ensemble.sampling";
+        rows.unpaired = "ensemble.sampling differs";
         return rows;
     }
-    // The same place in a group is the same draw of every input that both have.
+    // With the same seed, rows at the same position of a group have the same random inputs.
     const std::size_t graded = std::min(a.graded.size(), b.graded.size());
     for (std::size_t i = 0; i < graded; ++i) {
         if (size_of(a.frame, a.graded[i]) != size_of(b.frame, b.graded[i])) {
@@ -122,10 +124,10 @@ Rows rows_of(const Side& a, const Side& b) {
         }
     }
     const std::size_t healthy = std::min(a.threshold.size(), b.threshold.size());
-    // Pairs of a few would waste the others.
+    // Pairing would discard more than half of the larger file.
     if (2 * graded < std::max(a.graded.size(), b.graded.size()) ||
         2 * healthy < std::max(a.threshold.size(), b.threshold.size())) {
-        rows.unpaired = "one has more than twice the other's gearboxes";
+        rows.unpaired = "one has more than twice as many as the other";
         return rows;
     }
     for (auto* group : {&rows.threshold_a, &rows.threshold_b}) {
@@ -137,7 +139,7 @@ Rows rows_of(const Side& a, const Side& b) {
     return rows;
 }
 
-// "torque_N_m differs in 500 of 500 of them"
+// Lines such as "torque_N_m differs in 500 of them", one for each input that differs in some pair.
 std::vector<std::string> differing_inputs(const Side& a, const Side& b, const Rows& rows) {
     std::vector<std::string> lines;
     for (const ParameterResult& parameter : a.frame.parameters) {
@@ -176,7 +178,7 @@ const FeatureResult* find_feature(const Results& frame, const std::string& name)
     return at == frame.features.end() ? nullptr : &*at;
 }
 
-// Gearboxes that failed in both are the same.
+// Compares values; NaN equals NaN, because a gearbox may fail in both files.
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
         return x == y || (std::isnan(x) && std::isnan(y));
@@ -234,13 +236,15 @@ void add_features(analysis::ComparedFile& file, const Side& a, const Side& b, co
     missing(b, a);
 }
 
-// What keeps two files from being compared, as many lines as there are reasons.
+// Reasons why two files cannot be compared, one line each; "" if they can.
 std::string mismatch(const Side& a, const Side& b) {
     std::string text;
     const analysis::DetectionRequest &one = a.frame.request, &two = b.frame.request;
     if (one.size.name != two.size.name || one.size.unit != two.size.unit) {
-        text += fmt::format("{}: its faults are {}, those of {} are {}\n", b.path, two.size.name,
-                            a.path, one.size.name);
+        text += fmt::format(
+            "{}: its fault size is {}, that of {} is {}; compare results with the same kind of "
+            "fault\n",
+            b.path, two.size.name, a.path, one.size.name);
     }
     if (one.false_alarm_rate != two.false_alarm_rate) {
         text += fmt::format(
@@ -264,7 +268,7 @@ std::string mismatch(const Side& a, const Side& b) {
     return text;
 }
 
-// The noise level that is in all files and shown: the first file's own if it may be.
+// Noise level to show: the reference level among those that all files have, else the first file's.
 double shown_level(const std::vector<Side>& sides) {
     const auto everywhere = [&](double level) {
         return std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
@@ -313,8 +317,8 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
     return report;
 }
 
-// All files, or none after every message: of those that cannot be read, and of those that cannot be
-// compared with the first.
+// Reads all files. If some cannot be read, or cannot be compared with the first, it prints every
+// problem and returns none.
 std::vector<Side> read_sides(const std::vector<std::string>& paths) {
     std::vector<Side> sides;
     std::set<std::string> problems;  // a file may be named twice
@@ -354,7 +358,8 @@ int compare_command(const CompareOptions& options) {
     }
     if (options.results.size() < 2) {
         fmt::print(stderr,
-                   "compare: one results file; give two or more, the first to compare with\n");
+                   "compare: only one results file; give two or more, the first is the "
+                   "reference\n");
         return kBadInput;
     }
     try {

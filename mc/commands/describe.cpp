@@ -8,7 +8,6 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/text_lines.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
@@ -18,6 +17,7 @@
 #include "mc/description/describe_gearbox.hpp"
 #include "mc/description/describe_life.hpp"
 #include "mc/description/effect_costs.hpp"
+#include "mc/description/entries.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
@@ -30,11 +30,11 @@
 namespace gearpod::mc {
 namespace {
 
-// Lengths of the steps, and where the short ones lie.
+// Prints the lengths of the time steps and where the short ones lie.
 void print_steps(const Scene& scene) {
     const lockstep::PhaseGrid& grid = scene.plan().grid;
     const auto [shortest, longest] = std::minmax_element(grid.lengths.begin(), grid.lengths.end());
-    print_entry("step lengths", fmt::format("{:.3g} to {:.3g} mesh periods, {} different ones",
+    print_entry("step lengths", fmt::format("{:.3g} to {:.3g} mesh periods, {} different lengths",
                                             *shortest, *longest, grid.lengths.size()));
     if (!scene.calibration()) {
         return;
@@ -42,16 +42,17 @@ void print_steps(const Scene& scene) {
     const Calibration& how = *scene.calibration();
     const Numerics& n = scene.study().numerics;
     if (how.estimated) {
-        print_entry("calibrated by", fmt::format("a pilot of {}: estimated error of a step {:g} of "
-                                                 "the largest motion",
+        print_entry("calibrated by", fmt::format("pilot run of {} gearboxes: estimated error of a "
+                                                 "step {:g} of the largest displacement",
                                                  lockstep::kPilotLanes, n.step_tolerance));
     } else {
         print_entry("calibrated by",
-                    fmt::format("a pilot of {}: signals within {:.2g} rms (allowed: {:g})",
+                    fmt::format("pilot run of {} gearboxes: signal error {:.2g} rms (allowed: "
+                                "{:g})",
                                 lockstep::kPilotLanes, how.signal_error, n.grid_tolerance));
-        print_entry("graded",
-                    fmt::format("{:.3g} after a transition, then up to {:g} of the phase "
-                                "since it, at most {:.3g}",
+        print_entry("graded steps",
+                    fmt::format("{:.3g} after a transition, then up to {:g} of the phase since "
+                                "the transition, never more than {:.3g}",
                                 how.grading.first, how.grading.growth, how.grading.longest));
     }
     std::vector<double> since;
@@ -59,14 +60,14 @@ void print_steps(const Scene& scene) {
         since.push_back(lockstep::since_transition(scene.transitions(), step.phase));
     }
     std::sort(since.begin(), since.end());
-    print_entry("where fine",
-                fmt::format("half of the steps begin within {:.3g} mesh periods after "
-                            "a transition",
+    print_entry("short steps",
+                fmt::format("half of the steps begin within {:.3g} mesh periods after a "
+                            "transition",
                             since[since.size() / 2]));
 }
 
-// Whether the healthy gearboxes suffice for the false-alarm rate: known before anything is
-// computed.
+// Prints if the number of healthy gearboxes suffices for the false-alarm rate. This needs no
+// simulation.
 void print_false_alarms(const Study& study) {
     const double rate = study.detection.false_alarm_rate, confidence = study.detection.confidence;
     const long healthy = study.ensemble.threshold_instances,
@@ -75,27 +76,25 @@ void print_false_alarms(const Study& study) {
     const std::string shortage = analysis::sample_shortage(
         healthy, rate, confidence, analysis::Subject::gearboxes, records, study.ensemble.tilted());
     if (!shortage.empty()) {
-        std::string text;
-        analysis::add_wrapped(text, shortage, 2);
-        fmt::print("{}", text);
+        print_paragraph(shortage);
         return;
     }
     const analysis::Interval found = analysis::threshold_rate_interval(
         healthy * (study.ensemble.tilted() ? 1 : records), rate, confidence);
-    print_entry(
-        "rate",
-        fmt::format("{:g}; {}{} healthy gearboxes fix it to between {:.2g} and {:.2g} at {:g} % "
-                    "confidence{}",
-                    rate, records > 1 ? fmt::format("{} records of each of ", records) : "",
-                    healthy, found.lower, found.upper, 100.0 * confidence,
-                    records > 1 ? " if little but noise makes them differ" : ""));
+    print_entry("rate",
+                fmt::format("{:g}; with {}{} healthy gearboxes the true rate is between {:.2g} and "
+                            "{:.2g} at {:g} % confidence{}",
+                            rate, records > 1 ? fmt::format("{} records of each of ", records) : "",
+                            healthy, found.lower, found.upper, 100.0 * confidence,
+                            records > 1 ? ", if the records differ mainly by their noise" : ""));
 }
 
-// Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
+// Prints the cost of each effect relative to a time step without it. Path, noise, tones and
+// encoders act on the signals, not in the time steps.
 void print_effect_costs(const Study& study) {
     for (const EffectCost& cost : effect_costs(study)) {
-        print_entry(("cost of " + cost.effect).c_str(),
-                    fmt::format("{:.0f} % of a plain step of rk4", 100.0 * cost.share));
+        print_entry("cost of " + cost.effect,
+                    fmt::format("{:.0f} % of an rk4 step without effects", 100.0 * cost.share));
     }
 }
 
@@ -104,7 +103,7 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     const auto& plan = scene.plan();
     print_heading("cost");
     print_entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
-    print_entry("samples a mesh period",
+    print_entry("samples per mesh period",
                 study.effects.quasi_static()
                     ? fmt::format("{} (encoders)", scene.te_samples_per_mesh())
                     : fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
@@ -114,8 +113,8 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     if (!study.effects.quasi_static()) {
         const std::string least =
             scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
-        print_entry("steps a mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
-                                                       lockstep::name(plan.integrator)));
+        print_entry("steps per mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
+                                                         lockstep::name(plan.integrator)));
     }
     print_effect_costs(study);
     if (choice) {
@@ -126,38 +125,39 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     }
     if (plan.precision == lockstep::Precision::single_precision) {
         print_entry("precision",
-                    fmt::format("single within a mesh period, double between; orbits settle to "
-                                "{:g} (asked for: {:g})",
+                    fmt::format("single within a mesh period, double between mesh periods; "
+                                "convergence to the periodic orbit within {:g} (requested: {:g})",
                                 settle_tolerance(study), study.numerics.settle_tolerance));
     }
-    print_entry("mesh periods marched",
-                fmt::format("about {:.0f} of the {} looked at{}{}", marched_meshes(scene),
+    print_entry("mesh periods integrated",
+                fmt::format("about {:.0f}; the signals span {}{}{}", marched_meshes(scene),
                             scene.span_meshes(),
                             superposition(scene).healthy
-                                ? fmt::format(", {:.0f} without the fault", healthy_meshes(scene))
+                                ? fmt::format("; {:.0f} without the fault", healthy_meshes(scene))
                                 : "",
-                            compares_records(study) ? ", and those of the baseline record" : ""));
+                            compares_records(study) ? "; more for the baseline record" : ""));
     print_entry(
         "gearboxes",
-        fmt::format("{} graded and {} for the thresholds{}, {} noise levels",
+        fmt::format("{} to test and {} for the thresholds{}, {} noise level{}",
                     study.ensemble.instances, study.ensemble.threshold_instances,
                     study.ensemble.threshold_records > 1
                         ? fmt::format(" ({} {}records of each)", study.ensemble.threshold_records,
-                                      study.ensemble.tilted() ? "tilted " : "")
+                                      study.ensemble.tilted() ? "exponentially tilted " : "")
                         : "",
-                    study.sensor.noise_levels.size()));
+                    study.sensor.noise_levels.size(),
+                    study.sensor.noise_levels.size() == 1 ? "" : "s"));
     const std::optional<std::size_t> distinct = distinct_marches(scene);
-    print_entry("distinct motions",
-                distinct ? fmt::format("{}; gearboxes that differ in path exponent and noise alone "
-                                       "share one march",
+    print_entry("distinct solutions",
+                distinct ? fmt::format("{}; gearboxes that differ only in path exponent and noise "
+                                       "share one time integration",
                                        *distinct)
-                         : "every gearbox moves differently");
+                         : "every gearbox needs its own time integration");
     if (!Ranks::of_mpi()) {
         print_entry("processes", "built without MPI: one process");
     }
 }
 
-// What takes longer is left out.
+// Stops a description that takes longer than kSeconds.
 class Deadline final : public machine::StopWish {
   public:
     static constexpr int kSeconds = 7;
@@ -169,16 +169,18 @@ class Deadline final : public machine::StopWish {
 };
 
 void print_left_out(const char* what) {
-    fmt::print("\nleft out, because {} s are over: {}\n", Deadline::kSeconds, what);
+    print_heading("omitted");
+    print_paragraph(
+        fmt::format("{}; the time limit of {} s was reached", what, Deadline::kSeconds));
 }
 
-// All keys, or those that a word is found in.
+// Prints all keys, or those whose section, name or explanation contains the word.
 int print_keys(const std::string& word) {
     const std::string keys = schema_help(word);
     if (keys.empty()) {
         fmt::print(stderr,
-                   "--keys {}: in no section, name or explanation; give a word like sensor or "
-                   "stiffness, or a section: {}\n",
+                   "--keys {}: no section, key or explanation contains it; give a word like "
+                   "sensor or stiffness, or a section: {}\n",
                    printable(word), fmt::join(section_names(), ", "));
         return kBadInput;
     }
@@ -189,7 +191,7 @@ int print_keys(const std::string& word) {
 }  // namespace
 
 int describe_command(const DescribeOptions& options) {
-    // Processor time so far: loading the program.
+    // Processor time used so far to load the program.
     const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     if (options.keys) {
         return print_keys(options.study.path);
@@ -198,9 +200,9 @@ int describe_command(const DescribeOptions& options) {
     if (!study) {
         return kBadInput;
     }
-    fmt::print("# the resolved study\n{}", resolved_text(*study));
+    fmt::print("# the resolved study, with all defaults\n{}", resolved_text(*study));
     if (!has_gears(*study)) {
-        fmt::print("\nno tooth numbers: only modes are defined\n");
+        fmt::print("\nthe study has no tooth numbers: only `gearpod modes` can use it\n");
         return kDone;
     }
     print_false_alarms(*study);
@@ -208,7 +210,8 @@ int describe_command(const DescribeOptions& options) {
     const Deadline deadline;
     const auto start = WallClock::now();
     const char* missing =
-        "gearbox, effects, cost and forecast; the numerics are chosen by a pilot (numerics)";
+        "gearbox, effects, cost and forecast, because a pilot run chooses the solver setting "
+        "first";
     try {
         const auto made = load_scene(options.study);
         if (!made) {
@@ -222,7 +225,7 @@ int describe_command(const DescribeOptions& options) {
         missing = "cost and forecast";
         print_cost(scene, made.choice);
         std::fflush(stdout);
-        missing = "the forecast, for which gearboxes and their analysis are computed";
+        missing = "the forecast, which computes some gearboxes and their analysis";
         print_forecast(scene, begun_s + setup_s, options.ranks);
     } catch (const machine::Stopped&) {
         print_left_out(missing);

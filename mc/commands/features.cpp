@@ -1,4 +1,4 @@
-// features SIGNAL --study STUDY: a study's features of a measured signal.
+// Command `features SIGNAL --study STUDY`: features of one measured signal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,32 +10,34 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/measured_features.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/recordings/population.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {
 
+constexpr std::size_t kMissingColumn = 38;  // of the reasons why features are missing
+
 void print_text(const Measurement& measured, const MeasuredSignal& signal, const Scene& scene) {
     const std::vector<MeasuredFeature>& all = measured.features;
-    fmt::print("mesh phase: {}\n", signal.tracking);
-    fmt::print("{} mesh periods of sensor signal, {} of transmission error; the span is {}\n",
+    fmt::print("{}\n", wrapped_text("mesh phase: " + signal.tracking, 2));
+    fmt::print("mesh periods: {} of acceleration, {} of transmission error (full span: {})\n",
                signal.sensor_meshes, signal.te_meshes, scene.span_meshes());
     if (const int turns = planet_turns(signal, scene);
         turns > 0 && turns < scene.span().ring_teeth) {
-        fmt::print("the planets' teeth over {} of the span's {} planet turns\n", turns,
-                   scene.span().ring_teeth);
+        fmt::print("planet turns: {} (full span: {})\n", turns, scene.span().ring_teeth);
     }
     if (measured.change) {
         fmt::print(
-            "baseline: {} planet turns, turned on by {:.2f} mesh periods; correlation {:.3f}\n",
+            "baseline: {} planet turns, shifted by {:.2f} mesh periods; correlation {:.3f}\n",
             planet_turns(measured.change->signal, scene), measured.change->meshes,
             measured.change->correlation);
     }
     if (!signal.losses_noticed) {
         fmt::print(
-            "samples lost without a trace would not be noticed: that takes six turns of the "
-            "carrier, or wheel, that sound alike\n");
+            "lost samples cannot be detected: that needs six similar turns of the carrier or\n"
+            "wheel\n");
     }
     for (const MeasuredFeature& one : all) {
         if (one.missing.empty()) {
@@ -45,7 +47,8 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal, const
     }
     for (const MeasuredFeature& one : all) {
         if (!one.missing.empty()) {
-            fmt::print("{:<22}{:>14}  {}\n", one.feature->name, "-", one.missing);
+            fmt::print("{:<22}{:>14}  {}\n", one.feature->name, "-",
+                       wrapped_text(one.missing, kMissingColumn));
         }
     }
 }
@@ -72,7 +75,8 @@ nlohmann::ordered_json measured_json(const std::vector<MeasuredFeature>& all,
     return json;
 }
 
-// Alarm or not, as text and into the JSON.
+// Tests the features against the healthy gearboxes of --against. Returns the text and adds the
+// result to the JSON.
 std::string compare(const FeaturesOptions& options, const Measurement& measured,
                     const MeasuredSignal& signal, const Scene& scene,
                     nlohmann::ordered_json& json) {
@@ -81,12 +85,12 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
     const auto verdicts = judge(population, values_of(measured.features), options.feature);
     const std::string sentence =
         verdict_sentence(options.signals.front(), population, verdicts.front(), measured.teeth);
-    std::string text = fmt::format("\n{:<22}{:>14}{:>14}{:>10}{:>22}\n", "feature", "value",
+    std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
                                    "threshold", "", "healthy less extreme");
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Verdict& one : verdicts) {
         const auto healthy = static_cast<double>(one.population->healthy.size());
-        text += fmt::format("{:<22}{:>14.6g}{:>14.6g}{:>10}{:>15} of {}\n", one.population->name,
+        text += fmt::format("{:<22}{:>13.6g}{:>13.6g}{:>8}{:>14} of {}\n", one.population->name,
                             one.value, one.population->threshold, one.alarm ? "ALARM" : "",
                             one.less_extreme, one.population->healthy.size());
         list.push_back({{"feature", one.population->name},
@@ -97,14 +101,15 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
                         {"quantile", static_cast<double>(one.less_extreme) / healthy},
                         {"healthy", one.population->healthy.size()}});
     }
-    text += "\n" + sentence + "\n";
+    text += "\n" + wrapped_text(sentence, 0) + "\n";
     const int turns = planet_turns(signal, scene);
     if (!population.recordings && turns < scene.span().ring_teeth && signal.has_sensor) {
-        text += fmt::format(
-            "The simulated gearboxes were looked at over {} planet turns, the recording over {}: "
-            "it "
-            "averages less, and its features scatter more.\n",
-            scene.span().ring_teeth, turns);
+        text += wrapped_text(
+                    fmt::format("The simulated gearboxes have {} planet turns, the recording has "
+                                "{}: it averages less, so its features scatter more.",
+                                scene.span().ring_teeth, turns),
+                    0) +
+                "\n";
     }
     nlohmann::ordered_json teeth = nlohmann::ordered_json::array();
     for (const WorstTooth& tooth : measured.teeth) {
@@ -122,7 +127,8 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
     return text;
 }
 
-// Says so if no feature can be had, and what the shortest takes.
+// Returns false and prints the reason if no feature could be computed; a signal that is too short
+// is reported with the smallest number of mesh periods needed.
 bool any_feature(const std::vector<MeasuredFeature>& all, const std::string& path,
                  const Scene& scene, const MeasuredSignal& signal) {
     const auto good = [](const MeasuredFeature& one) { return one.missing.empty(); };
@@ -141,7 +147,7 @@ bool any_feature(const std::vector<MeasuredFeature>& all, const std::string& pat
         }
     }
     if (shortest == 0) {
-        fmt::print(stderr, "{}: no feature can be had of it: {}\n", path, all.front().missing);
+        fmt::print(stderr, "{}: no feature can be computed: {}\n", path, all.front().missing);
     } else {
         fmt::print(stderr,
                    "{}: too short: {} mesh periods of sensor signal and {} of transmission "
@@ -155,7 +161,7 @@ bool any_feature(const std::vector<MeasuredFeature>& all, const std::string& pat
 
 int features_command(const FeaturesOptions& options) {
     if (options.against.empty() && !options.feature.empty()) {
-        fmt::print(stderr, "--feature {}: is of --against\n", options.feature);
+        fmt::print(stderr, "--feature {}: is only used with --against\n", options.feature);
         return kBadInput;
     }
     const bool many = options.signals.size() != 1 || !options.manifest.empty() ||

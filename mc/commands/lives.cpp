@@ -1,4 +1,4 @@
-// lives STUDY: gearboxes that are measured again and again while a crack grows.
+// Command `lives STUDY`: gearboxes that are measured repeatedly while a crack grows.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -31,11 +31,11 @@ namespace gearpod::mc {
 namespace {
 
 struct LivesOutputs {
-    std::string json, html, figures;  // "": none; JSON "-": standard output, then without the text
+    std::string json, html, figures;  // "": none; JSON "-": standard output instead of the text
     bool says_text = true;
 };
 
-// What the rows come to, as it was asked for. False after a message.
+// Evaluates the rows and writes the requested outputs. Returns false after printing a problem.
 bool tell(const Study& study, const Results& frame, const RowSource& rows,
           const LivesOutputs& outputs) {
     const Campaign campaign = campaign_of(study, frame, rows);
@@ -61,7 +61,7 @@ bool tell(const Study& study, const Results& frame, const RowSource& rows,
     return true;
 }
 
-// Rank 0's part behind the checks: the exit code.
+// Rank 0's part of the run, after the checks. Returns the exit code.
 int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks& ranks,
                Checkpoint& checkpoint, const Interruption& interruption) {
     const RunOptions& run = options.run;
@@ -111,7 +111,7 @@ int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks&
     return kResumable;
 }
 
-// What a study's records are composed of, or nothing after a message by rank 0.
+// Prepares the superposition of a study's records. Returns null after rank 0 printed a problem.
 std::unique_ptr<LifeTiles> life_tiles(const RunOptions& run, const Scene& scene,
                                       const Ranks& ranks) {
     try {
@@ -139,7 +139,7 @@ std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study&
     return nullptr;
 }
 
-// Keys of the study that speak of single records.
+// Prints the study's keys that `lives` ignores, because they concern single records.
 void print_left_out(const RunOptions& run, const Study& study) {
     std::vector<std::string> keys;
     if (study.numerics.verify) {
@@ -152,8 +152,8 @@ void print_left_out(const RunOptions& run, const Study& study) {
         keys.emplace_back("detection.uncertain_inputs");
     }
     if (!keys.empty()) {
-        fmt::print(stderr, "{}: lives leave out what is for single records (run): {}\n",
-                   run.study.path, fmt::join(keys, ", "));
+        fmt::print(stderr, "{}: `lives` ignores keys that only `run` uses: {}\n", run.study.path,
+                   fmt::join(keys, ", "));
     }
 }
 
@@ -207,8 +207,8 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
 int report_lives(const ReportOptions& options) {
     if (!options.csv.empty() || !options.condition.empty() || options.alarm_cost) {
         fmt::print(stderr,
-                   "{}: holds lives, and --csv, --by and expected costs are for what `run` wrote; "
-                   "leave them out\n",
+                   "{}: holds lives; --csv, --by and costs are only for results of `run`, omit "
+                   "them\n",
                    options.results);
         return kBadInput;
     }

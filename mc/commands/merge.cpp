@@ -21,24 +21,26 @@
 namespace gearpod::mc {
 namespace {
 
-// A results file and which batches of its ensemble it has.
+// Results file and the number of batches that it contains.
 struct PartFile {
     std::string path;
     Results frame;
     Study study;
     BatchPlan plan;
-    std::size_t batches = 0;  // whole ones, of the plan's first
+    std::size_t batches = 0;  // complete ones; they are the first of the plan
 };
 
 PartFile read_part_file(const std::string& path) {
     Results frame = read_frame(path);
     const FileRows rows(path, frame);
     if (frame.provenance_value("kind") == kRecordingsKind) {
-        throw std::runtime_error(path + ": holds recordings; only what `run` computed is merged");
+        throw std::runtime_error(path +
+                                 ": contains recordings; only results of `run` can be merged");
     }
     StudyReading reading = read_study_text(frame.provenance_value("study"), path);
     if (!reading.study) {
-        throw std::runtime_error(path + ": its study cannot be read:\n" + format(reading.problems));
+        throw std::runtime_error(path + ": the study in the file cannot be read:\n" +
+                                 format(reading.problems));
     }
     check_results(path, frame, rows);
     const BatchPlan plan(reading.study->ensemble, part_of(frame));
@@ -49,7 +51,7 @@ PartFile read_part_file(const std::string& path) {
     return file;
 }
 
-// Rows of a whole ensemble's batch, "rows 16 to 31".
+// Rows of a batch of the complete ensemble, "rows 16 to 31".
 std::string rows_text(const BatchPlan& whole, std::size_t batch) {
     const Batch place = whole.batch(batch);
     return fmt::format("rows {} to {}", place.first_row, place.first_row + place.rows() - 1);
@@ -59,7 +61,7 @@ class Merge {
   public:
     explicit Merge(const MergeOptions& options) : options_(options) {}
 
-    // "" or every problem, a line each.
+    // Reads all files. Returns every problem, one line each; "" if there is none.
     std::string read() {
         std::string problems;
         for (const std::string& path : options_.results) {
@@ -75,7 +77,7 @@ class Merge {
         return problems.empty() ? gaps() : problems;
     }
 
-    // The study of all of them.
+    // Builds the scene of the study that all files share.
     StudyScene scene() const {
         const PartFile& first = files_.front();
         return make_scene(first.path,
@@ -95,7 +97,7 @@ class Merge {
     }
 
   private:
-    // What keeps a file from being merged with the first, by this program.
+    // Reason why this program cannot merge the file with the first one; "" if it can.
     std::string misfit(const PartFile& file) const {
         const PartFile& first = files_.front();
         RunIdentity here = identity_of(first.frame, first.path);
@@ -104,19 +106,20 @@ class Merge {
         there.part = here.part;
         std::string why = difference(there, here);
         if (why.empty() && file.study.ensemble.instances != first.study.ensemble.instances) {
-            why = fmt::format("is of {} graded gearboxes, {} of {}", file.study.ensemble.instances,
-                              first.path, first.study.ensemble.instances);
+            why = fmt::format("has ensemble.instances = {}, but {} has {}",
+                              file.study.ensemble.instances, first.path,
+                              first.study.ensemble.instances);
         }
         if (why.empty() && file.frame.provenance_value("numerics_choice") !=
                                first.frame.provenance_value("numerics_choice")) {
-            why = fmt::format("chose other numerics ({}) than {} ({})",
+            why = fmt::format("uses another solver setting ({}) than {} ({})",
                               file.frame.provenance_value("numerics_choice"), first.path,
                               first.frame.provenance_value("numerics_choice"));
         }
         return why.empty() ? "" : file.path + ": cannot be merged: it " + why + "\n";
     }
 
-    // Batches that several files have or none has.
+    // Batches that are in several files, or in none, as problem lines.
     std::string gaps() const {
         std::map<std::size_t, const PartFile*> owner;
         std::string problems;
@@ -125,16 +128,16 @@ class Merge {
                 const auto [at, fresh] = owner.emplace(file.plan.number(batch), &file);
                 if (!fresh) {
                     problems +=
-                        fmt::format("{}: cannot be merged: {} and others are in {} as well\n",
-                                    file.path, rows_text(whole(), at->first), at->second->path);
+                        fmt::format("{}: cannot be merged: {} and more are also in {}\n", file.path,
+                                    rows_text(whole(), at->first), at->second->path);
                     break;
                 }
             }
             if (file.batches < file.plan.batches()) {
                 problems += fmt::format(
-                    "{}: holds {} of its {} {} ({}); continue it with `run --resume`\n", file.path,
-                    file.plan.rows_before(file.batches), file.plan.rows(), file.plan.counted(),
-                    printable(file.frame.provenance_value("state")));
+                    "{}: contains {} of its {} {} ({}); continue it with `run --resume`\n",
+                    file.path, file.plan.rows_before(file.batches), file.plan.rows(),
+                    file.plan.counted(), printable(file.frame.provenance_value("state")));
             }
         }
         if (!problems.empty()) {
@@ -143,7 +146,7 @@ class Merge {
         for (std::size_t batch = 0; batch < whole().batches(); ++batch) {
             if (!owner.contains(batch)) {
                 return fmt::format(
-                    "{} of {} tiles of gearboxes, {} the first, are in none of the files: {}\n",
+                    "{} of {} batches of gearboxes are in none of the files, first {}; {}\n",
                     whole().batches() - owner.size(), whole().batches(), rows_text(whole(), batch),
                     missing_part(batch));
             }
@@ -153,7 +156,7 @@ class Merge {
 
     std::string missing_part(std::size_t batch) const {
         const std::size_t parts = part_of(files_.front().frame).count;
-        return fmt::format("`run --part {}/{}` computes them", batch % parts + 1, parts);
+        return fmt::format("compute them with `run --part {}/{}`", batch % parts + 1, parts);
     }
 
     const MergeOptions& options_;
@@ -179,7 +182,7 @@ int merge_command(const MergeOptions& options) {
     run.quiet = options.quiet;
     const Ranks ranks;
     if (ranks.size() > 1) {
-        fmt::print(stderr, "merge: is the work of one process, and {} were started\n",
+        fmt::print(stderr, "merge: needs one process, but {} were started; run it without MPI\n",
                    ranks.size());
         return kBadInput;
     }

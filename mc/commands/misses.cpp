@@ -1,4 +1,5 @@
-// misses F.h5: how often a fault is missed where that is rare.
+// Command `misses F.h5`: probability of a rare miss, by importance sampling with exponentially
+// tilted noise.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 #include <stdexcept>
 
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/text_lines.hpp"
 #include "mc/commands/asked_results.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/missed_faults.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -20,16 +21,16 @@ namespace gearpod::mc {
 namespace {
 
 constexpr long kMostRows = 100'000'000;
-constexpr int kMostRecords = 10'000;  // as of ensemble.threshold_records
+constexpr int kMostRecords = 10'000;  // the limit of ensemble.threshold_records
 
-// The threshold that the file's healthy sample sets.
+// Finds the threshold set by the file's healthy gearboxes.
 void find_threshold(const AskedResults& results, const MissesOptions& options,
                     Complaints& complaints, MissQuestion& question) {
     const features::Feature* feature = features::find_feature(options.feature);
     if (feature != nullptr && !feature->from_sensor) {
         complaints.add("--feature",
-                       fmt::format("\"{}\" does not look at the accelerometer, whose noise is "
-                                   "tilted; take one that does",
+                       fmt::format("\"{}\" does not use the acceleration signal, but `misses` "
+                                   "varies its noise; choose a feature of the acceleration",
                                    options.feature));
     }
     const auto asked = find_asked(results, options.feature, options.noise_level, complaints);
@@ -40,7 +41,8 @@ void find_threshold(const AskedResults& results, const MissesOptions& options,
     question.noise_level = asked->detection->noise_level;
     question.threshold = asked->detection->threshold;
     if (question.noise_level == 0.0) {
-        complaints.add("--noise-level", "0 has no noise to tilt; `rare` asks gearboxes alone");
+        complaints.add("--noise-level",
+                       "0 has no noise; use `rare` for misses due to variation between gearboxes");
     }
     needs_threshold(*asked, complaints);
 }
@@ -49,18 +51,18 @@ void check_numbers(const Study& study, const MissesOptions& options, Complaints&
     constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
     if (noise_by_density(study)) {
         complaints.add(options.results,
-                       "its study gives the noise by density, which colours it; only white noise, "
-                       "sensor.noise_m_s2, is tilted");
+                       "its study gives the noise by density, which is not white after the "
+                       "low-pass; `misses` needs white noise (sensor.noise_m_s2)");
     }
     if (options.records < kKinds || options.records % kKinds != 0 ||
         options.records > kMostRecords) {
-        complaints.add("--records", fmt::format("{} is no multiple of {} up to {}", options.records,
-                                                kKinds, kMostRecords));
+        complaints.add("--records", fmt::format("must be a multiple of {} up to {}, but is {}",
+                                                kKinds, kMostRecords, options.records));
     }
     const int records = std::clamp(options.records, kKinds, kMostRecords);
     if (options.gearboxes < 2 || options.gearboxes > kMostRows / records) {
-        complaints.add("--gearboxes", fmt::format("{} is not between 2 and {}", options.gearboxes,
-                                                  kMostRows / records));
+        complaints.add("--gearboxes", fmt::format("must be between 2 and {}, but is {}",
+                                                  kMostRows / records, options.gearboxes));
     }
 }
 
@@ -75,7 +77,7 @@ Prepared prepare(const MissesOptions& options) {
     const AskedResults results = read_asked(options.results);
     const Study& study = results.study;
     if (study.fault.kind == nullptr) {
-        throw std::runtime_error(options.results + ": its study has no fault to miss");
+        throw std::runtime_error(options.results + ": its study has no fault");
     }
     Complaints complaints;
     Prepared prepared;
@@ -93,46 +95,47 @@ Prepared prepare(const MissesOptions& options) {
 
 std::string rate_text(const Prepared& prepared, const MissAnswer& answer) {
     const MissQuestion& q = prepared.question;
-    const std::string records =
-        fmt::format("{} tilted records of each of {} gearboxes", q.records, answer.gearboxes);
+    const std::string records = fmt::format(
+        "{} exponentially tilted records of each of {} gearboxes", q.records, answer.gearboxes);
     if (!answer.misses) {
         return fmt::format(
-            "not known from {}: too few of them have the misses. It takes more records or "
-            "gearboxes; where gearboxes make the misses, not noise, `rare` asks them",
+            "unknown from {}: too few of them contribute misses. Use more records or gearboxes; "
+            "if the misses are due to variation between gearboxes, use `rare`",
             records);
     }
-    return fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %, from {}, {:.0f} of which carry it",
-                       answer.misses->expected, answer.misses->rate.lower,
-                       answer.misses->rate.upper, 100.0 * prepared.confidence, records,
-                       answer.misses->carrying);
+    return fmt::format(
+        "{:.3g} [{:.3g}, {:.3g}] at {:g} % confidence, from {}, of which effectively {:.0f} "
+        "contribute",
+        answer.misses->expected, answer.misses->rate.lower, answer.misses->rate.upper,
+        100.0 * prepared.confidence, records, answer.misses->carrying);
 }
 
-// What counting would have taken.
+// Relative error, and how many records plain counting would need for the same error.
 std::string counting_text(const MissAnswer& answer) {
     const double times = answer.counted / static_cast<double>(answer.records);
     const std::string error =
         fmt::format("relative error {:.2g}; ", std::sqrt(answer.misses->variance));
     return times > 1.0 ? error + fmt::format(
-                                     "counting misses of single records takes {:.3g} of "
-                                     "them for the same, {:.3g} times as many",
+                                     "simple counting needs {:.3g} records for the same "
+                                     "error, {:.3g} times as many",
                                      answer.counted, times)
                        : error +
-                             "not so rare that tilting pays: `run` counts them with fewer "
-                             "records";
+                             "misses are not rare enough for this method: counting with `run` "
+                             "needs fewer records";
 }
 
 std::string answer_text(const Prepared& prepared, const MissAnswer& answer) {
     const MissQuestion& q = prepared.question;
-    std::string text;
-    analysis::add_wrapped(text,
-                          asked_misses(prepared.size, q.feature, q.noise_level, q.threshold) +
-                              rate_text(prepared, answer),
-                          2);
+    std::string text =
+        wrapped_text(asked_misses(prepared.size, q.feature, q.noise_level, q.threshold) +
+                         rate_text(prepared, answer),
+                     2) +
+        "\n";
     if (answer.misses) {
-        analysis::add_wrapped(text, counting_text(answer), 2);
+        text += wrapped_text(counting_text(answer), 2) + "\n";
     }
     if (answer.failed > 0) {
-        text += fmt::format("{} of the gearboxes failed, and do not count\n", answer.failed);
+        text += fmt::format("{} of the gearboxes failed and are not counted\n", answer.failed);
     }
     return text;
 }

@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Frequencies that agree to this belong to one mode, which shows as its multiplicity.
+// Relative difference below which frequencies are printed as one mode with a multiplicity.
 constexpr double kSameMode = 1e-6;
 
 std::vector<double> mean_pairs(const Study& study) {
@@ -22,7 +22,7 @@ std::vector<double> mean_pairs(const Study& study) {
                : Scene(resolve_numerics(study).study).mean_pairs();
 }
 
-// Natural frequencies are those of the standing gearbox.
+// Gearbox layout at rest, without inertial terms, for the natural frequencies.
 dynamics::GearboxLayout layout_at_rest(const Study& study) {
     dynamics::GearboxLayout layout = gearbox_layout(study);
     if (auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&layout)) {
@@ -31,7 +31,7 @@ dynamics::GearboxLayout layout_at_rest(const Study& study) {
     return layout;
 }
 
-// Without masses there is nothing to vibrate.
+// True if the study gives every mass and inertia that the modes need.
 bool has_masses(const Study& study) {
     const Gearbox& g = study.gearbox;
     const FixedShaft& f = study.fixed_shaft;
@@ -51,8 +51,9 @@ int modes_command(const ModesOptions& options) {
         return kBadInput;
     }
     if (!has_masses(*study)) {
-        print_problems({{options.study.path, 0, "gearbox", "no masses (modes need them)",
-                         "add the masses and inertias to [gearbox]"}});
+        print_problems(
+            {{options.study.path, 0, "gearbox",
+              "masses or inertias are missing, but modes need them", "add them to [gearbox]"}});
         return kBadInput;
     }
     const auto inputs = body_inputs(*study, Sampler(*study).nominal());

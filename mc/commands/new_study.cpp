@@ -11,7 +11,7 @@ namespace gearpod::mc {
 int new_command(const NewOptions& options) {
     const bool exists = options.out != "-" && std::filesystem::exists(options.out);
     if (exists && !options.force) {
-        fmt::print(stderr, "--out {}: is there already; name another file, or give --force\n",
+        fmt::print(stderr, "--out {}: exists already; choose another file, or give --force\n",
                    options.out);
     }
     const bool writable = can_write({"--out", options.out}, {}) && (!exists || options.force);
@@ -24,8 +24,8 @@ int new_command(const NewOptions& options) {
     }
     if (options.out != "-") {
         fmt::print(
-            "{0}: read it, replace what you know, then\n  gearpod describe {0}\n  gearpod "
-            "run {0}\n",
+            "{0}: check its values and replace those that you know, then\n"
+            "  gearpod describe {0}\n  gearpod run {0}\n",
             options.out);
     }
     return kDone;

@@ -1,4 +1,4 @@
-// pod TABLE: probability of detection from a table of inspections.
+// Command `pod TABLE`: probability of detection (POD) from a table of inspections.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ constexpr const char* kUsualSizes[] = {"size", "a", "Size"};
 constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "Hit"};
 constexpr const char* kUsualValues[] = {"response", "ahat", "a-hat", "a_hat", "a.hat", "value"};
 
-// What is wrong with the table, as many as a reader can take in.
+// Collects problems with the table and shows the first kShown.
 class Refusals {
   public:
     explicit Refusals(const std::string& path) : path_(path) {}
@@ -53,7 +53,8 @@ class Refusals {
     long count_ = 0;
 };
 
-// The columns named, else the first of the usual names; none is a problem unless `optional`.
+// Finds the named columns, or else the first column with a usual name. Reports named columns that
+// do not exist.
 std::vector<std::size_t> columns(const TextTable& table, const std::vector<std::string>& named,
                                  std::span<const char* const> usual, Refusals& refusals) {
     std::vector<std::size_t> found;
@@ -105,8 +106,8 @@ Columns choose_columns(const TextTable& table, const PodOptions& options, Refusa
         chosen.responses = true;
         if (chosen.values.empty()) {
             refusals.add(
-                fmt::format("no column hit and none response; its columns are {}; choose "
-                            "with --hit or --response",
+                fmt::format("no column hit or response; its columns are {}; choose with --hit "
+                            "or --response",
                             table.names()));
         }
     }
@@ -133,7 +134,7 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
         const auto number = [&](std::size_t c) {
             const auto value = number_of(row[c], comma);
             if (!value || !std::isfinite(*value)) {
-                refusals.add(fmt::format("column {}: \"{}\" is no finite number",
+                refusals.add(fmt::format("column {}: \"{}\" is not a finite number",
                                          table.columns[c].name, row[c].substr(0, 40)),
                              line);
             }
@@ -141,7 +142,7 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
         };
         const double size = number(chosen.size);
         if (size < 0.0) {
-            refusals.add(fmt::format("column {}: {:g} is negative; a place without a flaw has 0",
+            refusals.add(fmt::format("column {}: {:g} is negative; use 0 for no flaw",
                                      table.columns[chosen.size].name, size),
                          line);
         }
@@ -166,7 +167,7 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
         }
     }
     if (data.size.empty() && !refusals.any()) {
-        refusals.add("has no line with a value");
+        refusals.add("no line has a value");
     }
     return data;
 }
@@ -236,12 +237,13 @@ InspectionRequest request_of(const PodOptions& options, const Columns& chosen, R
     return request;
 }
 
-// Options that have no effect on this kind of data are mistakes.
+// Reports options that have no effect on this kind of data.
 void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals& refusals) {
     const auto refuse = [&](bool given, const char* name) {
         if (given) {
-            refusals.add(fmt::format("{} is for {}, which this table has not", name,
-                                     chosen.responses ? "hits and misses" : "responses"));
+            refusals.add(fmt::format("{} is only for {}, but the table has {}", name,
+                                     chosen.responses ? "hits and misses" : "responses",
+                                     chosen.responses ? "responses" : "hits and misses"));
         }
     };
     if (chosen.responses) {
@@ -273,7 +275,7 @@ InspectionWords words_of(const TextTable& table, const Columns& chosen) {
     words.table = printable(table.path);
     const TableColumn& size = table.columns[chosen.size];
     words.size = {printable(size.name), size.unit.empty() ? "1" : printable(size.unit)};
-    // Lengths in metres are as they are in the table, as all other units.
+    // The report scales "m" to mm; "metres" keeps the table's own unit, like every other unit.
     if (words.size.unit == "m") {
         words.size.unit = "metres";
     }

@@ -1,14 +1,15 @@
-// rare F.h5: rare false alarms or misses where gearboxes make them.
+// Command `rare F.h5`: rates of rare false alarms or misses caused by gearbox-to-gearbox variation,
+// by multilevel splitting (subset simulation).
 #include <fmt/format.h>
 
 #include <cmath>
 #include <optional>
 
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/text_lines.hpp"
 #include "mc/commands/asked_results.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/rare_rates.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
@@ -20,14 +21,14 @@ constexpr double kRarestAlarms = 1e-9;
 struct PreparedRare {
     RareQuestion question;
     double confidence = 0.0;
-    AskedSize size;  // of misses
+    AskedSize size;  // if the miss rate is requested
     StudyScene made;
 };
 
 void ask_misses(const AskedResults& results, const RareOptions& options, const AskedFeature& asked,
                 Complaints& complaints, PreparedRare& prepared) {
     if (results.study.fault.kind == nullptr) {
-        complaints.add(options.results, "its study has no fault to miss");
+        complaints.add(options.results, "its study has no fault");
         return;
     }
     prepared.size = ask_size(results.study, *options.size, complaints);
@@ -42,15 +43,15 @@ PreparedRare prepare_rare(const RareOptions& options) {
     PreparedRare prepared;
     RareQuestion& question = prepared.question;
     if (!options.rate && !options.size) {
-        complaints.add("--rate", "or --size says what is asked for: --rate 1e-4 for false alarms");
+        complaints.add("--rate", "missing; give a false-alarm rate (--rate 1e-4), or --size");
     }
     if (options.rate && !(*options.rate >= kRarestAlarms && *options.rate <= 0.1)) {
-        complaints.add("--rate", fmt::format("{:g} is not between {:g} and 0.1", *options.rate,
-                                             kRarestAlarms));
+        complaints.add("--rate", fmt::format("must be between {:g} and 0.1, but is {:g}",
+                                             kRarestAlarms, *options.rate));
     }
     if (options.gearboxes < kFewestOfLevel || options.gearboxes > kMostOfLevel) {
-        complaints.add("--gearboxes", fmt::format("{} is not between {} and {}", options.gearboxes,
-                                                  kFewestOfLevel, kMostOfLevel));
+        complaints.add("--gearboxes", fmt::format("must be between {} and {}, but is {}",
+                                                  kFewestOfLevel, kMostOfLevel, options.gearboxes));
     }
     const auto asked = find_asked(results, options.feature, options.noise_level, complaints);
     if (asked) {
@@ -70,26 +71,23 @@ PreparedRare prepare_rare(const RareOptions& options) {
 
 std::string not_known(const RareQuestion& question, const RareAnswer& answer) {
     return !question.rate && answer.last_rate < kRarestMisses
-               ? fmt::format("rarer than {:g}", kRarestMisses)
+               ? fmt::format("less than {:g}", kRarestMisses)
                : fmt::format(
-                     "not known from {} gearboxes a level: the descendants of fewer than "
-                     "{:g} of the first ones reach so far. It takes more of them "
-                     "(--gearboxes)",
+                     "unknown from {} gearboxes per level: fewer than {:g} independent families "
+                     "of gearboxes reach the last level. Use more gearboxes (--gearboxes)",
                      question.gearboxes, analysis::kLeastFamilies);
 }
 
 std::string alarms_text(const PreparedRare& prepared, const RareAnswer& answer) {
     const RareQuestion& q = prepared.question;
-    const std::string asked = fmt::format(
-        "false alarms of {} at noise x {:g}, {:g} of healthy "
-        "gearboxes: ",
-        q.feature, q.noise_level, *q.rate);
+    const std::string asked = fmt::format("false-alarm rate {:g} of {} at noise x {:g}: ", *q.rate,
+                                          q.feature, q.noise_level);
     if (!answer.estimate) {
         return asked + not_known(q, answer);
     }
     return asked + fmt::format(
-                       "threshold {:.5g} [{:.5g}, {:.5g}] (alarm if {}), whose rate is "
-                       "{:.3g} [{:.3g}, {:.3g}] at {:g} %",
+                       "threshold {:.5g} [{:.5g}, {:.5g}] (alarm if {}); estimated rate of "
+                       "this threshold {:.3g} [{:.3g}, {:.3g}] at {:g} % confidence",
                        answer.estimate->threshold, answer.threshold.lower, answer.threshold.upper,
                        alarm_symbol_of(q.feature), answer.estimate->expected,
                        answer.estimate->rate.lower, answer.estimate->rate.upper,
@@ -100,62 +98,62 @@ std::string misses_text(const PreparedRare& prepared, const RareAnswer& answer) 
     const RareQuestion& q = prepared.question;
     const std::string asked = asked_misses(prepared.size, q.feature, q.noise_level, q.threshold);
     return answer.estimate
-               ? asked + fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %", answer.estimate->expected,
-                                     answer.estimate->rate.lower, answer.estimate->rate.upper,
-                                     100.0 * prepared.confidence)
+               ? asked + fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} % confidence",
+                                     answer.estimate->expected, answer.estimate->rate.lower,
+                                     answer.estimate->rate.upper, 100.0 * prepared.confidence)
                : asked + not_known(q, answer);
 }
 
-// How it was found, and what counting would have taken.
+// Cost of the estimate, and how many gearboxes plain counting would need for the same error.
 std::string cost_text(const RareQuestion& question, const RareAnswer& answer) {
     std::string text =
-        fmt::format("{} gearboxes computed, {} a level, {} level{}", answer.computed,
+        fmt::format("{} gearboxes computed, {} per level, {} level{}", answer.computed,
                     question.gearboxes, answer.levels, answer.levels == 1 ? "" : "s");
     if (answer.levels > 1) {
-        text += fmt::format("; at least {:.0f} % of the exchanges of a level kept",
+        text += fmt::format("; acceptance rate of a level at least {:.0f} %",
                             100.0 * answer.least_kept);
     }
     if (answer.estimate) {
         const double times = answer.counted / static_cast<double>(answer.computed);
-        text += fmt::format("; the rate rests on {:.0f} families of them, relative error {:.2g}",
+        text += fmt::format("; effectively {:.0f} independent families, relative error {:.2g}",
                             answer.estimate->families, std::sqrt(answer.estimate->variance));
         text += times > 1.0 ? fmt::format(
-                                  ": counting takes {:.3g} gearboxes for the same, {:.2g} times "
-                                  "as many",
+                                  "; simple counting needs {:.3g} gearboxes for the same error, "
+                                  "{:.2g} times as many",
                                   answer.counted, times)
-                            : ": not so rare that splitting pays, `run` counts them with fewer";
+                            : "; not rare enough for this method: counting with `run` needs "
+                              "fewer gearboxes";
     }
     return text;
 }
 
-// What the last level's gearboxes have otherwise than all have.
+// Random inputs whose mean over the last level's gearboxes differs from the mean over all.
 std::string shift_text(const RareAnswer& answer) {
-    std::string text = fmt::format("the last level, {:.2g} of all gearboxes, ", answer.last_rate);
+    std::string text = fmt::format("the last level ({:.2g} of all gearboxes) ", answer.last_rate);
     if (answer.shifted.empty()) {
         return text +
-               "has all random inputs as all gearboxes have them: others make the "
-               "difference, teeth, planets or noise";
+               "has the same mean random inputs as all gearboxes: tooth errors, planets or noise "
+               "make the difference";
     }
-    text += "differs in its mean";
+    text += "has other mean inputs than all gearboxes:";
     for (const ShiftedInput& input : answer.shifted) {
-        text += fmt::format("{} {} {:.4g}{} for {:.4g}", &input == &answer.shifted[0] ? "" : ",",
-                            input.name, input.rare, input.unit == "1" ? "" : " " + input.unit,
-                            input.all);
+        text += fmt::format("{} {} {:.4g}{} instead of {:.4g}",
+                            &input == &answer.shifted[0] ? "" : ",", input.name, input.rare,
+                            input.unit == "1" ? "" : " " + input.unit, input.all);
     }
     return text;
 }
 
 std::string rare_text(const PreparedRare& prepared, const RareAnswer& answer) {
-    std::string text;
-    analysis::add_wrapped(
-        text,
-        prepared.question.rate ? alarms_text(prepared, answer) : misses_text(prepared, answer), 2);
-    analysis::add_wrapped(text, cost_text(prepared.question, answer), 2);
+    std::string text = wrapped_text(prepared.question.rate ? alarms_text(prepared, answer)
+                                                           : misses_text(prepared, answer),
+                                    2) +
+                       "\n" + wrapped_text(cost_text(prepared.question, answer), 2) + "\n";
     if (answer.levels > 1) {
-        analysis::add_wrapped(text, shift_text(answer), 2);
+        text += wrapped_text(shift_text(answer), 2) + "\n";
     }
     if (answer.failed > 0) {
-        text += fmt::format("{} of the gearboxes failed, and raise no alarm\n", answer.failed);
+        text += fmt::format("{} of the gearboxes failed and count as no alarm\n", answer.failed);
     }
     return text;
 }

@@ -1,4 +1,4 @@
-// features of many recordings: a results file and a table.
+// Command `features` for many recordings: writes a results file and a table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/population.hpp"
 #include "mc/run/support.hpp"
@@ -18,21 +19,23 @@
 namespace gearpod::mc {
 namespace {
 
-// What the options ask for together that they cannot have.
+// Problems with the combination of options.
 Problems option_problems(const FeaturesOptions& options) {
     Problems problems;
     const auto reject = [&](const char* what, const char* remedy) {
         problems.push_back({"features", 0, "", what, remedy});
     };
     if (options.manifest.empty() == options.signals.empty()) {
-        reject(options.manifest.empty() ? "no signal" : "signals and --manifest",
-               "name signal files, or a manifest of them");
+        reject(options.manifest.empty() ? "no signal is given"
+                                        : "signals and --manifest are both given",
+               "give either signal files or --manifest");
     }
     if (!options.json.empty()) {
-        reject("--json is for one signal", "many have --out and --csv; `report` gives JSON");
+        reject("--json is only for one signal",
+               "for many signals give --out, and make JSON from it with `report --json`");
     }
     if (options.out.empty() && options.csv.empty() && options.against.empty()) {
-        reject("many signals need a place to go",
+        reject("no output is given for many signals",
                "give --out F.h5, --csv T.csv, or --against F.h5");
     }
     return problems;
@@ -67,19 +70,20 @@ RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
     }
 }
 
-// A sentence a recording.
+// Prints one sentence for each recording.
 void print_verdicts(const FeaturesOptions& options, const Population& population,
                     const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (measured[i].problem.empty()) {
             const auto verdicts = judge(population, measured[i].values, options.feature);
-            fmt::print("{}\n", verdict_sentence(list.recordings[i].name(), population,
-                                                verdicts.front(), measured[i].teeth));
+            fmt::print("{}\n", wrapped_text(verdict_sentence(list.recordings[i].name(), population,
+                                                             verdicts.front(), measured[i].teeth),
+                                            2));
         }
     }
 }
 
-// Names the recordings without features, and says what came out; the exit code.
+// Prints the recordings without features and the files written. Returns the exit code.
 int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>& measured) {
     const auto bad =
         std::count_if(measured.begin(), measured.end(),

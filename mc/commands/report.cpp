@@ -25,7 +25,8 @@
 namespace gearpod::mc {
 namespace {
 
-// No table goes to a file that is something else, by whatever name; false after a message.
+// Checks that no table would overwrite another input or output file. Returns false after printing
+// the problem.
 bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>& tables) {
     const std::vector<FileRole> others{{"the results file", options.results},
                                        {"--json", options.json},
@@ -36,7 +37,7 @@ bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>&
         const std::string path = table_path(options.csv, table);
         for (const FileRole& other : others) {
             if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
-                fmt::print(stderr, "--csv {}: is {} as well, which it would overwrite\n", path,
+                fmt::print(stderr, "--csv {}: would overwrite {}; choose another folder\n", path,
                            other.role);
                 good = false;
             }
@@ -45,7 +46,8 @@ bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>&
     return good;
 }
 
-// JSON, tables, page, sheet and figures, as far as they are asked for; false after a message.
+// Writes the requested JSON, tables, page, sheet and figures. Returns false after printing a
+// problem.
 bool write_files(const ReportOptions& options, const Results& results, const RowSource& rows,
                  const std::optional<analysis::Reliability>& reliability) {
     nlohmann::json json = report_json(results, rows, reliability);
@@ -73,7 +75,7 @@ bool write_files(const ReportOptions& options, const Results& results, const Row
     return true;
 }
 
-// False after a message of what must be a number up to `most`.
+// Checks that the value is between 0 and `most`. Returns false after printing the problem.
 bool within(const char* option, double value, double most) {
     const bool good = value >= 0.0 && value <= most;
     if (!good) {
@@ -83,7 +85,7 @@ bool within(const char* option, double value, double most) {
     return good;
 }
 
-// All three or none; false after a message.
+// Reads the cost options: all three or none. Returns false after printing the problem.
 bool read_costs(const ReportOptions& options, std::optional<analysis::Costs>& costs) {
     const auto& [alarm, miss, share] =
         std::tie(options.alarm_cost, options.miss_cost, options.fault_share);
@@ -136,7 +138,7 @@ int report_command(const ReportOptions& options) {
         }
         const std::string state = results.provenance_value("state");
         if (state == "running" || state.starts_with("interrupted")) {
-            fmt::print(stderr, "{}: holds {} of {} gearboxes ({})\n", options.results,
+            fmt::print(stderr, "{}: contains {} of {} gearboxes ({})\n", options.results,
                        count_rows(rows, results.request.threshold_records).all,
                        printable(results.provenance_value("gearboxes_asked_for")),
                        printable(state));

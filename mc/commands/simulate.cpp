@@ -10,6 +10,7 @@
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/results/batch_rows.hpp"
+#include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/run/support.hpp"
 
@@ -50,6 +51,13 @@ void write_hdf5(const std::string& path, const Simulation& simulation, const Stu
         write_numbers(features.get(), simulation.feature_names[f], {levels},
                       {at, at + static_cast<std::ptrdiff_t>(levels)});
     }
+    if (!simulation.contact_loss.empty()) {
+        const Hdf5Handle group = create_group(file.get(), kContactLoss);
+        for (const MeshResult& mesh : simulation.contact_loss) {
+            write_numbers(group.get(), mesh.name, {1}, mesh.values);
+            write_text(group.get(), mesh.name, "unit", "1");
+        }
+    }
     write_file(path, file_bytes(file));
 }
 
@@ -67,6 +75,10 @@ void print_summary(const Simulation& simulation, const std::string& out) {
         }
         fmt::print("\n");
     }
+    for (const MeshResult& mesh : simulation.contact_loss) {
+        fmt::print("contact loss    {:>12.4g} of a tooth pair's time, {}\n", mesh.values[0],
+                   mesh.name);
+    }
     if (!out.empty()) {
         fmt::print("signals: {}\n", out);
     }
@@ -80,7 +92,7 @@ int simulate_command(const SimulateOptions& options) {
     bool good = scene != nullptr;
     if (!options.out.empty()) {
         if (!csv && !options.out.ends_with(".h5")) {
-            fmt::print(stderr, "--out {}: unknown kind of file; end it in .h5 or .csv\n",
+            fmt::print(stderr, "--out {}: unknown file type; end the name in .h5 or .csv\n",
                        options.out);
             good = false;
         } else {
@@ -94,7 +106,9 @@ int simulate_command(const SimulateOptions& options) {
     const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
     const long meshes = options.meshes > 0 ? options.meshes : scene->span().planet_teeth;
     if (options.instance < 0 || options.instance >= rows || meshes > scene->signal_meshes()) {
-        fmt::print(stderr, "--instance is a row of the results, 0 to {}; --meshes is at most {}\n",
+        fmt::print(stderr,
+                   "--instance must be a row of the results, 0 to {}; --meshes must be at most "
+                   "{}\n",
                    rows - 1, scene->signal_meshes());
         return kBadInput;
     }

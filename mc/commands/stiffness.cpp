@@ -12,11 +12,11 @@
 namespace gearpod::mc {
 namespace {
 
-// Columns of a faulty pair: the mesh period in which the faulty tooth engages, the next one, ...
+// CSV column of a faulty tooth pair over one mesh period.
 struct FaultColumn {
     std::string name;
     int pair = 0;
-    int period = 0;  // after the one in which the tooth engages
+    int period = 0;  // mesh periods after the one in which the tooth engages
     std::shared_ptr<const stiffness::FaultyMesh> mesh;
 };
 
@@ -93,9 +93,9 @@ void print_te(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         const stiffness::LoadedMesh::Range te = mesh.loaded->range();
         fmt::print(
-            "{:<11}: {:.6g} N, transmission error {:.4f} um on average, {:.4f} um peak to "
-            "peak\n",
-            mesh_name(mesh.members), mesh.loaded->force_N(), 1e6 * te.mean,
+            "{:<11}: {:.6g} N, transmission error {:.4f} um mean,\n"
+            "{:<11}  {:.4f} um peak to peak\n",
+            mesh_name(mesh.members), mesh.loaded->force_N(), 1e6 * te.mean, "",
             1e6 * te.peak_to_peak());
     }
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
@@ -104,10 +104,10 @@ void print_te(const Scene& scene) {
 void print_summary(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         fmt::print(
-            "{:<11}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
-            "engagement\n",
+            "{:<11}: contact ratio {:.4f}, mean stiffness {:.4e} N/m,\n"
+            "{:<11}  pitch point {:.4f} mesh periods after engagement\n",
             mesh_name(mesh.members), mesh.stiffness->contact_ratio(), mean_total(*mesh.stiffness),
-            mesh.stiffness->pitch_position());
+            "", mesh.stiffness->pitch_position());
     }
     const std::vector<int> pairs = faulty_pairs(scene);
     if (!pairs.empty()) {
@@ -116,7 +116,7 @@ void print_summary(const Scene& scene) {
         for (const int pair : pairs) {
             names += (names.empty() ? "" : " and ") + scene.drive().pair_name(pair);
         }
-        fmt::print("faulty tooth on pair {}; its largest {} is {:.3f}{}\n", names,
+        fmt::print("faulty tooth in pair {}; largest possible {} {:.3f}{}\n", names,
                    fault_size_key(scene.study()).stem(), scene.fault().largest_size() / unit.to_si,
                    unit.suffix.empty() ? "" : " " + std::string(unit.name));
     }

@@ -1,4 +1,5 @@
-// sweep STUDY --vary KEY=[...]: a study at every combination of some values, side by side.
+// Command `sweep STUDY --vary KEY=[...]`: runs a study at every combination of some values and
+// compares the results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::string folder_of(const SweepOptions& options) {
                                : options.out;
 }
 
-// The run of a point.
+// Options of the run at a point.
 RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
     RunOptions run;
     run.study = options.study;
@@ -45,7 +46,7 @@ RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
     return run;
 }
 
-// Of all points, each said once.
+// Problems of all points' studies, without duplicates.
 Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& keys,
                      const std::vector<SweepPoint>& points) {
     Problems all;
@@ -55,7 +56,8 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
         StudyReading reading = read_study(run.study.path, run.study.overrides);
         if (options.lives && reading.study && !reading.study->life.interval_h) {
             reading.problems.push_back({run.study.path, 0, "life.interval_h",
-                                        "missing: how often a gearbox is measured", "add [life]"});
+                                        "missing; it is the time between two records of a gearbox",
+                                        "add section [life]"});
         }
         for (Problem& problem : reading.problems) {
             for (const VariedKey& key : keys) {
@@ -72,21 +74,21 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
     return all;
 }
 
-// Keys that a sweep of runs does not look at.
+// Problems with varied keys that only `lives` uses, in a sweep of `run`.
 Problems keys_of_lives(const SweepOptions& options, const std::vector<VariedKey>& keys) {
     Problems all;
     for (const VariedKey& key : keys) {
         const bool of_lives = key.key.starts_with("life.") || key.key.starts_with("monitoring.") ||
                               key.key.starts_with("random.life.");
         if (of_lives && !options.lives) {
-            all.push_back({"--vary", 0, key.key, "is looked at by `lives`, not by `run`",
-                           "sweep with --lives"});
+            all.push_back(
+                {"--vary", 0, key.key, "is only used by `lives`, not by `run`", "give --lives"});
         }
     }
     return all;
 }
 
-// What is there of a point: nothing, something to go on from, or all.
+// State of a point's results: none, resumable, or complete.
 enum class Progressed { nothing, some, all };
 
 Progressed progressed(const RunOptions& run, bool lives) {
@@ -101,19 +103,19 @@ Progressed progressed(const RunOptions& run, bool lives) {
         const Results old = read_frame(path);
         const StudyScene made = make_scene(run.study);
         if (!made) {
-            return Progressed::nothing;  // the run says why
+            return Progressed::nothing;  // the run will print the reason
         }
         const Study& study = made.scene->study();
         const bool are_lives = old.provenance_value("kind") == kLivesKind;
         if (are_lives != lives || !why_not_grown(old, path, study, Part{}).empty()) {
-            return Progressed::nothing;  // the run says why it does not overwrite it
+            return Progressed::nothing;  // the run will print why it does not overwrite the file
         }
         const BatchPlan plan = lives ? lives_plan(study) : plan_of(run, study);
         const bool enough = FileRows(path, old).rows() >= plan.rows() ||
                             old.provenance_value("state") == "ended by ensemble.until";
         return enough ? Progressed::all : Progressed::some;
     } catch (const std::exception&) {
-        return Progressed::nothing;  // no results, or damaged ones
+        return Progressed::nothing;  // not a results file, or damaged
     }
 }
 
@@ -137,14 +139,14 @@ class Sweep {
     int run_point(std::size_t p) {
         RunOptions run = run_of(options_, points_[p]);
         const Progressed there = ranks_.leads() ? progressed(run, options_.lives)
-                                                : Progressed::nothing;  // the leader's counts
+                                                : Progressed::nothing;  // rank 0 decides
         const std::string order = ranks_.from_leader(std::to_string(static_cast<int>(there)));
         const auto decided = static_cast<Progressed>(std::stoi(order));
         if (ranks_.leads() && !options_.quiet) {
             fmt::print(stderr, "{} of {}, {}: {}\n", p + 1, points_.size(), points_[p].name,
-                       decided == Progressed::all    ? "is finished"
-                       : decided == Progressed::some ? "goes on"
-                                                     : "begins");
+                       decided == Progressed::all    ? "finished before"
+                       : decided == Progressed::some ? "continued"
+                                                     : "started");
         }
         if (decided == Progressed::all) {
             return kDone;
@@ -155,19 +157,18 @@ class Sweep {
 
     int stopped(std::size_t finished, int code) const {
         if (ranks_.leads() && code == kResumable) {
-            fmt::print(stderr,
-                       "{} of {} points are finished; the same command goes on from there\n",
+            fmt::print(stderr, "{} of {} points are finished; repeat the command to continue\n",
                        finished, points_.size());
         }
         return code;
     }
 
-    // What the points come to.
+    // Summary of all points.
     struct Told {
         std::string text;
         nlohmann::ordered_json json;
-        bool failed = false;               // some of the gearboxes
-        std::vector<std::string> results;  // files
+        bool failed = false;               // some gearboxes failed
+        std::vector<std::string> results;  // results files
     };
 
     Told told_of_runs(const std::string& title) const {
@@ -196,7 +197,7 @@ class Sweep {
         return told;
     }
 
-    // False after a message.
+    // Writes JSON and page if requested. Returns false after printing a problem.
     bool write_files(const nlohmann::ordered_json& json) const {
         return (options_.json.empty() || write_text_to(options_.json, json_text(json, 2) + "\n")) &&
                (options_.html.empty() ||
@@ -235,13 +236,13 @@ class Sweep {
     const Ranks& ranks_;
 };
 
-// The folder is there, or made; else says why not.
+// Creates the folder if it does not exist. Returns false after printing the problem.
 bool make_folder(const std::string& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (!fs::is_directory(folder)) {
-        fmt::print(stderr, "--out {}: cannot be made a folder: {}\n", folder,
-                   error ? error.message() : "it is a file");
+        fmt::print(stderr, "--out {}: the folder cannot be created: {}\n", folder,
+                   error ? error.message() : "a file has this name");
         return false;
     }
     return true;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "mc/description/entries.hpp"
 #include "mc/description/undamped.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/study/faults/fault_kind.hpp"
@@ -29,7 +30,7 @@ bool random(const Study& study, const char* key) {
 const char* damping_text(MeshDamping kind) {
     switch (kind) {
         case MeshDamping::ratio:
-            return "ratio of critical";
+            return "ratio of critical damping";
         case MeshDamping::proportional:
             return "proportional to stiffness";
         case MeshDamping::constant:
@@ -40,9 +41,9 @@ const char* damping_text(MeshDamping kind) {
 
 void print_motion(const Study& study) {
     const Effects& e = study.effects;
-    std::string text = e.torsional() ? "rotations only (rigid bearings)" : "x, y and rotation";
+    std::string text = e.torsional() ? "rotation only (rigid bearings)" : "x, y and rotation";
     if (e.quasi_static()) {
-        text += ", without inertia: static equilibrium at every sample";
+        text += ", quasi-static: equilibrium without inertia at every sample";
     }
     print_entry("motion", text);
     if (!e.quasi_static()) {
@@ -50,13 +51,13 @@ void print_motion(const Study& study) {
     }
     if (study.gearbox.kind == GearboxKind::planetary && e.inertial_terms && !e.torsional()) {
         print_entry("inertial terms", e.quasi_static()
-                                          ? "centrifugal pull"
-                                          : "Coriolis and centrifugal, rigid rotation removed "
-                                            "every mesh");
+                                          ? "centrifugal force"
+                                          : "Coriolis and centrifugal; rigid-body rotation is "
+                                            "removed after every mesh period");
     }
 }
 
-// Where a gear lies outside what its foundation is fitted for.
+// Warns of gears outside the range for which their foundation model was fitted.
 void print_foundation_warnings(const Study& study) {
     std::set<Member> members;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
@@ -66,12 +67,13 @@ void print_foundation_warnings(const Study& study) {
         for (const std::string& warning : stiffness::foundation_warnings(
                  gear_of(study, member), profile_of(study), study.effects.foundation,
                  body_radius_m(study, member))) {
-            fmt::print("  warning: {}: {}\n", member_name(member), warning);
+            print_paragraph(fmt::format("warning: {}: {}", member_name(member), warning));
         }
     }
 }
 
-// "sun-planet mesh times 0.84 (ISO 6336-1's C_R: sun 0.84)".
+// Prints the stiffness factor of rim and web, for example
+// "sun-planet mesh stiffness times 0.84 (C_R of ISO 6336-1: sun 0.84)".
 void print_blanks(const Study& study) {
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
         std::vector<std::string> blanks;
@@ -82,9 +84,10 @@ void print_blanks(const Study& study) {
             }
         }
         if (!blanks.empty()) {
-            print_entry("rim and web",
-                        fmt::format("{} mesh times {:.4g} (ISO 6336-1's C_R: {})", mesh_name(mesh),
-                                    blank_factor(study, mesh), fmt::join(blanks, ", ")));
+            print_entry(
+                "rim and web",
+                fmt::format("{} mesh stiffness times {:.4g} (C_R of ISO 6336-1: {})",
+                            mesh_name(mesh), blank_factor(study, mesh), fmt::join(blanks, ", ")));
         }
     }
 }
@@ -98,7 +101,7 @@ void add_size(const Study& study, const char* key, const std::string& unit, doub
     }
 }
 
-// "ISO 1328 grade 6 (ring 8), pitch 2 um rms".
+// Lists the tooth errors, for example "ISO 1328 grade 6, ring 8; pitch 2 um rms".
 std::string tooth_errors(const Study& study) {
     const MeshErrors& e = study.errors;
     std::vector<std::string> parts, members;
@@ -144,13 +147,13 @@ std::string unlike_planets(const Study& study) {
         add_size(study, key, unit, size, what, parts);
     };
     add("gearbox.pin_tangential_rms_um", 1e6 * p.pin_tangential_rms_m, " um rms",
-        "pins tangentially");
-    add("gearbox.pin_radial_rms_um", 1e6 * p.pin_radial_rms_m, " um rms", "pins radially");
+        "tangential pin errors");
+    add("gearbox.pin_radial_rms_um", 1e6 * p.pin_radial_rms_m, " um rms", "radial pin errors");
     add("gearbox.planet_bearing_stiffness_scatter", p.bearing_stiffness_scatter, "",
-        "scatter of the bearings' stiffness");
+        "bearing stiffness scatter");
     add("gearbox.planet_bearing_damping_scatter", p.bearing_damping_scatter, "",
-        "of their damping");
-    add("gearbox.planet_mass_scatter", p.mass_scatter, "", "of the masses");
+        "bearing damping scatter");
+    add("gearbox.planet_mass_scatter", p.mass_scatter, "", "mass scatter");
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -165,42 +168,42 @@ void print_meshes(const Study& study) {
             print_blanks(study);
         }
         if (e.contact == Contact::load_dependent) {
-            print_entry("contact", "stiffens with the force it carries at the nominal torque");
+            print_entry("contact", "stiffness depends on the contact force at nominal torque");
         }
     }
     if (e.separation != Separation::none) {
         print_entry("tooth separation",
                     e.separation == Separation::one_sided
-                        ? "one-sided: the back flanks never touch"
+                        ? "one-sided: contact loss, but no contact of the back flanks"
                         : fmt::format("two-sided, backlash {:g} mm",
                                       1e3 * study.gearbox.backlash_m.value_or(0.0)));
     }
     if (has_static_errors(study)) {
-        print_entry("transmission error", "harmonics of the mesh period");
+        print_entry("transmission error", "harmonics of the mesh frequency");
     }
     if (has_tooth_errors(study)) {
         print_entry("tooth errors", tooth_errors(study));
     }
     if (has_relief(study)) {
-        print_entry("relief", "a gap of each tooth pair along its path of contact");
+        print_entry("relief", "gap of each tooth pair along its path of contact");
     }
     if (study.effects.contact_onset == ContactOnset::extended) {
-        print_entry("contact onset", "extended: tip corners touch before and after the path");
+        print_entry("contact onset", "extended: tip corner contact before and after the path");
     }
     if (has_unilateral_teeth(study)) {
-        print_entry("tooth pairs", "unilateral: each pushes and none pulls");
+        print_entry("tooth pairs", "unilateral contact: pairs push but never pull");
     }
     if (has_unlike_planets(study)) {
-        print_entry("unlike planets", unlike_planets(study) + "; any horizon");
+        print_entry("unequal planets", unlike_planets(study));
     }
 }
 
-// A sine's and a noise's size, nominal.
+// Nominal sizes of the sinusoidal and the random part of a fluctuation.
 std::string sizes(double amplitude, const std::string& rate, double rms, double band_Hz) {
     std::string text =
-        rate.empty() ? "" : fmt::format("sine of {:g} of the mean, {}", amplitude, rate);
+        rate.empty() ? "" : fmt::format("sine with {:g} of the mean, {}", amplitude, rate);
     if (band_Hz > 0.0) {
-        text += fmt::format("{}noise of {:g} rms of the mean up to {:g} Hz",
+        text += fmt::format("{}noise with {:g} rms of the mean, up to {:g} Hz",
                             text.empty() ? "" : "; ", rms, band_Hz);
     }
     return text;
@@ -211,15 +214,14 @@ void print_driving(const Study& study) {
     if (torque_fluctuates(study)) {
         const std::string rate = !torque_has_sine(study) ? ""
                                  : f.torque_order > 0.0
-                                     ? fmt::format("{:g} times a turn of the input", f.torque_order)
+                                     ? fmt::format("{:g} per input revolution", f.torque_order)
                                      : fmt::format("{:g} Hz", f.torque_Hz);
         print_entry("torque fluctuation", sizes(f.torque, rate, f.torque_noise,
                                                 torque_has_noise(study) ? f.torque_noise_Hz : 0.0));
     }
     if (speed_fluctuates(study)) {
-        const std::string rate = speed_has_sine(study)
-                                     ? fmt::format("{:g} times a turn of the input", f.speed_order)
-                                     : "";
+        const std::string rate =
+            speed_has_sine(study) ? fmt::format("{:g} per input revolution", f.speed_order) : "";
         print_entry("speed fluctuation", sizes(f.speed, rate, f.speed_noise,
                                                speed_has_noise(study) ? f.speed_noise_Hz : 0.0));
     }
@@ -227,29 +229,29 @@ void print_driving(const Study& study) {
         print_entry("gravity",
                     fmt::format("{:g} deg from the x axis{}",
                                 study.effects.gravity_direction_rad * 180.0 / std::numbers::pi,
-                                gravity_turns(study) ? ", turning in the carrier's frame" : ""));
+                                gravity_turns(study) ? ", rotating in the carrier frame" : ""));
     }
     if (const std::string why = why_no_mesh_repeats(study); !why.empty()) {
-        print_entry("every mesh", study.numerics.horizon == Horizon::superpose
-                                      ? "superposed of what the errors of each gear do; marched "
-                                        "where a tooth pair may lose contact"
-                                      : fmt::format("marched or solved, because {}{}", why,
-                                                    why_not_superposed(study).empty()
-                                                        ? " (numerics.horizon = \"superpose\": "
-                                                          "fewer where no tooth pair loses contact)"
-                                                        : ""));
+        print_entry("solution",
+                    study.numerics.horizon == Horizon::superpose
+                        ? "superposition of the responses to the errors of each gear; "
+                          "full integration where a tooth pair may lose contact"
+                        : fmt::format("computed for every mesh period, because {}{}", why,
+                                      why_not_superposed(study).empty()
+                                          ? " (faster if no tooth pair loses contact: "
+                                            "numerics.horizon = \"superpose\")"
+                                          : ""));
     }
 }
 
 void print_driving_left_out(const Study& study) {
     if (!torque_fluctuates(study)) {
-        print_entry("torque fluctuation", "neither operation.torque_fluctuation nor torque_noise");
+        print_entry("torque fluctuation", "no operation.torque_fluctuation or torque_noise");
     }
     if (!speed_fluctuates(study)) {
-        print_entry("speed fluctuation",
-                    study.effects.quasi_static()
-                        ? "without inertia nothing feels it"
-                        : "neither operation.speed_fluctuation nor speed_noise");
+        print_entry("speed fluctuation", study.effects.quasi_static()
+                                             ? "no effect without inertia"
+                                             : "no operation.speed_fluctuation or speed_noise");
     }
     if (!study.effects.gravity) {
         print_entry("gravity", study.effects.torsional() && planets_balance(study)
@@ -276,12 +278,12 @@ void print_sensor(const Study& study) {
                     fmt::format("{} window, exponent {:g}", study.effects.path->name,
                                 study.sensor.path_exponent));
     } else {
-        print_entry("sensor", fmt::format("on the {}'s bearing, along the line of action",
+        print_entry("sensor", fmt::format("on the {} bearing, along the line of action",
                                           member_name(study.sensor.position)));
     }
     if (study.sensor.gain != 1.0 || random(study, "sensor.gain")) {
         print_entry("sensor gain",
-                    fmt::format("{:g} times the gearbox's vibration", study.sensor.gain));
+                    fmt::format("{:g} times the gearbox vibration", study.sensor.gain));
     }
     print_entry("sensor low-pass",
                 fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
@@ -300,16 +302,16 @@ bool encoder_noise(const Study& study) {
 void print_left_out(const Scene& scene) {
     const Study& study = scene.study();
     const Effects& e = study.effects;
-    print_heading("left out");
+    print_heading("effects omitted");
     if (e.quasi_static()) {
         print_entry("inertia and damping",
                     fmt::format("effects.motion = \"{}\"", choice(study, "effects", "motion")));
-        print_entry("sensor", "nothing accelerates");
+        print_entry("sensor", "no acceleration without inertia");
     }
     if (e.torsional()) {
         print_entry("x and y motion",
                     fmt::format("effects.motion = \"{}\"", choice(study, "effects", "motion")));
-        print_entry("inertial terms", "rotations feel none");
+        print_entry("inertial terms", "no effect on rotation");
     } else if (study.gearbox.kind == GearboxKind::planetary && !e.inertial_terms) {
         print_entry("inertial terms", "effects.inertial_terms = false");
     }
@@ -330,42 +332,36 @@ void print_left_out(const Scene& scene) {
         print_entry("encoder noise", "sensor.encoder_noise_arcsec is 0");
     }
     if (const std::string without = undamped(study); !without.empty()) {
-        print_entry("damping", "0 of " + without);
+        print_entry("damping", "0 for " + without);
     }
     if (!std::isfinite(scene.decay_meshes())) {
-        fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
+        print_paragraph(
+            "warning: the vibration is undamped, so no gearbox converges to the periodic steady "
+            "state");
     }
     if (!has_tooth_errors(study)) {
-        print_entry("tooth errors", "all teeth of a gear are alike");
+        print_entry("tooth errors", "all teeth of a gear are identical");
     }
     if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
-        print_entry("unlike planets", "pins in their places, bearings and masses alike");
+        print_entry("unequal planets", "exact pin positions, equal bearings and masses");
     }
     if (!has_static_errors(study) && !has_tooth_errors(study) && !has_relief(study)) {
-        print_entry("transmission error", "perfect flanks");
+        print_entry("transmission error", "ideal tooth flanks");
     }
     if (!stiffness_given(study) && e.contact_onset == ContactOnset::abrupt) {
         print_entry("contact beyond the path",
-                    "effects.contact_onset = \"abrupt\": signals are too loud");
+                    "effects.contact_onset = \"abrupt\": vibration is overestimated");
     }
     if (e.separation == Separation::none && !has_unilateral_teeth(study)) {
-        print_entry("tooth separation", "the meshes are springs that always touch");
+        print_entry("tooth separation", "meshes are springs that never lose contact");
     }
 }
 
 }  // namespace
 
-void print_heading(const char* text) {
-    fmt::print("\n{}\n", text);
-}
-
-void print_entry(const char* name, const std::string& value) {
-    fmt::print("  {:<26}{}\n", name, value);
-}
-
 void print_effects(const Scene& scene) {
     const Study& study = scene.study();
-    print_heading("simulated");
+    print_heading("effects simulated");
     print_motion(study);
     print_meshes(study);
     print_driving(study);
@@ -376,8 +372,8 @@ void print_effects(const Scene& scene) {
             print_entry(
                 "sensor noise",
                 fmt::format("{:.4g} m/s^2 rms times the noise level, {}", sensor_noise_m_s2(study),
-                            noise_by_density(study) ? "white before the low-pass and limited by it"
-                                                    : "white whatever the low-pass"));
+                            noise_by_density(study) ? "white noise, filtered by the low-pass"
+                                                    : "white noise, not filtered by the low-pass"));
         }
     }
     if (encoder_noise(study)) {
@@ -385,8 +381,8 @@ void print_effects(const Scene& scene) {
                                                  study.sensor.encoder_noise_rad));
     }
     if (compares_records(study)) {
-        print_entry("baseline", fmt::format("every gearbox also before its fault, at a torque {:g} "
-                                            "% off (rms)",
+        print_entry("baseline", fmt::format("a healthy record of every gearbox, at a torque that "
+                                            "scatters by {:g} % (rms)",
                                             100.0 * study.features.baseline_torque_scatter));
     }
     print_left_out(scene);

@@ -7,7 +7,7 @@
 
 #include "machine/dispatch.hpp"
 #include "mc/answers/contact_loss.hpp"
-#include "mc/description/describe_effects.hpp"
+#include "mc/description/entries.hpp"
 #include "mc/description/lives_forecast.hpp"
 #include "mc/description/rank_forecast.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -20,10 +20,10 @@
 namespace gearpod::mc {
 namespace {
 
-// Gearboxes, then the analysis.
+// Time limit for the trial gearboxes, and again for the trial analysis.
 constexpr double kBudget_s = 1.0;
 
-// Two figures, or whole seconds.
+// Formats seconds with two significant figures, or as whole seconds.
 std::string seconds_text(double seconds) {
     return seconds < 0.01   ? "less than 0.01 s"
            : seconds < 9.95 ? fmt::format("{:.2g} s", seconds)
@@ -32,8 +32,8 @@ std::string seconds_text(double seconds) {
 
 std::string measured_text(const RunCalibration& calibration, const AnalysisTrial& trial) {
     if (calibration.march_alone) {
-        return "a mesh period alone, and how many the damping asks for: a batch of gearboxes takes "
-               "too long";
+        return "the time of one mesh period and the number of mesh periods that the damping "
+               "requires, because a batch of gearboxes takes too long";
     }
     std::string text =
         fmt::format("{} gearboxes in {:.1f} s",
@@ -44,11 +44,11 @@ std::string measured_text(const RunCalibration& calibration, const AnalysisTrial
             fmt::format(" over {} of {} mesh periods", calibration.recorded, calibration.to_record);
     }
     return text +
-           fmt::format("; the analysis of {} made up from them, {} noise level{}, in {:.1f} s",
+           fmt::format("; analysis of {} artificial gearboxes, {} noise level{}, in {:.1f} s",
                        trial.rows, trial.levels, trial.levels == 1 ? "" : "s", trial.trial_s);
 }
 
-// The rows of the gearboxes that a calibration computed.
+// Rows of the gearboxes computed to calibrate the forecast.
 class CalibrationRows final : public RowSource {
   public:
     explicit CalibrationRows(const RunCalibration& calibration) : calibration_(calibration) {}
@@ -65,66 +65,70 @@ class CalibrationRows final : public RowSource {
     const RunCalibration& calibration_;
 };
 
-// Shares of the threads' time, as `run` tells them.
+// Shares of the threads' time, with the same names as in the report of `run`.
 std::string shares_text(const Seconds& work, double thread_s) {
     const auto share = [&](double seconds) { return 100.0 * seconds / std::max(1e-9, thread_s); };
     return fmt::format(
-        "march {:.0f} %, stiffness {:.0f} %, signals {:.0f} %, noise {:.0f} %, "
+        "time integration {:.0f} %, stiffness {:.0f} %, signals {:.0f} %, noise {:.0f} %, "
         "features {:.0f} %",
         share(work.march), share(work.stiffness + work.sampling), share(work.signals),
         share(work.noise), share(work.features));
 }
 
-// A whole number of two figures.
+// Formats a count with two significant figures.
 std::string about(double count) {
     const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(count)) - 1.0));
     return fmt::format("{:.0f}", unit * std::round(count / unit));
 }
 
-// What rank 0 does beside its own gearboxes.
+// Describes rank 0's work in addition to its own gearboxes.
 std::string leader_text(const RankForecast& forecast) {
     const std::string most = about(std::max(1.0, forecast.bounding_ranks));
-    return fmt::format("receives and writes {:.3g} batches a second: {:.2g} % of its time{}",
+    return fmt::format("receives and writes {:.3g} batches per second, {:.2g} % of its time; {}",
                        forecast.batches_per_s, 100.0 * forecast.leader_share,
                        forecast.leader_share < 1.0
-                           ? fmt::format("; it would hold the others up from {} ranks on", most)
-                           : fmt::format(", so that it holds the others up, from {} ranks on; "
-                                         "--part computes parts with a rank 0 each",
+                           ? fmt::format("it would limit the speed from {} ranks on", most)
+                           : fmt::format("it limits the speed from {} ranks on; split the run "
+                                         "with --part, each part has its own rank 0",
                                          most));
 }
 
 void print_ranks(const Study& study, const RankForecast& forecast, int threads, int ranks) {
-    print_heading(fmt::format("forecast of {} ranks", ranks).c_str());
-    print_entry("threads", fmt::format("{} a rank, as here; {:.0f} have a batch of {} gearboxes "
+    print_heading(fmt::format("forecast for {} MPI ranks", ranks));
+    print_entry("threads", fmt::format("{} per rank, as here; {:.0f} have a batch of {} gearboxes "
                                        "to compute",
                                        threads, forecast.busy_threads, kBatchRows));
     print_entry("gearboxes", seconds_text(forecast.gearboxes_s));
-    print_entry("estimated time",
-                seconds_text(forecast.total_s) +
-                    (study.ensemble.until.half_width ? ", less if ensemble.until ends it" : ""));
+    print_entry(
+        "estimated time",
+        seconds_text(forecast.total_s) +
+            (study.ensemble.until.half_width ? ", or less if ensemble.until stops the run" : ""));
     print_entry("estimated memory",
-                fmt::format("{:.0f} MB a rank, {:.0f} MB of rank 0", forecast.rank_bytes / 1e6,
+                fmt::format("{:.0f} MB per rank, {:.0f} MB for rank 0", forecast.rank_bytes / 1e6,
                             forecast.leader_bytes / 1e6));
     print_entry("estimated disk",
-                fmt::format("checkpoint {:.3g} MB, results {:.3g} MB, twice while they are renewed",
+                fmt::format("checkpoint {:.3g} MB, results {:.3g} MB (twice that while the file "
+                            "is rewritten)",
                             forecast.checkpoint_bytes / 1e6, forecast.results_bytes / 1e6));
     print_entry("rank 0", leader_text(forecast));
 }
 
-// The error of the time steps where teeth lose contact, if the pilot takes a second at most.
+// Prints the error of the time steps where teeth lose contact, if measuring it takes at most a
+// second.
 void print_step_error(const Scene& scene) {
     if (scene.study().effects.quasi_static() || !teeth_can_part(scene.study())) {
         return;
     }
     constexpr double kMost_s = 1.0;
     const auto error = find_step_error(scene, kMost_s / mesh_period_s(scene));
-    print_entry("error of the steps",
+    print_entry("time step error",
                 error ? step_error_text(*error)
-                      : "not measured, which would take too long; loss of contact costs order, and "
-                        "step_tolerance does not bound it");
+                      : "not measured, because it would take too long; contact loss lowers the "
+                        "order of the method, and step_tolerance does not bound the error");
 }
 
-// Nothing, and false, of a study without lives, or whose records cannot be composed.
+// Prints the forecast of lives. Prints nothing and returns false for a study without lives, or
+// whose records cannot be superposed.
 bool print_lives(const Scene& scene, double setup_s) {
     if (!scene.study().life.interval_h) {
         return false;
@@ -132,7 +136,7 @@ bool print_lives(const Scene& scene, double setup_s) {
     try {
         print_lives_forecast(LifeTiles(scene), setup_s);
     } catch (const SceneError&) {
-        return false;  // print_life() says why
+        return false;  // print_life() prints the reason
     }
     return true;
 }
@@ -156,12 +160,13 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
             summarise_contact_loss(results_frame(study), CalibrationRows(calibration)));
         !loss.empty()) {
         print_entry("out of contact",
-                    fmt::format("{} of a tooth pair's time, mean (5 to 95 % of {} gearboxes)", loss,
-                                calibration.rows.count()));
+                    fmt::format("{} of the time of a tooth pair: mean (5 to 95 % range of {} "
+                                "gearboxes)",
+                                loss, calibration.rows.count()));
     }
     print_step_error(scene);
     print_heading("forecast of a run");
-    print_entry("measured on", measured_text(calibration, trial));
+    print_entry("based on", measured_text(calibration, trial));
     print_entry("threads", fmt::format("{}, {}", calibration.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", seconds_text(forecast.setup_s));
@@ -169,9 +174,10 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
                                          shares_text(forecast.work,
                                                      forecast.gearboxes_s * calibration.threads)));
     print_entry("detection and results", seconds_text(forecast.detection_s));
-    print_entry("estimated time",
-                seconds_text(forecast.total_s()) +
-                    (study.ensemble.until.half_width ? ", less if ensemble.until ends it" : ""));
+    print_entry(
+        "estimated time",
+        seconds_text(forecast.total_s()) +
+            (study.ensemble.until.half_width ? ", or less if ensemble.until stops the run" : ""));
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
     if (ranks > 0) {
         print_ranks(study, forecast_ranks(scene, plan, calibration, trial, forecast, ranks),

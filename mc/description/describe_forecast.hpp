@@ -1,13 +1,13 @@
-// What `describe` says of the time and memory of a run.
+// Prints the forecast of a run's time and memory for `describe`.
 #pragma once
 
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
 
-// Computes some gearboxes and tries the analysis, for a few seconds at most, and prints what a run
-// of this study is going to take in this process, and in `ranks` such processes unless that is 0.
-// `setup_s`: what starting the program and making the scene took.
+// Computes some gearboxes and their analysis, for a few seconds at most. Prints the estimated time
+// and memory of a run in this process, and in `ranks` such processes unless that is 0.
+// `setup_s`: time used to start the program and build the scene.
 void print_forecast(const Scene& scene, double setup_s, int ranks);
 
 }  // namespace gearpod::mc

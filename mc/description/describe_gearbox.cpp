@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "mc/description/describe_effects.hpp"
+#include "mc/description/entries.hpp"
 #include "mc/scene/drive.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
@@ -21,7 +21,8 @@ std::string joined(const std::vector<std::string>& texts) {
     return fmt::format("{}", fmt::join(texts, " "));
 }
 
-// To six figures, without the rounding of units there and back, nor a zero's sign.
+// Formats a number with six figures, which hides rounding errors of unit conversions and the sign
+// of zero.
 std::string figures(double value) {
     return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
 }
@@ -30,8 +31,8 @@ std::string rpm(double rad_s) {
     return figures(rad_s * 30.0 / std::numbers::pi) + " rpm";
 }
 
-// Nominal speed and torque of every member; speeds positive as the input turns, torques as
-// magnitudes.
+// Prints nominal speed and torque of every member. Speeds are positive in the input's direction of
+// rotation; torques are magnitudes.
 void print_planetary_members(const Study& study) {
     const gears::PlanetaryTrain train = planetary_train(study);
     const Sampler sampler(study);
@@ -48,17 +49,17 @@ void print_planetary_members(const Study& study) {
     const double sense = of_input < 0.0 ? -1.0 : 1.0;
     const auto print = [&](Member member, double speed, double load) {
         const bool held = member == study.operation.fixed;
-        const char* role = held ? "held" : member == study.operation.input ? "input" : "output";
-        print_entry(std::string(member_name(member)).c_str(),
-                    fmt::format("{}, {} N m ({})", held ? "stands" : rpm(sense * speed),
+        const char* role = held ? "fixed" : member == study.operation.input ? "input" : "output";
+        print_entry(std::string(member_name(member)),
+                    fmt::format("{}, {} N m ({})", held ? "stationary" : rpm(sense * speed),
                                 figures(std::abs(load)), role));
     };
     print(Member::sun, turning.sun, torque.sun);
     const double pin_N = std::abs(torque.carrier) / (train.planets * centre_distance_m(study));
-    print_entry(
-        "planets",
-        fmt::format("{}, {} on their pins, each loaded with {:.4g} kN", rpm(sense * turning.planet),
-                    rpm(sense * (turning.planet - turning.carrier)), 1e-3 * pin_N));
+    print_entry("planets",
+                fmt::format("{}, {} relative to the carrier, {:.4g} kN on each pin",
+                            rpm(sense * turning.planet),
+                            rpm(sense * (turning.planet - turning.carrier)), 1e-3 * pin_N));
     print(Member::ring, turning.ring, torque.ring);
     print(Member::carrier, turning.carrier, torque.carrier);
 }
@@ -77,8 +78,8 @@ void print_members(const Study& study) {
                                     figures(nominal.fixed_shaft.load_torque_N_m)));
 }
 
-// In the unit of the file, and as shares of the largest that the tooth holds: of a crack the whole
-// way through its root.
+// Prints fault sizes in the unit of the study, and as fractions of the largest possible size (for a
+// crack, the whole way through the tooth root).
 void print_fault_sizes(const Scene& scene) {
     const Study& study = scene.study();
     const std::vector<double> all = fault_sizes(study);
@@ -93,10 +94,10 @@ void print_fault_sizes(const Scene& scene) {
         sizes.push_back(figures(size / unit.to_si));
         shares.push_back(fmt::format("{:.3g}", 100.0 * size / largest));
     }
-    std::string text = fmt::format("{}{}", groups ? "drawn, in groups with the edges " : "",
+    std::string text = fmt::format("{}{}", groups ? "random, in groups with the edges " : "",
                                    fmt::join(sizes, ", "));
     if (!unit.suffix.empty()) {
-        text += fmt::format(" {}; {} % of the largest that the tooth holds, {:.4g} {}", unit.name,
+        text += fmt::format(" {}; {} % of the largest possible size, {:.4g} {}", unit.name,
                             fmt::join(shares, ", "), largest / unit.to_si, unit.name);
     }
     print_entry("fault sizes", text);
@@ -123,8 +124,8 @@ void print_planetary(const PlanetaryDrive& drive) {
         print_entry("planet positions", joined(positions) + " deg");
     }
     print_entry("mesh phases, sun", joined(sun));
-    print_entry("mesh phases, ring",
-                fmt::format("{}; ring to sun {:g}", joined(ring), drive.ring_to_sun_phase()));
+    print_entry("mesh phases, ring", fmt::format("{}; ring relative to sun {:g}", joined(ring),
+                                                 drive.ring_to_sun_phase()));
 }
 
 void print_fixed_shaft(const Study& study) {
@@ -135,30 +136,31 @@ void print_fixed_shaft(const Study& study) {
     const double load = nominal.fixed_shaft.load_torque_N_m;
     if (std::abs(load - balanced) > 1e-6 * balanced) {
         print_entry("torques out of balance",
-                    fmt::format("the load takes {:g} N m, {:.4g} N m would balance the motor; the "
-                                "speed is kept, only the vibration feels the difference",
+                    fmt::format("the load torque is {:g} N m, but {:.4g} N m would balance the "
+                                "motor; the mean speed is kept, and the difference only changes "
+                                "the vibration",
                                 load, balanced));
     }
 }
 
-// A rack leaves no involute below its form circle: flanks that are touched deeper rub in the
-// fillet.
+// Warns of contact below the form circle, where a rack-generated tooth has a fillet instead of an
+// involute.
 void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry& mesh) {
     for (const int which : {1, 2}) {
         const gears::Gear& gear = mesh.gear(which);
         const double lowest = mesh.contact_radius(which, which == 1 ? 0.0 : mesh.contact_ratio());
         if (!gear.internal && lowest < gear.form_radius()) {
             print_entry("fillet interference",
-                        fmt::format("the {} is touched down to a diameter of {:.4f} mm, but the "
-                                    "fillet that a rack leaves begins at {:.4f} mm (a tip circle "
-                                    "of its mate farther away avoids it)",
+                        fmt::format("contact on the {} reaches down to a diameter of {:.4f} mm, "
+                                    "but its fillet begins at {:.4f} mm; shorter teeth of the "
+                                    "mating gear avoid this",
                                     member_name(which == 1 ? members.driver : members.driven),
                                     2e3 * lowest, 2e3 * gear.form_radius()));
         }
     }
 }
 
-// Shifts, and what follows from them; nothing for standard gears.
+// Prints profile shifts and the geometry that follows from them; nothing for standard gears.
 void print_shifts(const Scene& scene) {
     const Study& study = scene.study();
     if (!shift_given(study)) {
@@ -169,7 +171,7 @@ void print_shifts(const Scene& scene) {
         if (has_toothed_member(study.gearbox.kind, member)) {
             const gears::Gear gear = gear_of(study, member);
             shifts += fmt::format(
-                "{}{} {:.4f}, tip {:.4f} mm ({:.3f} mm thick)", shifts.empty() ? "" : "; ",
+                "{}{} {:.4f}, tip diameter {:.4f} mm ({:.3f} mm thick)", shifts.empty() ? "" : "; ",
                 member_name(member), gear.profile_shift / normal_over_transverse(study.gearbox),
                 2e3 * gear.tip_radius(), 1e3 * gear.thickness_at(gear.tip_radius()));
         }
@@ -179,9 +181,9 @@ void print_shifts(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         if (mesh.geometry) {
             const gears::MeshGeometry& g = *mesh.geometry;
-            print_entry((mesh_name(mesh.members) + " works at").c_str(),
-                        fmt::format("{:.4f} deg, backlash {:.4f} mm, tip clearances {:.3f} and "
-                                    "{:.3f} mm",
+            print_entry(mesh_name(mesh.members) + " geometry",
+                        fmt::format("working pressure angle {:.4f} deg, backlash {:.4f} mm, tip "
+                                    "clearances {:.3f} and {:.3f} mm",
                                     g.working_pressure_angle() * 180.0 / std::numbers::pi,
                                     1e3 * g.backlash(), 1e3 * g.tip_clearance(1),
                                     1e3 * g.tip_clearance(2)));
@@ -190,16 +192,23 @@ void print_shifts(const Scene& scene) {
     }
 }
 
-// Parts of a helical pair's contact ratio.
-std::string helical_parts(const stiffness::MeshStiffness& mesh) {
-    const double transverse = mesh.slice().contact_ratio();
-    return transverse < mesh.contact_ratio()
-               ? fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse,
-                             mesh.contact_ratio() - transverse)
-               : "";
+// Contact ratio on the nominal path, its parts for helical teeth, and the time that a tooth pair
+// may touch if corner contact extends the path.
+std::string contact_ratio_text(const stiffness::MeshStiffness& mesh) {
+    const double nominal = mesh.path_end() - mesh.path_begin();
+    const double transverse = mesh.slice().path_end() - mesh.slice().path_begin();
+    std::string text = fmt::format("{:.4f}", nominal);
+    if (transverse < nominal - 1e-9) {
+        text +=
+            fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse, nominal - transverse);
+    }
+    if (nominal < mesh.contact_ratio() - 1e-9) {
+        text += fmt::format(", {:.4f} with corner contact", mesh.contact_ratio());
+    }
+    return text;
 }
 
-// Says how much stiffer than real teeth a mesh is whose gear bodies do not give way.
+// Prints how much stiffer than the standard's value a mesh with rigid gear bodies is.
 void print_rigid_bodies(const Scene& scene) {
     const Study& study = scene.study();
     if (study.effects.foundation != Foundation::none || stiffness_given(study)) {
@@ -215,8 +224,8 @@ void print_rigid_bodies(const Scene& scene) {
                               : " about 2.0 to 2.5"));
     }
     print_entry("rigid gear bodies",
-                fmt::format("make meshes too stiff: {} times the mean of ISO 6336-1, method B; "
-                            "effects.foundation = \"elastic-ring\" lets the bodies give way "
+                fmt::format("mesh stiffness too high: {} times the mean of ISO 6336-1, method B; "
+                            "effects.foundation = \"elastic-ring\" adds elastic gear bodies "
                             "(docs/validation/mesh-stiffness-level.md)",
                             fmt::join(ratios, ", ")));
 }
@@ -232,10 +241,9 @@ void print_gearbox(const Scene& scene) {
     }
     print_shifts(scene);
     for (const SceneMesh& mesh : scene.meshes()) {
-        print_entry(
-            (mesh_name(mesh.members) + " mesh").c_str(),
-            fmt::format("contact ratio {:.4f}{}, mean {:.4g} N/m", mesh.stiffness->contact_ratio(),
-                        helical_parts(*mesh.stiffness), mean_total(*mesh.stiffness)));
+        print_entry(mesh_name(mesh.members) + " mesh",
+                    fmt::format("contact ratio {}, mean stiffness {:.4g} N/m",
+                                contact_ratio_text(*mesh.stiffness), mean_total(*mesh.stiffness)));
     }
     print_rigid_bodies(scene);
     print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));

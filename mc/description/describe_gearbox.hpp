@@ -1,4 +1,4 @@
-// What `describe` says of a scene's gearbox: teeth, meshes, speeds, torques, sizes of the fault.
+// Prints the gearbox of a scene for `describe`: teeth, meshes, speeds, torques, fault sizes.
 #pragma once
 
 #include "mc/scene/scene.hpp"

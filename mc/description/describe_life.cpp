@@ -3,33 +3,35 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mc/description/describe_effects.hpp"
+#include "mc/description/entries.hpp"
 #include "mc/lives/life_tile.hpp"
 #include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// How records of other torques or speeds come about.
+// Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordLaw& law, int count) {
     const std::vector<double> factors = law.marched(count);
     return law.text() +
            (factors.size() > 1
-                ? fmt::format("; interpolated between marches at {:.3g} of {}",
-                              fmt::join(factors, ", "), law.given() ? "the study's value" : "it")
+                ? fmt::format("; interpolated between solutions at {:.3g} times {}",
+                              fmt::join(factors, ", "),
+                              law.given() ? "the study's value" : "the gearbox's value")
                 : "");
 }
 
-// Inputs of `run`: in a life the crack has the depth to which it has grown.
+// True for fault inputs, which only `run` uses: in a life the crack grows to its depth.
 bool is_of_fault(const RandomInput& input) {
     return input.key.starts_with("fault.");
 }
 
 std::string growth_text(const Study& study) {
-    std::string text = study.life.curve_h.empty() ? "Paris' law under the records' torque and speed"
-                                                  : "along the given curve";
+    std::string text = study.life.curve_h.empty()
+                           ? "Paris law, with the torque and speed of the records"
+                           : "along the given curve";
     for (const RandomInput& input : study.random) {
-        text += is_of_fault(input) ? ", whatever " + input.key + " in [random]" : "";
+        text += is_of_fault(input) ? "; " + input.key + " in [random] is ignored" : "";
     }
     return text;
 }
@@ -41,7 +43,7 @@ std::string of_gearbox(const Study& study) {
             text += (text.empty() ? "" : ", ") + input.key;
         }
     }
-    return text.empty() ? "nothing: gearboxes are alike" : text;
+    return text.empty() ? "nothing: all gearboxes are identical" : text;
 }
 
 }  // namespace
@@ -55,23 +57,24 @@ void print_life(const Scene& scene) {
     print_heading("lives");
     try {
         check_composable(scene);
-        print_entry("a record", record_text(scene));
+        print_entry("record", record_text(scene));
     } catch (const SceneError& error) {
         print_entry("no lives",
                     fmt::format("{}: {}; {}", error.key(), error.what(), error.remedy()));
         return;
     }
-    print_entry("drawn for a gearbox", of_gearbox(study));
+    print_entry("random per gearbox", of_gearbox(study));
     const RecordLaws laws(study);
-    print_entry("torque of a record", load_text(laws.torque, torques_marched(life)));
-    print_entry("speed of a record", load_text(laws.speed, speeds_marched(life)));
-    print_entry("gain of a record", laws.gain.text());
-    print_entry("noise of a record", laws.noise.text());
-    print_entry("growth", growth_text(study));
-    print_entry("depths marched", fmt::format("none, and {} up to {:g} mm; between, interpolated",
-                                              life.depth_steps, 1e3 * *life.last_depth_m));
-    print_entry("gearboxes", fmt::format("{} crack, {} healthy set thresholds, {} count false "
-                                         "alarms",
+    print_entry("torque per record", load_text(laws.torque, torques_marched(life)));
+    print_entry("speed per record", load_text(laws.speed, speeds_marched(life)));
+    print_entry("gain per record", laws.gain.text());
+    print_entry("noise per record", laws.noise.text());
+    print_entry("crack growth", growth_text(study));
+    print_entry("crack depths integrated",
+                fmt::format("0 and {} depths up to {:g} mm, with interpolation in between",
+                            life.depth_steps, 1e3 * *life.last_depth_m));
+    print_entry("gearboxes", fmt::format("{} with a crack, {} healthy for the thresholds, {} "
+                                         "healthy to count false alarms",
                                          study.ensemble.instances,
                                          study.ensemble.threshold_instances, life.healthy_lives));
 }

@@ -13,7 +13,7 @@ bool inertial(const Study& s) {
 bool separates(const Study& s) {
     return s.effects.separation != Separation::none && !has_unilateral_teeth(s);
 }
-// A mesh that separates takes its errors along.
+// True if transmission errors cost extra time; the tooth separation kernel includes them.
 bool has_errors(const Study& s) {
     return has_static_errors(s) && !separates(s) && !has_unilateral_teeth(s);
 }
@@ -26,15 +26,15 @@ struct Cost {
     bool (*on)(const Study&);
     double planetary, rotations, fixed_shaft;
 };
-// Over a step of the classical Runge-Kutta method, eight abreast, on an AVX-512 core.
+// Fractions of a step of the classical Runge-Kutta method with eight lanes on an AVX-512 core.
 constexpr Cost kCosts[] = {{"inertial terms", inertial, 0.05, 0.0, 0.0},
                            {"transmission error", has_errors, 0.12, 0.20, 0.04},
                            {"tooth separation", separates, 0.21, 0.31, 0.13},
                            {"unilateral teeth", has_unilateral_teeth, 0.8, 1.4, 0.4},
-                           {"torque's sine", torque_has_sine, 0.10, 0.30, 0.29},
-                           {"torque's noise", torque_has_noise, 0.15, 0.29, 0.34},
+                           {"sinusoidal torque", torque_has_sine, 0.10, 0.30, 0.29},
+                           {"random torque", torque_has_noise, 0.15, 0.29, 0.34},
                            {"gravity", weighs, 0.19, 0.43, 0.12},
-                           {"uneven speed", speed_fluctuates, 0.80, 0.87, 0.71}};
+                           {"variable speed", speed_fluctuates, 0.80, 0.87, 0.71}};
 
 }  // namespace
 

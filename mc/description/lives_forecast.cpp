@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "machine/dispatch.hpp"
-#include "mc/description/describe_effects.hpp"
+#include "mc/description/entries.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/healthy_march.hpp"
@@ -17,7 +17,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Mesh periods of a tile without a fault, and those that a depth marches beside them.
+// Integrated mesh periods of a tile without a fault, and the additional ones of each crack depth.
 struct MarchedMeshes {
     double healthy, depth;
 };
@@ -27,7 +27,7 @@ MarchedMeshes meshes_of(const Scene& scene) {
     return {all, marches_changes_alone(scene) ? std::min(passage_meshes(scene), all) : all};
 }
 
-// Seconds of a tile of a batch.
+// Integration time of one tile of a batch, s.
 double tile_s(const LifeTiles& tiles, const MarchedMeshes& meshes, double mesh_s, bool cracked,
               bool looked) {
     const Life& life = tiles.scene().study().life;
@@ -42,7 +42,7 @@ double tile_s(const LifeTiles& tiles, const MarchedMeshes& meshes, double mesh_s
     return marched * mesh_s;
 }
 
-// Of the first gearboxes with a crack: records until the end.
+// Mean number of records until the end of life, over the first gearboxes with a crack.
 double mean_records(const LifeTiles& tiles) {
     constexpr std::uint64_t kMost = 64;
     const auto count = std::clamp<std::uint64_t>(
@@ -54,10 +54,10 @@ double mean_records(const LifeTiles& tiles) {
     return sum / static_cast<double>(count);
 }
 
-// A tile's signals: of each load those that the march keeps, with the transmission error of every
-// mesh where depths march changes alone, and those without a crack, at the depths below and above;
-// two more while a depth is marched and looked at; and, of one of its gearboxes, its records'
-// folded products.
+// Memory of a tile, in bytes. For each load it holds the signals kept by the integration, and those
+// without a crack and at the depths below and above. If only the perturbation due to the fault is
+// integrated, the transmission errors of all meshes are added. A depth being integrated and tested
+// adds two more. One gearbox also holds the folded products of its records.
 double tile_bytes(const LifeTiles& tiles) {
     const Scene& scene = tiles.scene();
     const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
@@ -130,19 +130,20 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
 void print_lives_forecast(const LifeTiles& tiles, double setup_s) {
     const LivesForecast all = forecast_lives(tiles, thread_count(tiles.scene().study()), setup_s);
     print_heading("forecast of lives");
-    print_entry("measured on",
-                "a mesh period, and how many the damping asks for; records of made-up signals");
+    print_entry("based on",
+                "the time of one mesh period, the number of mesh periods that the damping "
+                "requires, and records of artificial signals");
     print_entry("threads", fmt::format("{}, {}", all.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", time_text(all.setup_s));
-    print_entry("gearboxes", fmt::format("{} of {:.2g} s of a processor each, marched",
+    print_entry("gearboxes", fmt::format("{}, time integration {:.2g} s of processor time each",
                                          all.gearboxes, all.gearbox_s));
-    print_entry("records",
-                fmt::format("{} of {:.2g} ms each, composed", all.records, 1e3 * all.record_s));
+    print_entry("records", fmt::format("{}, superposition {:.2g} ms of processor time each",
+                                       all.records, 1e3 * all.record_s));
     print_entry("estimated time", time_text(all.total_s()));
     print_entry("estimated memory", bytes_text(all.memory_bytes));
     print_entry("results file",
-                bytes_text(all.file_bytes) + "; a checkpoint as large until the end");
+                bytes_text(all.file_bytes) + "; the checkpoint is as large until the run ends");
 }
 
 }  // namespace gearpod::mc

@@ -1,5 +1,4 @@
-// What `lives` of a study takes: time, memory and the size of its file, before any gearbox is
-// marched.
+// Forecast of a study's `lives`: time, memory and file size, before any gearbox is integrated.
 #pragma once
 
 #include <string>
@@ -8,24 +7,25 @@
 
 namespace gearpod::mc {
 
-// On this machine, in one process. Marches by the time of a mesh period and how many the damping
-// asks for (mesh_time.hpp); records by those of a gearbox whose signals are made up.
+// Forecast for this machine and one process. The integration time follows from the time of one mesh
+// period and the number of mesh periods that the damping requires (mesh_time.hpp). The time of a
+// record is measured with artificial signals.
 struct LivesForecast {
     int threads = 0;
-    double gearbox_s = 0.0;  // of processor time: marches, a mean over all gearboxes
-    double record_s = 0.0;   // and records
+    double gearbox_s = 0.0;  // processor time to integrate a gearbox, mean over all
+    double record_s = 0.0;   // processor time of a record
     long gearboxes = 0, records = 0;
-    double marches_s = 0.0;  // wall clock until the last thread has its last batch
+    double marches_s = 0.0;  // wall-clock time until the last thread finishes its last batch
     double setup_s = 0.0;
-    double memory_bytes = 0.0;  // of all threads' tiles, and what the process has already
-    double file_bytes = 0.0;    // of the results; a checkpoint beside them as much until the end
+    double memory_bytes = 0.0;  // tiles of all threads, and the memory already in use
+    double file_bytes = 0.0;    // results file; the checkpoint is as large until the run ends
 
     double total_s() const { return setup_s + marches_s; }
 };
 
 LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s);
 
-// Its section of `describe`.
+// Prints the forecast as a section of `describe`.
 void print_lives_forecast(const LifeTiles& tiles, double setup_s);
 
 }  // namespace gearpod::mc

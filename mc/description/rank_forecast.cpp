@@ -9,10 +9,10 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the HDF5 file beside its rows: names, attributes, the study's text, detection.
+// Size of the HDF5 file without its rows: names, attributes, the study's text, detection.
 constexpr double kFrame_bytes = 45e3;
 
-// Every rank keeps the motions that it marched itself.
+// Number of integrated tiles. Every rank caches only the solutions that it integrated itself.
 MarchCounts marches_of_ranks(const Scene& scene, const BatchPlan& plan, double motion_bytes,
                              int ranks) {
     MarchCounts counts = count_marches(scene, plan, motion_bytes);
@@ -28,7 +28,7 @@ MarchCounts marches_of_ranks(const Scene& scene, const BatchPlan& plan, double m
 }  // namespace
 
 double checkpoint_bytes(const BatchPlan& plan, const RowShape& shape) {
-    // A mark, a count and a sum a batch, a status a row (mc/README.md).
+    // Each batch has a mark, a count and a checksum; each row has a status (mc/README.md).
     const double row = 8.0 * (1.0 + static_cast<double>(shape.values()));
     const auto healthy = static_cast<double>(plan.threshold_batches() * plan.threshold_records());
     const auto graded = static_cast<double>(plan.batches() - plan.threshold_batches());
@@ -36,7 +36,7 @@ double checkpoint_bytes(const BatchPlan& plan, const RowShape& shape) {
 }
 
 double results_bytes(const BatchPlan& plan, const RowShape& shape) {
-    // A group and a status a row.
+    // Each row also has a group and a status.
     return kFrame_bytes +
            static_cast<double>(plan.rows()) * 8.0 * (2.0 + static_cast<double>(shape.values()));
 }
@@ -69,7 +69,7 @@ RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan,
     forecast.total_s = alone.setup_s + forecast.gearboxes_s + alone.detection_s;
     forecast.batches_per_s = batches / forecast.gearboxes_s;
     forecast.leader_share = leading_s / forecast.gearboxes_s;
-    // As many ranks as finish a batch in the time that rank 0 takes for one.
+    // Number of ranks that together finish a batch in the time that rank 0 needs to receive one.
     const double thread_s =
         gearboxes_s(calibration, plan, lanes, count_marches(scene, plan, motion)) *
         calibration.threads;

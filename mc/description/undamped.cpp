@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 namespace {
 
-// No gearbox has any: drawn values are not 0.
+// True if the damping is 0 in every gearbox. Random values are never 0.
 bool none(const Study& study, const std::string& key, double nominal) {
     return nominal == 0.0 && study.find_random(key) == nullptr;
 }

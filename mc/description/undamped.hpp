@@ -1,4 +1,4 @@
-// Damping that a study leaves at 0.
+// Parts of a gearbox without damping.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace gearpod::mc {
 
-// "bearings of sun and ring, support": what vibrates and has no damping of its own in any gearbox.
-// Empty if everything has some, or nothing vibrates.
+// Names the vibrating parts whose damping is 0 in every gearbox, for example "bearings of sun and
+// ring, support of the ring". Empty if every part has damping, or in quasi-static studies.
 std::string undamped(const Study& study);
 
 }  // namespace gearpod::mc

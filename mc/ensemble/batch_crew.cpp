@@ -68,7 +68,8 @@ CrewTimes BatchCrew::close() {
     return times_;
 }
 
-// The first one to come says it; from then on all may read it.
+// Called by every thread of the team. Only the first call sets the number of threads, so all may
+// read it later.
 void BatchCrew::note_size(int threads) {
     const std::lock_guard lock(mutex_);
     if (times_.threads == 0) {
@@ -96,7 +97,8 @@ void BatchCrew::hand_in(FinishedBatch finished) {
     finished_news_.notify_one();
 }
 
-// A thread's life. An exception would end it, and its batch would never come back.
+// Work loop of one thread. Exceptions are caught here: otherwise the thread would end and its batch
+// would be lost.
 void BatchCrew::work(const BatchComputers& computers, const BatchPlan& plan) noexcept {
     const auto birth = WallClock::now();
     BatchComputer compute;

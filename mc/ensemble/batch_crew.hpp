@@ -1,4 +1,4 @@
-// The OpenMP team of one process: batches go in, their rows come out in whatever order they finish.
+// OpenMP team of one process that computes batches. Finished batches come out in arbitrary order.
 #pragma once
 
 #include <chrono>
@@ -19,29 +19,29 @@ struct FinishedBatch {
     std::size_t batch = 0;
     BatchRows rows;
     double seconds = 0.0;
-    std::string failure;   // what went wrong instead, "" if nothing
-    bool stopped = false;  // it was left off before its end, and has no rows
+    std::string failure;   // error message, or "" on success
+    bool stopped = false;  // true if the batch was cancelled and has no rows
 };
 
-// What the threads of one process did with their time, summed over them.
+// Times of the threads of one process, summed over the threads.
 struct CrewTimes {
     Seconds work;
-    double waiting = 0.0;  // all that is not work: for batches, for the processor
-    double output = 0.0;   // the main thread's, which writes finished batches in rank 0
+    double waiting = 0.0;  // everything except work: waiting for batches or for a processor
+    double output = 0.0;   // time of rank 0's main thread for writing finished batches
     int threads = 0;
 };
 
-// Computes batches one after another on one thread, the same bits whatever was computed before;
-// adds its time to the seconds.
+// Computes batches one after another on one thread and adds the times to the seconds. The result
+// does not depend on batches computed earlier, to the last bit.
 using BatchComputer = std::function<BatchRows(const Batch&, Seconds&)>;
-// One for a thread that asks; threads ask at the same time.
+// Creates the BatchComputer of a thread. Must be thread-safe.
 using BatchComputers = std::function<BatchComputer()>;
 
-// The thread that makes the crew is none of the team: it is free for messages and files, and the
-// team has the places of OMP_PLACES for itself. Waiting costs no processor time.
+// Runs the team in threads other than the caller's. The caller is free for messages and files, and
+// the team uses all places of OMP_PLACES. Waiting threads do not use processor time.
 class BatchCrew {
   public:
-    // A team of so many threads, or as many of them as OpenMP grants.
+    // Starts a team of `threads` threads, or as many as OpenMP grants.
     BatchCrew(const BatchComputers& computers, const BatchPlan& plan, int threads);
     BatchCrew(const BatchCrew&) = delete;
     BatchCrew& operator=(const BatchCrew&) = delete;
@@ -49,12 +49,12 @@ class BatchCrew {
 
     int threads() const { return times_.threads; }
     void give(std::size_t batch);
-    // Takes back what was given and not yet begun; their number.
+    // Takes back the batches that no thread has started, and returns their number.
     std::size_t drop();
     std::optional<FinishedBatch> take();
-    // Until a batch is finished, at most this long.
+    // Waits until a batch is finished, at most for this time.
     void wait(std::chrono::milliseconds most);
-    // Ends the team once its batches are finished.
+    // Ends the team when its batches are finished.
     CrewTimes close();
 
   private:
@@ -69,7 +69,7 @@ class BatchCrew {
     std::deque<FinishedBatch> finished_;
     bool closed_ = false;
     CrewTimes times_;
-    std::thread first_;  // of the team, which it opens
+    std::thread first_;  // master thread of the OpenMP team
 };
 
 }  // namespace gearpod::mc

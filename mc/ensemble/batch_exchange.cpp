@@ -11,10 +11,9 @@
 namespace gearpod::mc {
 namespace {
 
-// How long a main thread sleeps between two looks for messages. Every look takes a processor, and
-// its caches, from a thread that computes; so it is rare while the threads have batches ahead:
-// within a batch's time, a finished batch is seen and the next one fetched. A process alone looks
-// for signals only.
+// Interval at which a main thread polls for messages. Each poll takes a processor, and its caches,
+// from a computing thread. The interval is therefore long while the threads have batches in
+// reserve: a fraction of the time of one batch. A single process only polls for signals.
 class Naps {
   public:
     explicit Naps(const Ranks& ranks) : alone_(ranks.size() == 1) {}
@@ -81,8 +80,9 @@ class Leader {
     }
 
   private:
-    // Batches that a rank should have: one for each thread and one ahead, so that none waits for a
-    // message; none ahead near the end, where a batch queued at one rank would keep another idle.
+    // Number of batches that a rank should hold: one per thread and one in reserve, so that no
+    // thread waits for a message. Near the end there is no reserve, because a batch queued at one
+    // rank would leave another idle.
     std::size_t share(std::size_t rank) const {
         return batches_ahead() ? 2 * threads_[rank] : threads_[rank];
     }
@@ -142,7 +142,7 @@ class Leader {
                 case Say::drop:
                 case Say::leave:
                 case Say::close:
-                    break;  // rank 0's own words
+                    break;  // only rank 0 sends these
             }
         }
     }
@@ -169,7 +169,7 @@ class Leader {
         run_.progress.advance(static_cast<long>(finished.rows.count()));
     }
 
-    // Writing that fails ends the run; what was written before is kept.
+    // Runs an action that writes. If writing fails, the run ends; earlier output is kept.
     template <class Action>
     void store(Action action) {
         if (unwritable_) {
@@ -209,15 +209,15 @@ class Leader {
         saving_s_ = seconds_since(start);
     }
 
-    // No batch is begun that may not be finished in time, and none that is in work is waited for
-    // when what is left of the time is needed for saving.
+    // Starts no batch that may not finish in time. Cancels running batches when the remaining time
+    // is needed for saving.
     void consider_stopping() {
         if (run_.interruption == nullptr) {
             return;
         }
         using Time = std::chrono::duration<double>;
         if (!stopping_) {
-            // A batch that is begun now and takes a little longer than any so far, and saving.
+            // Time for saving and for a batch that takes a little longer than any so far.
             interrupt(run_.interruption->reason(Time(1.2 * longest_batch_s_ + saving_s_)));
         }
         if (stopping_ && !run_.interruption->reason(Time(saving_s_ + kSlack_s)).empty()) {
@@ -225,7 +225,8 @@ class Leader {
         }
     }
 
-    // Why computing was left off, perhaps by a rank whose clock is ahead of this one's.
+    // Reason for the interruption. Falls back to the time limit if only another rank, whose clock
+    // is ahead, has noticed it.
     std::string reason_now() const {
         const std::string reason =
             run_.interruption == nullptr ? "" : run_.interruption->reason({});
@@ -287,14 +288,14 @@ class Leader {
         return batch;
     }
 
-    // Within which batches that are left off have come to an end.
+    // Time in which cancelled batches end.
     static constexpr double kSlack_s = 0.2;
 
     BatchCrew& crew_;
     const BatchPlan plan_;
     const EnsembleRun& run_;
     Naps naps_;
-    std::vector<std::size_t> dealt_, threads_;  // by rank
+    std::vector<std::size_t> dealt_, threads_;  // indexed by rank
     std::size_t all_threads_ = 0;
     std::size_t outstanding_ = 0;
     std::size_t next_ = 0;
@@ -365,7 +366,7 @@ class Follower {
                 case Say::dropped:
                 case Say::stop:
                 case Say::times:
-                    break;  // said to rank 0 only
+                    break;  // only rank 0 receives these
             }
         }
     }
@@ -380,7 +381,7 @@ class Follower {
     const EnsembleRun& run_;
     Naps naps_;
     const std::size_t threads_;
-    std::size_t batches_ = 0;  // given and not yet handed in
+    std::size_t batches_ = 0;  // received and not yet sent back
     bool closed_ = false, told_ = false;
 };
 

@@ -1,16 +1,16 @@
-// How the ranks of a run share its batches. Rank 0 deals them out in order, a few to every rank; a
-// rank that has finished one sends its rows and gets another, so that a slow rank holds nobody up.
-// Only the main thread of a rank talks; it sleeps between looks and takes no time from the others.
+// Distributes the batches of a run over its ranks. Rank 0 assigns batches in order, a few to every
+// rank. A rank that has finished a batch sends its rows and gets another, so a slow rank does not
+// delay the others. Only the main thread of a rank communicates; it sleeps between polls.
 #pragma once
 
 #include "mc/ensemble/ensemble_run.hpp"
 
 namespace gearpod::mc {
 
-// Rank 0's part.
+// Runs the part of rank 0.
 EnsembleOutcome lead(BatchCrew& crew, const BatchPlan& plan, const EnsembleRun& run);
 
-// The other ranks' part; the outcome is empty.
+// Runs the part of the other ranks; returns an empty outcome.
 EnsembleOutcome follow(BatchCrew& crew, const EnsembleRun& run);
 
 }  // namespace gearpod::mc

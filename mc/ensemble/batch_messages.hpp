@@ -1,5 +1,5 @@
-// What ranks say to each other while they share batches, as bytes. All ranks run the same program
-// on the same kind of machine.
+// Messages between ranks about batches, encoded as bytes. All ranks run the same program on the
+// same kind of machine.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 namespace gearpod::mc {
 
 enum class Say {
-    compute,   // to a rank: a batch
-    drop,      // to a rank: begin no more of its batches
-    leave,     // to a rank: leave off its batches in so many milliseconds
-    close,     // to a rank: all is done
-    finished,  // to rank 0: a batch's rows, or what went wrong
-    dropped,   // to rank 0: how many batches were not begun
-    stop,      // to rank 0: a signal has come, its name
-    times      // to rank 0: what the threads did, the last word
+    compute,   // to a rank: compute this batch
+    drop,      // to a rank: start none of its waiting batches
+    leave,     // to a rank: cancel its batches after this number of milliseconds
+    close,     // to a rank: the run is finished
+    finished,  // to rank 0: rows of a batch, or its error
+    dropped,   // to rank 0: number of batches that were not started
+    stop,      // to rank 0: name of a signal received
+    times      // to rank 0: times of the threads; the last message of a rank
 };
 
 std::vector<std::byte> bytes_of_number(std::size_t number);

@@ -57,7 +57,7 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
     return rows;
 }
 
-// As many gearboxes as there are lanes.
+// Adds the rows of at most as many gearboxes as there are lanes.
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
     GearboxTile computed = run_gearboxes(
@@ -67,16 +67,18 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
-    computed.heard = nullptr;  // as much again
+    computed.heard = nullptr;  // frees memory: `signals` holds copies
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::leave_if_stopped();
-        const LaneSignals own = std::move(signals[lane]);  // freed when its row is done
+        // freed when the rows of this gearbox are done
+        const LaneSignals own = std::move(signals[lane]);
         GearboxId id = ids[lane];
         const std::vector<double> parameters = task_.sampler.row(id);
         const bool tilted = id.draws != NoiseDraws::plain;
         for (id.repeat = 0; id.repeat < records; ++id.repeat) {
             rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
-            const std::size_t weight = rows.values.size() - 2;  // before the fault's size
+            // second last parameter; the fault size is the last
+            const std::size_t weight = rows.values.size() - 2;
             add_features(id, computed, lane, own, rows);
             if (tilted && computed.status[lane] == Status::ok) {
                 rows.values[weight] = features_.noise_weight();

@@ -1,4 +1,4 @@
-// Computes batches: from a batch's place in the ensemble to its rows.
+// Computes the rows of batches.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 
 namespace gearpod::mc {
 
-// Seconds of one thread, by what it did.
+// Time of one thread in seconds, by task, with counts of the work done.
 struct Seconds {
     double sampling = 0.0, stiffness = 0.0, march = 0.0, signals = 0.0, noise = 0.0, features = 0.0;
-    long meshes = 0;  // no time: mesh periods marched, each of as many gearboxes as there are lanes
-    long superposed = 0, marched_instead = 0;  // no time: records (GearboxTile)
-    long gearboxes = 0, records = 0;           // of lives, no time: how many were computed
+    long meshes = 0;                           // mesh periods integrated, each for a full tile
+    long superposed = 0, marched_instead = 0;  // records, as in GearboxTile
+    long gearboxes = 0, records = 0;           // of lives: number computed
 
     Seconds& operator+=(const Seconds& other);
     double sum() const { return sampling + stiffness + march + signals + noise + features; }
 };
 
-// The rows' shape for a scene.
+// Shape of the result rows of a study.
 RowShape row_shape(const Sampler& sampler, const Study& study);
 
-// What all workers share, made once.
+// Data shared by all workers of a process.
 struct BatchTask {
     explicit BatchTask(const Scene& shared_scene)
         : scene(shared_scene),
@@ -41,19 +41,20 @@ struct BatchTask {
     const signals::PathGrid path;
     const MarchCache marches;
     const HealthyReference healthy;
-    // Of graded gearboxes of several records; the sampler must have a column for their weights.
+    // Noise of graded gearboxes with several records. If it is tilted, the sampler must have a
+    // column for the importance weights.
     NoiseDraws graded_draws = NoiseDraws::plain;
 };
 
-// Holds scratch memory: one object per thread.
+// Computes rows on one thread. Holds scratch memory: use one object per thread.
 class BatchWorker {
   public:
     explicit BatchWorker(const BatchTask& task);
 
-    // The same bits whatever the lanes and whatever was computed before. Adds its time to
-    // `seconds`.
+    // Rows of a batch, and its time added to `seconds`. They depend neither on the number of lanes
+    // nor on batches computed earlier, to the last bit.
     BatchRows compute(const Batch& batch, Seconds& seconds);
-    // Of any gearboxes, so many records of each.
+    // Rows of the gearboxes `ids`, with `records` records each.
     BatchRows compute(std::span<const GearboxId> ids, std::size_t records, Seconds& seconds);
 
   private:

@@ -38,7 +38,7 @@ Results results_frame(const Study& study) {
 
 namespace {
 
-// Why this rank has left off what all need before the first batch, or "".
+// Prepares this rank for its batches. Returns the reason if preparation was interrupted, else "".
 std::string prepare(const std::function<BatchComputers()>& make, const EnsembleRun& run,
                     BatchComputers& computers) {
     try {

@@ -1,5 +1,4 @@
-// The whole ensemble: every gearbox's features, in the order of the gearboxes whatever computed
-// them.
+// Computes the whole ensemble: the features of every gearbox, in the order of the gearboxes.
 #pragma once
 
 #include <functional>
@@ -11,27 +10,25 @@
 
 namespace gearpod::mc {
 
-// Computes all batches that the store has not, on the threads of all ranks; every rank calls it.
-// Rank 0 deals batches out in order as they are asked for and stores them. The outcome is rank 0's,
-// in the others empty.
+// Computes all batches that the store does not have, on the threads of all ranks. Every rank must
+// call it. Rank 0 assigns the batches in order and stores them. The outcome is empty in the other
+// ranks.
 EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run);
 
-// The same of whatever makes up the study's batches. `make` is called once in every rank, before
-// the first batch.
+// The same for any kind of batch. `make` is called once in every rank, before the first batch.
 EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const EnsembleRun& run,
                             const std::function<BatchComputers()>& make);
 
-// The same in memory and in this process, with all columns filled in. Detection and provenance are
-// left to the caller.
+// Computes all results in memory and in this process. Detection and provenance are not filled in.
 Results run_ensemble(const Scene& scene, Progress& progress);
 
-// What the results say besides their rows: names, units, noise levels, sizes. Columns are empty.
+// Results without rows: names, units, noise levels and sizes.
 Results results_frame(const Study& study);
 
-// The times of all threads together, for the results file.
+// Times summed over all threads, for the results file.
 std::vector<Timing> timing_of(const EnsembleOutcome& outcome);
 
-// Detection of every feature from a results file's columns.
+// Detection results of every feature, from the columns of a results file.
 std::vector<analysis::FeatureDetection> detect_all(const Results& results);
 
 }  // namespace gearpod::mc

@@ -1,4 +1,4 @@
-// What a run of an ensemble is given, and what it comes to.
+// Inputs and outcome of an ensemble run.
 #pragma once
 
 #include <cstddef>
@@ -15,26 +15,26 @@
 
 namespace gearpod::mc {
 
-// Where an ensemble's batches come from and go to, and who may end it early.
+// Source and destination of an ensemble's batches, and the conditions that may end the run early.
 struct EnsembleRun {
     const Ranks& ranks;
-    RowStore& store;  // of rank 0: finished batches are not computed again
+    RowStore& store;  // rank 0 only; batches in it are not computed again
     Progress& progress;
     const Interruption* interruption = nullptr;
-    PdWatch* watch = nullptr;    // ends the run once it knows enough; shown as it goes
-    double checkpoint_s = 30.0;  // how often the store is synced
+    PdWatch* watch = nullptr;    // ends the run at the required accuracy; shown as progress
+    double checkpoint_s = 30.0;  // interval between two syncs of the store
     std::function<void()> checkpointed = [] {};  // called after each sync
 };
 
 struct EnsembleOutcome {
-    std::size_t batches = 0;       // the results are the first so many
-    std::string interruption;      // "", or what ended the run before its time
-    std::string failure;           // "", or what went wrong
-    std::vector<CrewTimes> crews;  // by rank
+    std::size_t batches = 0;       // number of leading batches that form the results
+    std::string interruption;      // reason for an early end, or ""
+    std::string failure;           // error message, or ""
+    std::vector<CrewTimes> crews;  // indexed by rank
     double wall_s = 0.0;
-    double output_s = 0.0;  // rank 0's writing of batches
+    double output_s = 0.0;  // time of rank 0 for writing batches
 
-    // Of all ranks.
+    // Sums over all ranks.
     int threads() const {
         int all = 0;
         for (const CrewTimes& crew : crews) {

@@ -14,7 +14,8 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1};
 
 volatile std::sig_atomic_t caught = 0;
-// When, on the steady clock, in nanoseconds: a handler may set no other type.
+// Time of the first signal on the steady clock, in nanoseconds. Signal handlers may only write
+// lock-free atomics.
 std::atomic<long long> caught_ns{0};
 static_assert(std::atomic<long long>::is_always_lock_free);
 constexpr std::chrono::nanoseconds kSameRequest = Interruption::kSameRequest;

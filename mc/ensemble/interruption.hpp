@@ -1,4 +1,4 @@
-// Requests to stop from outside: signals and the time limit.
+// External requests to stop: signals and the time limit.
 #pragma once
 
 #include <atomic>
@@ -10,44 +10,45 @@
 
 namespace gearpod::mc {
 
-// While it lives, SIGINT, SIGTERM and SIGUSR1 (a queue's warning) only ask the run to end and save;
-// a second SIGINT or SIGTERM ends the program at once, but for one that comes with the first:
-// `timeout` and batch queues signal a program and then its process group. Whatever is computed
-// leaves off (StopWish) a second after the first signal, or when the time limit is over. Writing
-// beyond a limit on the file size is an error of the write and no signal. One object at a time.
+// Handles SIGINT, SIGTERM and SIGUSR1 (a batch queue's warning) during its lifetime: the first
+// signal asks the run to end and save. A second SIGINT or SIGTERM ends the program at once, unless
+// it follows the first within kSameRequest. `timeout` and batch queues send a signal to a program
+// and then to its process group. Computations are cancelled (StopWish) one second after the first
+// signal, or at the time limit. SIGXFSZ is ignored, so that writing beyond a limit on the file size
+// is a write error. Only one object may exist at a time.
 class Interruption final : public machine::StopWish {
   public:
-    // For what is about to be finished when a signal comes.
+    // Time for computations that are about to finish when a signal arrives.
     static constexpr std::chrono::seconds kGrace{1};
-    // Signals that come so soon after the first are one request with it.
+    // Further signals within this time after the first count as the same request.
     static constexpr std::chrono::milliseconds kSameRequest{500};
 
-    // The limit counts from now; none if empty.
+    // The time limit counts from now; empty means no limit.
     explicit Interruption(std::optional<std::chrono::seconds> limit);
     Interruption(const Interruption&) = delete;
     Interruption& operator=(const Interruption&) = delete;
     ~Interruption() override;
 
-    // Why to stop, or "". `ahead`: what finishing and saving is going to take.
+    // Reason to stop, or "". `ahead`: time needed for finishing and saving.
     std::string reason(std::chrono::duration<double> ahead) const;
 
-    // Whether the reason is a signal.
+    // True if a signal was received.
     bool signalled() const;
 
-    // Computing leaves off so much later, or when it would anyway.
+    // Cancels computations after `grace`, or earlier if that was decided before.
     void leave_off_in(std::chrono::duration<double> grace) const;
-    // From now on computing does not leave off: what is left is needed for saving.
+    // Disables cancellation: the remaining computations are needed for saving.
     void let_finish() const;
     bool stop() const override;
 
   private:
     std::optional<std::chrono::seconds> limit_;
     std::chrono::steady_clock::time_point start_;
-    mutable std::atomic<std::chrono::steady_clock::time_point> end_;  // of computing
+    mutable std::atomic<std::chrono::steady_clock::time_point> end_;  // end of computation
     mutable std::atomic<bool> finishing_{false};
 };
 
-// "hh:mm:ss" (hours may have more digits); empty if it is not one.
+// Parses "hh:mm:ss", with any number of digits for the hours; empty if the text is invalid.
 std::optional<std::chrono::seconds> parse_time_limit(const std::string& text);
 
 }  // namespace gearpod::mc

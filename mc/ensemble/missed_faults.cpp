@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The records of some gearboxes, as TiltedSample takes them.
+// Records of several gearboxes, in the form that TiltedSample takes.
 struct Records {
     std::vector<double> values, weights;
     std::vector<std::size_t> gearbox;

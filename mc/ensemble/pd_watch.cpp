@@ -89,7 +89,7 @@ void PdWatch::count(const BatchRows& rows) {
     }
 }
 
-// Of the Wilson interval at today's rate, were so many tested.
+// Half width of the Wilson interval at the current rate for a sample of `tested` gearboxes.
 double PdWatch::half_width(double tested) const {
     const long n = std::lround(tested);
     const long detected =

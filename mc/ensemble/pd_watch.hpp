@@ -1,5 +1,5 @@
-// One detection rate as it becomes known: shown while the ensemble runs, and the reason to stop
-// once its interval is as narrow as wanted.
+// Running estimate of one detection rate. It is shown during a run, and ends the run when its
+// confidence interval is narrow enough.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,23 @@
 
 namespace gearpod::mc {
 
-// Looks at batches in their order only, each once all before it are there: what it says, and the
-// batch at which it says stop, are the same whoever computed them and whenever.
+// Reads batches strictly in order. The estimate and the batch at which the run stops therefore do
+// not depend on threads and ranks.
 class PdWatch {
   public:
-    // Of ensemble.until, else of `feature` ("": the first in use) at the largest size and the
-    // noise level next to 1.
+    // Watches the feature of ensemble.until. Without it, watches `feature` ("": the first feature
+    // of the study) at the largest size and the noise level closest to 1.
     PdWatch(const Study& study, const BatchPlan& plan, const std::string& feature);
 
     void advance(const RowStore& store);
 
-    // Whether ensemble.until is reached, and after how many batches.
+    // True if ensemble.until is reached; batches() is the number of batches it took.
     bool enough() const { return stop_.has_value(); }
     std::size_t batches() const { return *stop_; }
-    // "Pd(window_ratio, 3 mm, noise x 1) = 0.93 [0.91, 0.95]"; "" while nothing is known.
+    // For example "Pd(window_ratio, 3 mm, noise x 1) = 0.93 [0.91, 0.95]"; "" before the first
+    // tested gearbox.
     std::string text() const;
-    // Graded gearboxes still needed for ensemble.until, as far as the rate tells.
+    // Estimated number of further graded gearboxes that ensemble.until needs; empty if unknown.
     std::optional<std::size_t> rows_left() const;
 
   private:
@@ -39,14 +40,14 @@ class PdWatch {
     analysis::Alarm alarm_ = analysis::Alarm::high;
     std::size_t group_ = 0;
     std::size_t level_ = 0;
-    std::optional<double> wanted_;  // half width
+    std::optional<double> wanted_;  // requested half width
     BatchPlan plan_;
     RowShape shape_;
-    std::size_t column_ = 0;  // of the feature at the level, in a row
-    std::size_t next_ = 0;    // batch to look at
+    std::size_t column_ = 0;  // place of the feature at this level in a row
+    std::size_t next_ = 0;    // next batch to read
     double threshold_ = 0.0;
     long tested_ = 0, detected_ = 0;
-    std::size_t graded_ = 0;  // gearboxes looked at
+    std::size_t graded_ = 0;  // number of gearboxes read
     std::optional<std::size_t> stop_;
 };
 

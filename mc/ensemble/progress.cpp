@@ -52,7 +52,7 @@ void Progress::watch(std::string rate, std::optional<std::size_t> left) {
 void Progress::show(std::chrono::steady_clock::time_point now) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(done_ - before_) / elapsed;
-    // What the wanted interval still needs, if that is less.
+    // Rows that the requested interval still needs, if that is less.
     const long missing = total_ - done_;
     const long left = wanted_ ? std::min(missing, static_cast<long>(*wanted_)) : missing;
     if (form_ == Form::json) {
@@ -60,7 +60,7 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
     std::string numbers = fmt::format(
-        "{} of {}{} {}, {} a second, {} left", done_, left < missing ? "at most " : "", total_,
+        "{} of {}{} {}, {} per second, {} left", done_, left < missing ? "at most " : "", total_,
         counted_, rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
         duration_text(static_cast<double>(left) / rate));
     if (!rate_.empty()) {

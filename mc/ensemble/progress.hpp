@@ -1,8 +1,8 @@
-// Progress of a run on stderr: a bar on a terminal, plain lines with the date and time elsewhere;
-// or JSON for programs, one object a line every five seconds and at the end:
-//   {"done": how many, "of": all, "counted": "gearboxes" or what else, "seconds": since the start,
-//    "per_second": how many, "left_s": forecast or null, "watched": text or null,
-//    "finished": whether it is the last line}
+// Progress of a run on stderr: a bar on a terminal, plain lines with date and time elsewhere. For
+// programs there is JSON, one object per line, every five seconds and at the end:
+//   {"done": number, "of": total number, "counted": "gearboxes" or other items,
+//    "seconds": since the start, "per_second": number, "left_s": forecast or null,
+//    "watched": text or null, "finished": true in the last line}
 #pragma once
 
 #include <chrono>
@@ -12,22 +12,22 @@
 
 namespace gearpod::mc {
 
-// One thread's.
+// Shows the progress; to be used by one thread.
 class Progress {
   public:
     enum class Form { text, json };
 
-    // Of `total` gearboxes, or what else is counted, `done` of which are there already. Silent if
-    // `quiet`, JSON never is.
+    // `total` is the number of gearboxes or other items (`counted`); `done` of them exist already.
+    // `quiet` suppresses text, but not JSON.
     Progress(long total, bool quiet, long done = 0, Form form = Form::text,
              const char* counted = "gearboxes");
 
-    // `count` more of them are done.
+    // Reports that `count` more items are done.
     void advance(long count);
-    // A detection rate to show, and how many more until it is known well enough.
+    // Sets the detection rate to show, and the number of further rows until it is accurate enough.
     void watch(std::string rate, std::optional<std::size_t> left);
 
-    // Ends the bar's line.
+    // Ends the line of the progress bar.
     void finish();
 
   private:

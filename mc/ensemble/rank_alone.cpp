@@ -1,4 +1,4 @@
-// The one rank of a build without MPI.
+// Ranks in a build without MPI: there is only one.
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -9,7 +9,7 @@ namespace gearpod::mc {
 
 namespace {
 
-// As many as a launcher started.
+// Number of processes that a launcher started; null if there is no launcher or only one.
 const char* copies() {
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
         const char* count = std::getenv(name);
@@ -30,12 +30,13 @@ bool Ranks::launched() {
     return copies() != nullptr;
 }
 
-// Copies that do not know of each other would all compute the same and write over each other.
+// Several processes that do not communicate would all compute the same and overwrite each other's
+// output.
 Ranks::Ranks() {
     if (launched()) {
         throw std::runtime_error("started as one of " + std::string(copies()) +
-                                 " processes, but built without MPI; start one, or build it "
-                                 "with -DGEARPOD_MPI=ON");
+                                 " processes, but this program was built without MPI; start a "
+                                 "single process, or rebuild it with -DGEARPOD_MPI=ON");
     }
 }
 
@@ -50,7 +51,7 @@ std::string Ranks::from_leader(const std::string& text) const {
 }
 
 void Ranks::send(int, int, std::span<const std::byte>) const {
-    throw std::logic_error("one rank has nobody to send to");
+    throw std::logic_error("a single rank cannot send messages");
 }
 
 std::optional<Ranks::Message> Ranks::receive() const {

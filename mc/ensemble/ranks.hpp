@@ -1,4 +1,4 @@
-// The processes of one run: one, or as many as mpirun or srun has started.
+// Processes of one run: one, or as many as mpirun or srun started.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,15 @@
 
 namespace gearpod::mc {
 
-// MPI is started only where a launcher is at work, so that the program runs alone without it, and
-// may be missing when the program is built (ranks_of_mpi.cpp or rank_alone.cpp): then there is one
-// rank, and a launcher that starts several copies is an error. All
-// calls come from the thread that made the object, of which there is one in a process; failures of
-// MPI end all ranks.
+// Access to the MPI ranks. MPI is initialized only if a launcher is present, so that the program
+// also runs without it. Without MPI in the build (rank_alone.cpp instead of ranks_of_mpi.cpp) there
+// is one rank, and a launcher with several processes is an error. Each process has one object; all
+// calls come from the thread that created it. MPI failures end all ranks.
 class Ranks {
   public:
-    // Whether the program was built with MPI.
+    // True if the program was built with MPI.
     static bool of_mpi();
-    // Whether a launcher of ranks has started this process.
+    // True if an MPI launcher has started this process.
     static bool launched();
 
     Ranks();
@@ -28,12 +27,12 @@ class Ranks {
     int rank() const { return rank_; }
     int size() const { return size_; }
     bool leads() const { return rank_ == 0; }
-    // Ranks on this machine.
+    // Number of ranks on this machine.
     int on_this_machine() const { return on_this_machine_; }
 
-    // Every rank's text, in all ranks. All call it together.
+    // Texts of all ranks, in every rank. All ranks must call it together.
     std::vector<std::string> gather(const std::string& text) const;
-    // Rank 0's text, in all ranks.
+    // Text of rank 0, in every rank. All ranks must call it together.
     std::string from_leader(const std::string& text) const;
 
     struct Message {
@@ -42,7 +41,7 @@ class Ranks {
         std::vector<std::byte> bytes;
     };
     void send(int to, int kind, std::span<const std::byte> bytes) const;
-    // A message that has arrived, if any.
+    // Next message that has arrived, if any.
     std::optional<Message> receive() const;
 
     // Ends all ranks with this exit code, without waiting for them.
@@ -55,7 +54,7 @@ class Ranks {
     bool started_ = false;
 };
 
-// "rank 2 on node17".
+// For example "rank 2 on node17".
 std::string rank_name(const Ranks& ranks);
 
 }  // namespace gearpod::mc

@@ -1,8 +1,8 @@
-// The ranks of a build with MPI.
+// Ranks in a build with MPI.
 #include <fmt/format.h>
 
 #include "mc/ensemble/ranks.hpp"
-#define OMPI_SKIP_MPICXX 1  // the C interface only
+#define OMPI_SKIP_MPICXX 1  // only the C interface
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
@@ -14,8 +14,8 @@
 namespace gearpod::mc {
 namespace {
 
-// MPI's own waiting keeps a processor busy. Ranks that wait here leave theirs to others: to their
-// threads, and to what rank 0 still has to do.
+// Polls with pauses. MPI's own waiting would keep a processor busy that other threads and rank 0
+// need.
 void wait_for(MPI_Request& request) {
     for (int done = 0;;) {
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);
@@ -26,7 +26,7 @@ void wait_for(MPI_Request& request) {
     }
 }
 
-// From rank 0 to all.
+// Sends data from rank 0 to all ranks.
 void broadcast(void* data, int count, MPI_Datatype type) {
     MPI_Request request;
     MPI_Ibcast(data, count, type, 0, MPI_COMM_WORLD, &request);
@@ -39,8 +39,8 @@ bool Ranks::of_mpi() {
     return true;
 }
 
-// By what Open MPI's mpirun, PMIx (srun, prun) and PMI-1/2 (srun, mpiexec) leave in the
-// environment.
+// Checks the environment variables that Open MPI's mpirun, PMIx (srun, prun) and PMI-1/2 (srun,
+// mpiexec) set.
 bool Ranks::launched() {
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
         if (std::getenv(name) != nullptr) {
@@ -64,7 +64,7 @@ Ranks::Ranks() {
     MPI_Comm_size(machine, &on_this_machine_);
     MPI_Comm_free(&machine);
     if (provided < MPI_THREAD_FUNNELED && leads()) {
-        fmt::print(stderr, "gearpod: this MPI does not work with threads\n");
+        fmt::print(stderr, "gearpod: this MPI library does not support threads\n");
         abort(2);
     }
 }

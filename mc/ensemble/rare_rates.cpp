@@ -22,7 +22,7 @@ GearboxId id_of(const RareQuestion& question, const analysis::SplitMember& membe
     return id;
 }
 
-// Values of members, computed by all ranks and known to all.
+// Computes the feature values of members on all ranks and returns them in every rank.
 class SplitRun {
   public:
     SplitRun(const Scene& scene, const RareQuestion& question, const Ranks& ranks,
@@ -89,11 +89,11 @@ class SplitRun {
     Progress& progress_;
     const Interruption* interruption_;
     const RowShape shape_;
-    std::shared_ptr<const BatchTask> task_;  // once there is a first batch
+    std::shared_ptr<const BatchTask> task_;  // created for the first batch
     long failed_ = 0;
 };
 
-// Sums of the random inputs of some gearboxes.
+// Sums and sums of squares of the random inputs of a set of gearboxes.
 struct InputSums {
     std::vector<double> sum, squares;
     double count = 0.0;
@@ -113,7 +113,8 @@ struct InputSums {
     }
 };
 
-// Means further from those of all than as many gearboxes as there are families scatter by chance.
+// Random inputs whose mean in the last level differs from the mean of all gearboxes by more than
+// chance. The chance deviation is that of as many independent gearboxes as there are families.
 std::vector<ShiftedInput> shifted_inputs(const Study& study, const RareQuestion& question,
                                          const analysis::SplitTail& tail) {
     constexpr double kBeyondChance = 3.0;
@@ -128,7 +129,7 @@ std::vector<ShiftedInput> shifted_inputs(const Study& study, const RareQuestion&
     const double chance = kBeyondChance / std::sqrt(tail.last_families());
     std::vector<ShiftedInput> shifted;
     const std::vector<ParameterColumn> columns = sampler.columns();
-    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {  // the last is the fault's size
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {  // the last column is the fault size
         if (std::abs(last.mean(i) - all.mean(i)) > chance * all.deviation(i)) {
             shifted.push_back({columns[i].name, columns[i].unit, all.mean(i), last.mean(i)});
         }

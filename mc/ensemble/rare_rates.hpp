@@ -1,5 +1,5 @@
-// How rare alarms of healthy gearboxes are, or misses of a fault, where gearboxes make them: their
-// own draws are split (analysis/detection/splitting.hpp).
+// Estimates small false-alarm or miss rates that are due to gearbox-to-gearbox variation, by
+// multilevel splitting of the random inputs (analysis/detection/splitting.hpp).
 #pragma once
 
 #include <optional>
@@ -12,50 +12,51 @@
 
 namespace gearpod::mc {
 
-// Of healthy gearboxes the threshold whose false-alarm rate is asked for; or the rate at which
-// those with a fault are missed by a threshold.
+// Either the threshold of healthy gearboxes for a false-alarm rate, or the miss rate of a given
+// threshold for gearboxes with a fault.
 struct RareQuestion {
     std::string feature;
-    double noise_level = 1.0;    // of sensor.noise_levels
-    std::optional<double> rate;  // of false alarms; else of misses:
-    double size = 0.0;           // of the fault, SI
-    double threshold = 0.0;      // of its alarm, in its unit
-    long gearboxes = 0;          // of a level
+    double noise_level = 1.0;    // one of sensor.noise_levels
+    std::optional<double> rate;  // false-alarm rate; if empty, the miss rate is estimated for:
+    double size = 0.0;           // fault size, SI
+    double threshold = 0.0;      // alarm threshold in the feature's unit
+    long gearboxes = 0;          // members per level
 
-    // A miss lies on the threshold's other side.
+    // Side on which the rare values lie. Misses lie on the opposite side of alarms.
     analysis::Alarm towards() const;
 };
 
-// Misses that are rarer are not looked for.
+// Lower limit of miss rates that are estimated.
 inline constexpr double kRarestMisses = 1e-9;
 
-// The study whose gearboxes are split: healthy ones are those of its threshold group.
+// Study for multilevel splitting. Healthy gearboxes are those of its threshold group.
 Study study_of_rare(const Study& study, const RareQuestion& question);
 
-// A random input that gearboxes near an alarm or a miss have otherwise than all have.
+// Random input whose distribution near an alarm or a miss differs from that of all gearboxes.
 struct ShiftedInput {
-    std::string name, unit;        // as of the results' column
+    std::string name, unit;        // as in the column of the results
     double all = 0.0, rare = 0.0;  // means
 };
 
 struct RareAnswer {
-    // Empty where too few gearboxes' descendants reach so far.
+    // Empty if too few families reach the rare event.
     std::optional<analysis::SplitTail::Estimate> estimate;
-    analysis::Interval threshold;   // of false alarms: where it may lie
-    long computed = 0, failed = 0;  // gearboxes
+    analysis::Interval threshold;   // confidence interval of the threshold for the false-alarm rate
+    long computed = 0, failed = 0;  // number of gearboxes
     std::size_t levels = 0;
-    double last_rate = 1.0;   // of gearboxes like the last level's
-    double least_kept = 1.0;  // share of a level's exchanges
-    // Gearboxes that would be counted for the same error; NaN without an estimate.
+    double last_rate = 1.0;   // rate at which gearboxes fall into the last level
+    double least_kept = 1.0;  // smallest fraction of accepted exchanges of a level
+    // Number of gearboxes that plain counting needs for the same standard error; NaN without an
+    // estimate.
     double counted = 0.0;
-    std::vector<ShiftedInput> shifted;  // of the last level
+    std::vector<ShiftedInput> shifted;  // in the last level
 };
 
-// Gearboxes that it computes at most.
+// Largest number of gearboxes that rare_rates() computes.
 long rare_gearboxes(const RareQuestion& question);
 
-// Every rank calls it with the scene of study_of_rare(); the answer is rank 0's. Throws
-// std::runtime_error where a batch fails or the run is interrupted.
+// Every rank must call it with the scene of study_of_rare(); only rank 0 gets the result. Throws
+// std::runtime_error if a batch fails or the run is interrupted.
 RareAnswer rare_rates(const Scene& scene, const RareQuestion& question, const Ranks& ranks,
                       Progress& progress, const Interruption* interruption = nullptr);
 

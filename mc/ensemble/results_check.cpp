@@ -21,14 +21,13 @@ bool group_after(const analysis::SizeGroup& group, double before) {
     return std::isfinite(group.high) && group.low >= before && group.high >= group.low;
 }
 
-// What no run writes, whatever the study; "" if there is nothing of that kind.
+// Finds values that no run writes for any study; returns "" if there are none.
 std::string impossible(const Results& frame) {
     double before = -1.0;
     for (const double level : frame.noise_levels) {
         if (!std::isfinite(level) || level < 0.0 || level <= before) {
             return fmt::format(
-                "/{} holds {:g}, and must be finite, not negative and "
-                "ascending",
+                "/{} contains {:g}, but its values must be finite, not negative and ascending",
                 columns_name(frame), level);
         }
         before = level;
@@ -46,28 +45,28 @@ std::string impossible(const Results& frame) {
     return "";
 }
 
-// The first column that is another than the study's, by name or unit.
+// Describes the first column whose name or unit differs from the study's.
 std::string unlike(const std::string& where, const auto& columns, const auto& own) {
     const auto text = [](const auto& list, std::size_t i) {
         return i < list.size() ? list[i].name + " (" + list[i].unit + ")" : "none";
     };
     for (std::size_t i = 0; i < std::max(columns.size(), own.size()); ++i) {
         if (text(columns, i) != text(own, i)) {
-            return fmt::format("{}: column {} is {}, but of the study {}", where, i + 1,
+            return fmt::format("{}: column {} is {}, but in the study it is {}", where, i + 1,
                                text(columns, i), text(own, i));
         }
     }
     return "";
 }
 
-// How the frame differs from that of the study's own run.
+// Describes the first difference from the frame of the study's own run.
 std::string unlike_study(const Results& frame, const Results& own) {
     std::string why = unlike("/instances", frame.parameters, own.parameters);
     if (why.empty()) {
         why = unlike("/features", frame.features, own.features);
     }
     if (why.empty() && frame.noise_levels != own.noise_levels) {
-        why = fmt::format("/noise_levels holds {} levels that are not the study's {}",
+        why = fmt::format("/noise_levels has {} levels that differ from the study's {}",
                           frame.noise_levels.size(), own.noise_levels.size());
     }
     const auto same = [](const analysis::SizeGroup& a, const analysis::SizeGroup& b) {
@@ -76,15 +75,15 @@ std::string unlike_study(const Results& frame, const Results& own) {
     const auto& request = frame.request;
     if (why.empty() && (!std::ranges::equal(request.groups, own.request.groups, same) &&
                         !frame.features.empty())) {
-        why = "/detection has other sizes than the study";
+        why = "/detection: the sizes differ from the study's";
     }
     if (why.empty() && (request.false_alarm_rate != own.request.false_alarm_rate ||
                         request.confidence != own.request.confidence ||
                         request.size.name != own.request.size.name)) {
-        why = "/detection has another false_alarm_rate, confidence or size_name than the study";
+        why = "/detection: false_alarm_rate, confidence or size_name differs from the study's";
     }
     if (why.empty() && request.threshold_records != own.request.threshold_records) {
-        why = fmt::format("/detection has threshold_records = {}, but of the study {}",
+        why = fmt::format("/detection has threshold_records = {}, but the study has {}",
                           request.threshold_records, own.request.threshold_records);
     }
     return why;
@@ -92,7 +91,7 @@ std::string unlike_study(const Results& frame, const Results& own) {
 
 class RowCheck {
   public:
-    // `healthy`: rows of the threshold group, if a study says so.
+    // `healthy`: number of rows of the threshold group, if the study is known.
     RowCheck(const RowShape& shape, std::optional<std::size_t> healthy, bool open_instances)
         : shape_(shape), healthy_(healthy), open_(open_instances) {}
 
@@ -101,21 +100,24 @@ class RowCheck {
             const std::size_t row = block.first + i;
             const int group = block.group[i];
             if (block.status[i] < 0 || block.status[i] >= kStatuses) {
-                why_ = fmt::format("/status of row {} is {}", row, block.status[i]);
+                why_ =
+                    fmt::format("/status of row {} has the invalid value {}", row, block.status[i]);
             } else if (group != 0 && group != 1 && (healthy_ || group != kUngraded)) {
-                why_ = fmt::format("/instances/group of row {} is {}", row, group);
+                why_ =
+                    fmt::format("/instances/group of row {} has the invalid value {}", row, group);
             } else if (healthy_ && (row < *healthy_) != (group == 0)) {
-                why_ = fmt::format("/instances/group of row {} is not the study's", row);
+                why_ = fmt::format("/instances/group of row {} differs from the study's", row);
             }
             const double* values = block.values.data() + i * shape_.values();
             if (!std::all_of(values, values + shape_.parameters, [&](double value) {
                     return std::isfinite(value) || (open_ && std::isnan(value));
                 })) {
-                why_ = fmt::format("/instances of row {} holds a number that is not finite", row);
+                why_ =
+                    fmt::format("/instances of row {} contains a number that is not finite", row);
             }
             if (std::any_of(values + shape_.parameters, values + shape_.values(),
                             [](double value) { return std::isinf(value); })) {
-                why_ = fmt::format("/features of row {} holds an infinite number", row);
+                why_ = fmt::format("/features of row {} contains an infinite number", row);
             }
         }
     }
@@ -140,10 +142,10 @@ void check_like(const std::string& path, const Results& frame, const RowSource& 
         healthy = expected->plan.threshold_rows();
         const std::size_t most = expected->plan.rows();
         if (why.empty() && !part) {
-            why = "its attribute part is none";
+            why = "its attribute part is invalid";
         }
         if (why.empty() && rows.rows() > most) {
-            why = fmt::format("it has {} gearboxes, the study{} {}", rows.rows(),
+            why = fmt::format("it has {} gearboxes, but the study{} has {}", rows.rows(),
                               part && !part->whole() ? "'s part " + part->text() : "", most);
         }
     }
@@ -153,14 +155,14 @@ void check_like(const std::string& path, const Results& frame, const RowSource& 
         why = check.why();
     }
     if (!why.empty()) {
-        throw std::runtime_error(fmt::format("{}: is no results file that `{}` wrote: {}", path,
+        throw std::runtime_error(fmt::format("{}: is not a results file of `{}`: {}", path,
                                              expected ? expected->command : "run", why));
     }
 }
 
 void check_results(const std::string& path, const Results& frame, const RowSource& rows) {
     if (frame.provenance_value("kind") == kLivesKind) {
-        throw std::runtime_error(path + ": holds lives, which `report` alone reads");
+        throw std::runtime_error(path + ": holds lives, which only `report` can read");
     }
     const auto study = read_study_text(frame.provenance_value("study"), path).study;
     std::optional<ExpectedResults> expected;

@@ -1,5 +1,5 @@
-// Whether a results file is what a run writes: its seal only says that nobody changed it by
-// accident.
+// Checks that a results file holds what a run writes. The checksum of a file detects only
+// accidental changes.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,21 @@
 
 namespace gearpod::mc {
 
-// What a study's own results are.
+// Expected contents of the results of a study.
 struct ExpectedResults {
     Results frame;
     BatchPlan plan;
     const char* command = "run";
-    bool open_instances = false;  // columns of /instances may be NaN
+    bool open_instances = false;  // true if columns of /instances may be NaN
 };
-// As below; none: of a study that this program cannot read.
+// The check of check_results(), with given expectations. `expected` is empty for a study that this
+// program cannot read.
 void check_like(const std::string& path, const Results& frame, const RowSource& rows,
                 const std::optional<ExpectedResults>& expected);
 
-// Throws std::runtime_error naming the file and the first thing that does not fit: numbers that no
-// run writes, or datasets that are not those of the study that the file holds. A study that this
-// program cannot read (another version's) is not compared. One pass over the rows.
+// Throws std::runtime_error naming the file and the first problem: values that no run writes, or
+// datasets that do not belong to the study in the file. A study of another version that this
+// program cannot read is not compared. Reads the rows once.
 void check_results(const std::string& path, const Results& frame, const RowSource& rows);
 
 }  // namespace gearpod::mc

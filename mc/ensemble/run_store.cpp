@@ -50,7 +50,8 @@ std::string why_not_grown(const Results& old, const std::string& path, const Stu
     const auto there = read_study_text(old.provenance_value("study"), path).study;
     Study as_there = study;
     const auto healthy = there ? there->ensemble.threshold_instances : 0;
-    // Features that trend compare with the first healthy gearboxes: these must have been there.
+    // Trending features compare with the first healthy gearboxes, so the old results must have had
+    // these.
     if (part.whole() && healthy >= HealthyReference::kRecords &&
         healthy < study.ensemble.threshold_instances) {
         as_there.ensemble.threshold_instances = healthy;
@@ -60,8 +61,7 @@ std::string why_not_grown(const Results& old, const std::string& path, const Stu
 
 namespace {
 
-// The rows of one group of a block, under the numbers that they have in a plan with `shift` more
-// rows before them.
+// Rows of one group of a block, renumbered for a plan with `shift` more rows before them.
 RowBlock of_group(const RowBlock& block, Group group, std::size_t shift) {
     RowBlock out;
     const std::size_t width = block.count() == 0 ? 0 : block.values.size() / block.count();
@@ -94,14 +94,14 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
             std::count(block.group.begin(), block.group.end(), static_cast<int>(Group::threshold)));
     });
     if (rows.rows() - healthy > plan.graded_rows()) {
-        throw std::runtime_error(fmt::format(
-            "{}: cannot be continued: it has {} graded gearboxes, more than the {} asked for; "
-            "raise --instances",
-            results_path, rows.rows() - healthy, plan.graded_rows()));
+        throw std::runtime_error(
+            fmt::format("{}: cannot be continued: it has {} graded gearboxes, more than the {} "
+                        "requested; raise --instances",
+                        results_path, rows.rows() - healthy, plan.graded_rows()));
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
     const auto same_number = [](std::size_t batch) { return batch; };
-    // One for each group: the last batch of either may have to be filled up, so is left out.
+    // One filler per group. The last batch of each group may be incomplete; it is left out.
     BatchFiller thresholds(*checkpoint, plan, identity.shape, same_number),
         graded(*checkpoint, plan, identity.shape, same_number);
     rows.visit([&](const RowBlock& block) {
@@ -112,8 +112,8 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
     return checkpoint;
 }
 
-// Why a run of `identity` must not overwrite what is there, or "". The same study by another
-// version of the program may: that is what one computes again for.
+// Reason why a run of `identity` must not overwrite the existing file, or "". Results of the same
+// study by another version of the program may be overwritten.
 std::string why_precious(const std::string& results_path, const RunIdentity& identity) {
     std::error_code none;
     if (!Checkpoint::exists(results_path) || std::filesystem::file_size(results_path, none) == 0) {
@@ -124,7 +124,7 @@ std::string why_precious(const std::string& results_path, const RunIdentity& ide
         RunIdentity there = identity_of(old, results_path);
         there.version = identity.version;
         const std::string why = difference(there, identity);
-        return why.empty() ? "" : results_path + ": holds results that a run wrote and that " + why;
+        return why.empty() ? "" : results_path + ": contains results of another run: it " + why;
     } catch (const std::exception& error) {
         return error.what();
     }
@@ -134,7 +134,7 @@ void tell(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string
     for (const std::string& finding : checkpoint.findings()) {
         fmt::print(stderr, "{}\n", finding);
     }
-    fmt::print(stderr, "continuing {}: {} of {} tiles of gearboxes are there\n", from,
+    fmt::print(stderr, "continuing {}: {} of {} batches are finished\n", from,
                checkpoint.batches_done(), plan.batches());
 }
 
@@ -174,7 +174,7 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& 
         }
         checkpoint = Checkpoint::create(path, identity, plan);
         if (options.resume && !options.quiet) {
-            fmt::print(stderr, "{}: there is nothing to continue; the run begins anew\n",
+            fmt::print(stderr, "{}: there is nothing to continue; starting a new run\n",
                        results_path);
         }
     }

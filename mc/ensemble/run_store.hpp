@@ -1,5 +1,5 @@
-// Where a run keeps its finished batches: a new checkpoint, one to continue, or one filled from
-// finished results that are to grow.
+// Checkpoint of a run: a new one, one to resume, or one filled from finished results that are to be
+// extended.
 #pragma once
 
 #include <functional>
@@ -14,41 +14,41 @@
 
 namespace gearpod::mc {
 
-// The checkpoint's file: beside the results file, behind its links.
+// Path of the checkpoint: in the directory of the results file, after following symbolic links.
 std::string checkpoint_path(const std::string& results_path);
 
-// What a results file's rows are the rows of; `path` stands for it in messages.
+// Identity of the run that wrote the results. `path` names the file in messages.
 RunIdentity identity_of(const Results& results, const std::string& path);
-// Why finished results cannot grow into those of the study, as text to follow the file's name, or
-// "". They may have fewer gearboxes of either group; a part's threshold sample stays as it is,
-// since with another one the parts would be others.
+// Reason why finished results cannot be extended to those of the study, as text to follow the
+// file's name, or "". The results may have fewer gearboxes in either group. The threshold sample of
+// a part must be unchanged, because it determines the other parts.
 std::string why_not_grown(const Results& old, const std::string& path, const Study& study,
                           const Part& part);
-// Which of its ensemble's rows it has.
+// Part of the ensemble that the results cover.
 Part part_of(const Results& results);
 
 struct StoreOptions {
     bool resume = false;
-    bool force = false;  // a run that begins anew may overwrite what is not of this study
-    bool quiet = false;  // else says on stderr what it continues
+    bool force = false;  // allows a new run to overwrite results of another study
+    bool quiet = false;  // suppresses the note on stderr about resumed work
     Part part = {};
-    // Of finished results that are to grow.
+    // Check of finished results that are to be extended.
     std::function<void(const std::string&, const Results&, const RowSource&)> check = check_results;
 };
 
-// Throws std::runtime_error naming the file and the reason.
+// Opens or creates the checkpoint. Throws std::runtime_error naming the file and the reason.
 std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& shape,
                                             const BatchPlan& plan, const std::string& results_path,
                                             const StoreOptions& options);
-// The same of a run's rows.
+// The same for the rows of `run`.
 std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
                                             const std::string& results_path,
                                             const StoreOptions& options);
 
-// Puts whole batches of consecutive rows into a store.
+// Collects consecutive rows and writes complete batches to a store.
 class BatchFiller {
   public:
-    // `plan` numbers the rows; `number` says under which number the store keeps a batch of it.
+    // `plan` numbers the rows; `number` maps its batch numbers to those of the store.
     BatchFiller(RowStore& store, const BatchPlan& plan, const RowShape& shape,
                 std::function<std::size_t(std::size_t)> number)
         : store_(store), plan_(plan), shape_(shape), number_(std::move(number)) {}

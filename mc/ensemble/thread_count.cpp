@@ -12,7 +12,7 @@ int thread_count(int ranks_on_this_machine) {
     if (const int asked = machine::threads_asked_for(); asked > 0) {
         return std::min(asked, machine::most_threads());
     }
-    // Ranks that are bound to processors of their own see only those.
+    // A rank that is bound to some of the processors sees only those.
     const int own = machine::processors();
     const int shared = own < sysconf(_SC_NPROCESSORS_ONLN) ? own : own / ranks_on_this_machine;
     return std::clamp(shared, 1, machine::most_threads());

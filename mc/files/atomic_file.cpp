@@ -21,7 +21,7 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// Gives a file another name unless that is taken, and takes the first one away; errno or 0.
+// Renames a file unless the new name exists. Returns errno or 0.
 int rename_to_free(const std::string& from, const std::string& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
         return 0;
@@ -29,7 +29,7 @@ int rename_to_free(const std::string& from, const std::string& to) {
     if (errno != EINVAL && errno != ENOSYS) {
         return errno;
     }
-    // A file system, or a kernel, that cannot; most of them know hard links.
+    // The file system or the kernel does not support renameat2; most support hard links.
     const int error = ::link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
     if (error == 0) {
         ::unlink(from.c_str());
@@ -37,18 +37,18 @@ int rename_to_free(const std::string& from, const std::string& to) {
     return error;
 }
 
-// A new file in the folder of `path`. It has no name while it is written, so that nothing is left
-// of it wherever its writer is killed; where the file system gives none without (NFS), its name is
-// a temporary's from the start.
+// New file in the folder of `path`. It has no name while it is written, so that nothing remains if
+// the writer is killed. Where the file system does not support this (NFS), it has a temporary name
+// from the start.
 class Temporary {
   public:
     explicit Temporary(const std::string& path)
         : name_(name_for(path)),
           file_(::open(folder_of(path).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666)) {
-        // Linking it takes /proc.
+        // Linking an unnamed file requires /proc.
         if (file_.get() < 0 || ::access(source().c_str(), F_OK) != 0) {
-            // What has the temporary's name was left by a process that had this one's number, or
-            // is a trap: it is not opened.
+            // An existing file of this name was left by a process with the same id, or was planted:
+            // it is removed, not opened.
             ::unlink(name_.c_str());
             file_ = Descriptor(::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
             error_ = file_.get() < 0 ? errno : 0;
@@ -67,24 +67,24 @@ class Temporary {
         return path + ".new-" + std::to_string(::getpid());
     }
 
-    // Why it could not be created (errno), or 0.
+    // Reason why the file could not be created (errno), or 0.
     int error() const { return error_; }
     int fd() const { return file_.get(); }
     Descriptor release() { return std::move(file_); }
 
-    // errno of the first failure, 0 if the bytes are safely on the disk.
+    // Returns the errno of the first failure, or 0 if the bytes are safely on the disk.
     int write(std::span<const std::byte> bytes) {
         return write_at(fd(), bytes, 0) && ::fsync(fd()) == 0 ? 0 : errno;
     }
 
-    // Takes the name `path` unless that is taken; errno or 0.
+    // Renames to `path` unless that name exists. Returns errno or 0.
     int take_free(const std::string& path) {
         const int error = named_ ? rename_to_free(name_, path) : link_as(path);
         named_ = named_ && error != 0;
         return error;
     }
 
-    // Takes the name `path`, whatever had it; errno or 0.
+    // Renames to `path`, replacing an existing file. Returns errno or 0.
     int take(const std::string& path) {
         if (!named_) {
             ::unlink(name_.c_str());
@@ -115,7 +115,8 @@ class Temporary {
     bool named_ = false;
 };
 
-// A rename is on the disk once its folder is; some file systems cannot sync folders, and need not.
+// Makes a rename permanent by syncing the folder. Some file systems cannot sync folders and do not
+// need it.
 void sync_folder(const std::string& path) {
     const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) {
@@ -123,7 +124,8 @@ void sync_folder(const std::string& path) {
     }
 }
 
-// Why nothing may be renamed to this name, or "". A name that is free, or a dangling link, is good.
+// Reason why no file may be renamed to this name, or "". A free name or a dangling link is
+// acceptable.
 std::string why_not_replaceable(const std::string& path) {
     struct stat status {};
     if (path.empty()) {
@@ -145,7 +147,7 @@ std::string why_not_replaceable(const std::string& path) {
 }  // namespace
 
 std::string behind_links(std::string path) {
-    constexpr int kMostLinks = 40;  // as the kernel follows
+    constexpr int kMostLinks = 40;  // the kernel's limit
     for (int i = 0; i < kMostLinks; ++i) {
         std::error_code error;
         const std::string next = std::filesystem::read_symlink(path, error).string();
@@ -215,7 +217,9 @@ std::string why_not_pending(const std::string& path) {
     }
     const bool own = S_ISREG(status.st_mode) && status.st_nlink == 1;
     return own ? ""
-               : name + " is in the way, which is a link, a folder, a pipe or a device; remove it";
+               : name +
+                     " has the name of the temporary file, but is a link, a folder, a pipe or a "
+                     "device; remove it";
 }
 
 bool same_file(const std::string& one, const std::string& other) {
@@ -267,7 +271,7 @@ std::string why_not_writable(const std::string& name) {
     if (!S_ISDIR(status.st_mode)) {
         return folder + " is not a folder";
     }
-    // The temporary's name is the longest one.
+    // The temporary name is the longest one.
     if (::lstat(Temporary::name_for(path).c_str(), &status) != 0 && errno == ENAMETOOLONG) {
         return std::strerror(ENAMETOOLONG);
     }

@@ -1,6 +1,6 @@
-// Files that are either absent, old or complete: written to a temporary in the same folder, flushed
-// to the disk, then renamed. A symbolic link stays, and the file it names is written. What exists
-// and is not a regular file (device, pipe, socket) is refused, not replaced.
+// Files that are either absent, old or complete. They are written to a temporary file in the same
+// folder, flushed to the disk and renamed. Symbolic links are kept, and the file they refer to is
+// written. An existing device, pipe or socket is an error and is not replaced.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 namespace gearpod::mc {
 
 // Throws std::runtime_error naming the path and the reason (not writable, not a regular file, disk
-// full); then the file at `path` is as it was and the temporary is gone.
+// full). In this case the file at `path` is unchanged and the temporary file is deleted.
 void write_file(const std::string& path, std::span<const std::byte> bytes);
 
-// A file that is written in pieces under another name and takes its own once it is whole. There is
-// one such name for a path: what a killed writer left there is used again, and two writers at a
-// time must be kept apart by other means.
+// File that is written in pieces under a temporary name and renamed when it is complete. There is
+// one temporary name per path: a file left by a killed writer is reused. Two writers at the same
+// time must be excluded by other means.
 class PendingFile {
   public:
     // Throws std::runtime_error as write_file() does.
     explicit PendingFile(const std::string& path);
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
-    // Without commit() nothing is left.
+    // Deletes the temporary file unless commit() was called.
     ~PendingFile();
 
     const std::string& name() const { return name_; }
-    // Flushes `fd`, which is open on name(), and renames. Throws std::runtime_error.
+    // Flushes `fd`, which must be open on name(), and renames the file. Throws std::runtime_error.
     void commit(int fd);
     // Throws std::runtime_error with the reason of `error` (errno).
     [[noreturn]] void fail(int error) const;
@@ -36,25 +36,24 @@ class PendingFile {
     std::string path_, target_, name_;
 };
 
-// Why write_file(path) could not work (folder missing, read-only, path is a folder or a device),
-// or "".
-// Leaves no file behind and an existing file as it was.
+// Reason why write_file(path) would fail (missing folder, read-only, path is a folder or a device),
+// or "". Leaves no file behind and does not change an existing file.
 std::string why_not_writable(const std::string& path);
 
-// Why no PendingFile(path) can be written: a link, a pipe, a device or a file with a second name is
-// where it would be; or "".
+// Reason why no PendingFile(path) can be written, or "": a link, a pipe, a device or a file with a
+// second name has the temporary name.
 std::string why_not_pending(const std::string& path);
 
-// Whether two names, of which either may not exist yet, are those of one file, links followed.
+// True if both names refer to the same file, after following links. Either file may not exist yet.
 bool same_file(const std::string& one, const std::string& other);
 
-// Creates `path` with an open file of that text, unless something of that name is there: -1 with
-// errno (EEXIST). `prepare` may lock the file, which nobody sees before.
+// Creates `path` with this content and returns an open file descriptor. Returns -1 and sets errno
+// (EEXIST) if the name exists. `prepare` may lock the file before it becomes visible.
 int create_exclusively(const std::string& path, std::span<const std::byte> bytes,
                        const std::function<void(int)>& prepare);
 
-// The file that a chain of symbolic links ends at, whether it exists or not; the links themselves
-// where the chain has no end.
+// Target of a chain of symbolic links, whether it exists or not. Returns the last link followed if
+// the chain has no end.
 std::string behind_links(std::string path);
 
 }  // namespace gearpod::mc

@@ -1,4 +1,5 @@
-// A POSIX file that closes itself, and reading and writing that go on after an interruption.
+// POSIX file descriptor that closes itself, and functions that read and write in full despite
+// interruptions.
 #pragma once
 
 #include <sys/types.h>
@@ -22,7 +23,7 @@ class Descriptor {
     ~Descriptor() { close(); }
 
     int get() const { return fd_; }
-    // The caller closes it.
+    // Passes ownership to the caller, who must close it.
     int release() { return std::exchange(fd_, -1); }
     bool close() {
         const int fd = std::exchange(fd_, -1);
@@ -33,7 +34,7 @@ class Descriptor {
     int fd_;
 };
 
-// False with errno if not all bytes could be written at `offset`.
+// Writes all bytes at `offset`. Returns false and sets errno on failure.
 inline bool write_at(int fd, std::span<const std::byte> bytes, off_t offset) {
     while (!bytes.empty()) {
         const ssize_t written = ::pwrite(fd, bytes.data(), bytes.size(), offset);
@@ -50,7 +51,8 @@ inline bool write_at(int fd, std::span<const std::byte> bytes, off_t offset) {
     return true;
 }
 
-// Bytes read at `offset`: fewer than asked for at the file's end, -1 with errno on failure.
+// Reads at `offset` and returns the number of bytes: fewer than requested at the end of the file,
+// -1 with errno on failure.
 inline ssize_t read_at(int fd, std::span<std::byte> bytes, off_t offset) {
     ssize_t total = 0;
     while (!bytes.empty()) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned kOrdered = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 
-// Times of creation would make equal results different files.
+// Creation times are not stored, because equal results must give equal files.
 Hdf5Handle ordered_properties(hid_t kind, const std::string& attempted) {
     Hdf5Handle properties(H5Pcreate(kind), H5Pclose, attempted);
     if (kind != H5P_DATASET_CREATE) {
@@ -97,7 +97,7 @@ Hdf5Handle open_scalar(hid_t parent, const std::string& object, const std::strin
     return attribute;
 }
 
-// The C library's two calls for a name: its length, then its characters.
+// Calls a function of the C library twice to get a name: first its length, then its characters.
 template <class Get>
 std::string counted_name(Get get) {
     const ssize_t length = get(nullptr, 0);

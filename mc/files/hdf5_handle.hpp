@@ -1,4 +1,5 @@
-// HDF5 identifiers that close themselves, and errors as exceptions instead of printed stacks.
+// HDF5 identifiers that close themselves, and HDF5 errors as exceptions instead of printed error
+// stacks.
 #pragma once
 
 #include <hdf5.h>
@@ -9,7 +10,7 @@
 
 namespace gearpod::mc {
 
-// A failed HDF5 call; `what` names what was attempted.
+// Failure of an HDF5 call; `what` names the attempted operation.
 class Hdf5Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -19,7 +20,7 @@ class Hdf5Handle {
   public:
     using Close = herr_t (*)(hid_t);
 
-    // Takes an identifier as a call returned it; throws Hdf5Error if the call failed.
+    // Takes the return value of an HDF5 call. Throws Hdf5Error if the call failed.
     Hdf5Handle(hid_t id, Close close, const std::string& attempted) : id_(id), close_(close) {
         if (id < 0) {
             throw Hdf5Error(attempted);
@@ -36,7 +37,7 @@ class Hdf5Handle {
 
     hid_t get() const { return id_; }
 
-    // Closes now; throws Hdf5Error if that fails.
+    // Closes the identifier. Throws Hdf5Error if that fails.
     void close_now(const std::string& attempted) {
         if (close_(std::exchange(id_, -1)) < 0) {
             throw Hdf5Error(attempted);
@@ -48,14 +49,14 @@ class Hdf5Handle {
     Close close_;
 };
 
-// Throws Hdf5Error if a call returned a failure.
+// Throws Hdf5Error if the status of a call is a failure.
 inline void check(herr_t status, const std::string& attempted) {
     if (status < 0) {
         throw Hdf5Error(attempted);
     }
 }
 
-// While it lives, HDF5 prints nothing; errors show in return values.
+// Suppresses HDF5's error messages during its lifetime; return values still report errors.
 class SilentHdf5 {
   public:
     SilentHdf5() {

@@ -27,7 +27,8 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::size_t kFreeMemory = std::size_t{256} << 20, kMemoryPerByte = 1000;
-// Without a byte of an answer: so long, and a second for every ten megabytes of the file.
+// Time without any reply after which reading fails: this time, plus one second per ten megabytes of
+// the file.
 constexpr std::uintmax_t kPatience_ms = 8000, kBytes_ms = 10000, kMostPatience_ms = 3600000;
 
 enum class Question : char { names, read, unit, sampling_Hz };
@@ -49,7 +50,7 @@ bool send_all(int fd, const void* data, std::size_t size) {
     return true;
 }
 
-// Waits no longer than that for each part; -1: for ever.
+// Waits at most `patience_ms` for each part; -1 waits without limit.
 bool receive_all(int fd, void* data, std::size_t size, int patience_ms) {
     char* at = static_cast<char*>(data);
     while (size > 0) {
@@ -68,7 +69,7 @@ bool receive_all(int fd, void* data, std::size_t size, int patience_ms) {
     return true;
 }
 
-// A kind, a length, and as many bytes.
+// A message consists of its kind, its length, and the bytes.
 bool send_message(int fd, char kind, std::span<const char> bytes) {
     const std::uint64_t length = bytes.size();
     return send_all(fd, &kind, 1) && send_all(fd, &length, sizeof length) &&
@@ -120,7 +121,7 @@ std::string answer_to(Question question, const std::string& name, SignalFile& fi
     return rate ? bytes_of_doubles(std::array{*rate}) : "";
 }
 
-// So many more bytes of memory than now, and no core file.
+// Limits the memory to the present use plus `more` bytes, and disables core files.
 void limit_memory(std::size_t more) {
     std::ifstream statm("/proc/self/statm");
     std::size_t pages = 0;
@@ -134,16 +135,16 @@ void limit_memory(std::size_t more) {
     ::setrlimit(RLIMIT_CORE, &none);
 }
 
-// What the other process does until nobody asks any more.
+// Main loop of the child process, until the parent closes the connection.
 [[noreturn]] void serve(int fd, const std::string& path, std::size_t memory,
                         const std::function<std::unique_ptr<SignalFile>()>& open) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM}) {
-        ::signal(signal, SIG_DFL);  // whoever watches over the other process
+        ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
     }
     limit_memory(memory);
     std::unique_ptr<SignalFile> file;
-    Question question = Question::names;  // the first answer says whether it opens
+    Question question = Question::names;  // the first reply reports whether the file can be opened
     std::string name;
     for (char kind = 0;; question = static_cast<Question>(kind)) {
         Answer answer = Answer::good;
@@ -156,7 +157,7 @@ void limit_memory(std::size_t more) {
             text = error.what();
         } catch (const std::bad_alloc&) {
             answer = Answer::refused;
-            text = path + ": asks for more memory than it can have, or is damaged";
+            text = path + ": needs more memory than allowed, or is damaged";
         }
         if (!send_message(fd, static_cast<char>(answer), text) || !file ||
             !receive_message(fd, kind, name, -1)) {
@@ -172,8 +173,8 @@ class IsolatedSignal : public SignalFile {
         : path_(path) {
         int ends[2] = {-1, -1};
         if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-            throw SignalError(
-                fmt::format("{}: no socket to read it through ({})", path, std::strerror(errno)));
+            throw SignalError(fmt::format("{}: cannot be read: creating a socket failed ({})", path,
+                                          std::strerror(errno)));
         }
         here_ = std::make_unique<Descriptor>(ends[0]);
         Descriptor there(ends[1]);
@@ -184,8 +185,8 @@ class IsolatedSignal : public SignalFile {
             static_cast<int>(std::min(kPatience_ms + size / kBytes_ms, kMostPatience_ms));
         child_ = ::fork();
         if (child_ < 0) {
-            throw SignalError(
-                fmt::format("{}: no process to read it ({})", path, std::strerror(errno)));
+            throw SignalError(fmt::format("{}: cannot be read: creating a process failed ({})",
+                                          path, std::strerror(errno)));
         }
         if (child_ == 0) {
             ::close(ends[0]);
@@ -229,9 +230,9 @@ class IsolatedSignal : public SignalFile {
         char kind = 0;
         std::string text;
         if (!receive_message(here_->get(), kind, text, patience_ms_)) {
-            throw SignalError(path_ +
-                              ": is damaged: the library that reads this kind of file fails on it, "
-                              "or does not end");
+            throw SignalError(
+                path_ +
+                ": is damaged: the library for this file type crashes on it, or does not finish");
         }
         if (static_cast<Answer>(kind) == Answer::refused) {
             throw SignalError(text);

@@ -1,5 +1,5 @@
-// A signal file that a process of its own reads: what a library does with a damaged one (end by a
-// signal, turn in circles, take all memory) it does there, and here it is a SignalError.
+// Signal file that is read by a child process. If a library crashes, hangs or takes all memory on a
+// damaged file, only the child process is affected, and the caller gets a SignalError.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace gearpod::mc {
 
-// `open` is called in the other process, a copy of this one, and may throw SignalError; it may
-// allocate 256 MB and a thousand times the file's bytes. One call at a time.
+// `open` is called in a forked child process and may throw SignalError. The child may allocate 256
+// MB plus 1000 times the file size. Not thread-safe.
 std::unique_ptr<SignalFile> isolated_signal(
     const std::string& path, const std::function<std::unique_ptr<SignalFile>()>& open);
 

@@ -1,4 +1,4 @@
-// JSON as text that any reader takes.
+// Converts JSON to text that any parser accepts.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,8 +6,8 @@
 
 namespace gearpod::mc {
 
-// One line, or indented. Bytes that are no UTF-8, as file names and foreign attributes may hold,
-// become U+FFFD; numbers that are not finite become null.
+// Text on one line (indent -1) or indented. Bytes that are not valid UTF-8, for example in file
+// names, become U+FFFD. Numbers that are not finite become null.
 std::string json_text(const nlohmann::json& json, int indent = -1);
 std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 

@@ -1,4 +1,4 @@
-// Which reader a signal file is for.
+// Selects the reader of a signal file by the extension of its name.
 #include <algorithm>
 #include <filesystem>
 
@@ -20,7 +20,7 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     });
     const bool hdf5 = kind == ".h5" || kind == ".hdf5";
     if (row && !hdf5) {
-        throw SignalError(path + ": has no rows to choose one from; HDF5 files may");
+        throw SignalError(path + ": has no rows to select from; only HDF5 files can have rows");
     }
     if (kind == ".csv") {
         return open_signal_csv(path);
@@ -39,12 +39,12 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     }
     if (kind == ".tdms") {
         throw SignalError(path +
-                          ": TDMS files are not read; export it as HDF5 or CSV, in Python with "
-                          "nptdms: TdmsFile.read(FILE).as_hdf(OUT)");
+                          ": TDMS files are not supported; export it as HDF5 or CSV, in Python "
+                          "with nptdms: TdmsFile.read(FILE).as_hdf(OUT)");
     }
-    throw SignalError(path +
-                      ": unknown kind of file; its name must end in .csv, .h5, .hdf5, .mat, .wav, "
-                      ".uff or .unv");
+    throw SignalError(
+        path +
+        ": unknown file type; its name must end in .csv, .h5, .hdf5, .mat, .wav, .uff or .unv");
 }
 
 }  // namespace gearpod::mc

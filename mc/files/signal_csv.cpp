@@ -1,4 +1,4 @@
-// CSV files of signals.
+// Reads CSV files of signals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class SignalCsv : public SignalFile {
         }
         std::string line;
         for (long number = 1; std::getline(stream, line); ++number) {
-            if (number == 1 && line.starts_with("\xEF\xBB\xBF")) {  // a byte order mark
+            if (number == 1 && line.starts_with("\xEF\xBB\xBF")) {  // byte order mark
                 line.erase(0, 3);
             }
             const std::string_view text = trimmed_field(line);
@@ -100,7 +100,7 @@ class SignalCsv : public SignalFile {
         for (std::size_t c = 0; c < parts.size(); ++c) {
             const auto value = number_of(parts[c], separator_ != ',');
             if (!value) {
-                throw SignalError(fmt::format("{}:{}: column {}: \"{}\" is no number", path_,
+                throw SignalError(fmt::format("{}:{}: column {}: \"{}\" is not a number", path_,
                                               number, names_[c], parts[c].substr(0, 40)));
             }
             columns_[c].push_back(*value);

@@ -1,4 +1,4 @@
-// Recorded signals in a file: named columns of one length, CSV, HDF5 or MAT.
+// Recorded signals in a file: named columns of equal length.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// What is wrong with a signal file; names file and place.
+// Problem with a signal file; the message names the file and the place.
 class SignalError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -21,37 +21,37 @@ class SignalFile {
 
     // Names of the columns.
     virtual std::vector<std::string> names() const = 0;
-    // A column of that name, which must be there. Throws SignalError.
+    // Values of a column, which must exist. Throws SignalError.
     virtual std::vector<double> read(const std::string& name) = 0;
-    // The unit of a column, if the file says so; else "".
+    // Unit of a column if the file states it, else "".
     virtual std::string unit(const std::string&) { return ""; }
-    // The sampling rate, if the file says so.
+    // Sampling rate if the file states it.
     virtual std::optional<double> sampling_Hz() { return std::nullopt; }
 
     bool has(const std::string& name) const;
 };
 
-// Opens a file by the end of its name; those that a library reads (HDF5, MAT) in a process of
-// their own (isolated_signal.hpp). Throws SignalError.
-//   .csv         a header line of names with their units in brackets ("sensor [m/s^2]"), then a
-//   line
-//                of numbers a sample; commas, semicolons or tabs between them, decimal commas where
-//                none stand between; lines that begin with # are comments
-//   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root, or a row of
-//   those
-//                of two; the rate may be an attribute sampling_Hz of the group or the root; an
-//                attribute scale of a dataset is a factor on its values, unit their unit; what
-//                lies in other files (links, external and virtual storage) is refused
-//   .mat         variables that are real vectors (MATLAB 4 to 7.3), and fields of structs that are,
-//                as "s.sensor"; the rate may be a variable or field sampling_Hz; tables are refused
-//   .wav         the column sensor, or channel1, channel2, ...; whole numbers as a share of the full
-//                scale
-//   .uff, .unv   dataset 58, real and even in time: the column sensor, or function1, function2, ...
-// `row`, from 0: the record of an HDF5 file whose datasets hold one in each row.
+// Opens a file according to the extension of its name. HDF5 and MAT files are read in a child
+// process (isolated_signal.hpp). Throws SignalError.
+//   .csv         A header line with names and units in brackets ("sensor [m/s^2]"), then a line
+//                of numbers per sample. The separator is a comma, semicolon or tab; decimal
+//                commas are accepted if the separator is not a comma. Lines that begin with #
+//                are comments.
+//   .h5, .hdf5   One-dimensional datasets in the group /signals, or else in the root; with
+//                `row`, rows of two-dimensional ones. Optional attributes: sampling_Hz of the
+//                group or the root, scale (a factor) and unit of a dataset. Data in other files
+//                (links, external and virtual storage) are rejected.
+//   .mat         Real vectors (MATLAB 4 to 7.3), also as fields of structs ("s.sensor"). The
+//                sampling rate may be a variable or field sampling_Hz. Tables are rejected.
+//   .wav         The column sensor, or channel1, channel2, ...; integers are fractions of the
+//                full scale.
+//   .uff, .unv   Dataset 58, real and evenly sampled in time: the column sensor, or function1,
+//                function2, ...
+// `row`, from 0: index of the record in an HDF5 file that has one record per row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row = std::nullopt);
 
-// One for each kind of file, here.
+// Readers for the kinds of file.
 std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
                                              std::optional<std::size_t> row);

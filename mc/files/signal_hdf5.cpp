@@ -1,4 +1,4 @@
-// HDF5 files of signals, as simulate writes them or from elsewhere.
+// Reads HDF5 files of signals, as `simulate` and other programs write them.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,7 +10,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Whether a member's values lie in another file, which whoever wrote this one has chosen.
+// True if the values of a member are in another file. The author of the file could choose any path
+// for it.
 bool lies_elsewhere(hid_t group, const std::string& name) {
     H5L_info_t link{};
     check(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), name);
@@ -27,7 +28,7 @@ bool lies_elsewhere(hid_t group, const std::string& name) {
     return H5Pget_external_count(made.get()) > 0 || H5Pget_layout(made.get()) == H5D_VIRTUAL;
 }
 
-// Dimensions of a dataset of numbers; 0 if `name` is none.
+// Number of dimensions of a numeric dataset; 0 if `name` is not one.
 int dimensions_of(hid_t group, const std::string& name) {
     H5O_info_t info{};
     if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
@@ -51,14 +52,15 @@ Shape shape_of(hid_t group, const std::string& name) {
 
 void refuse_elsewhere(const std::string& path, hid_t group, const std::string& name) {
     if (lies_elsewhere(group, name)) {
-        throw SignalError(fmt::format(
-            "{}: {} lies in another file (a link, or external or virtual storage), which is not "
-            "read; copy it into this one, as h5py's group.copy or h5copy does",
-            path, printable(name)));
+        throw SignalError(
+            fmt::format("{}: {} is stored in another file (by a link, or external or virtual "
+                        "storage), which is not supported; copy it into this file, for example "
+                        "with h5copy or h5py's group.copy",
+                        path, printable(name)));
     }
 }
 
-// The group /signals, or the root.
+// The group /signals if it exists, else the root.
 Hdf5Handle signals_of(const std::string& path, hid_t file) {
     if (H5Lexists(file, "signals", H5P_DEFAULT) <= 0) {
         return open_group(file, "/");
@@ -67,7 +69,8 @@ Hdf5Handle signals_of(const std::string& path, hid_t file) {
     return open_group(file, "signals");
 }
 
-// By name: groups from elsewhere do not know the order of their creation.
+// Names in alphabetical order, because groups of other programs do not record the order of
+// creation.
 std::vector<std::string> columns_of(const std::string& path, hid_t group, int dimensions) {
     H5G_info_t info{};
     check(H5Gget_info(group, &info), "names");
@@ -103,7 +106,7 @@ class SignalHdf5 : public SignalFile {
     std::vector<double> read(const std::string& name) override {
         const SilentHdf5 silent;
         try {
-            // Compressed values may be many times the file's bytes.
+            // Compressed values may be much larger than the file.
             constexpr std::size_t kMostCompressed = 1000;
             std::vector<double> values =
                 row_ ? row_of(name, kMostCompressed * most_)
@@ -128,7 +131,7 @@ class SignalHdf5 : public SignalFile {
         try {
             return read_text(group_.get(), name, "unit");
         } catch (const Hdf5Error&) {
-            throw SignalError(fmt::format("{}: the unit of {} must be a text", path_, name));
+            throw SignalError(fmt::format("{}: the unit of {} must be text", path_, name));
         }
     }
 
@@ -153,8 +156,9 @@ class SignalHdf5 : public SignalFile {
             throw Hdf5Error(name);
         }
         if (*row_ >= shape[0]) {
-            throw SignalError(fmt::format("{}: {} has {} rows, but row {} is asked for (from 0)",
-                                          path_, name, shape[0], *row_));
+            throw SignalError(
+                fmt::format("{}: {} has {} rows, but row {} is requested (counted from 0)", path_,
+                            name, shape[0], *row_));
         }
         std::vector<double> values;
         read_rows(group_.get(), name, shape, {*row_, 1}, values);
@@ -176,7 +180,7 @@ std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
     try {
         return std::make_unique<SignalHdf5>(path, row);
     } catch (const Hdf5Error&) {
-        throw SignalError(path + ": is no HDF5 file, or damaged");
+        throw SignalError(path + ": is not an HDF5 file, or is damaged");
     }
 }
 

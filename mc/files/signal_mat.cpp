@@ -1,4 +1,4 @@
-// MAT files of signals, read by matio.
+// Reads MAT files of signals with matio.
 #include <fmt/format.h>
 #include <matio.h>
 
@@ -22,7 +22,7 @@ std::vector<double> values_of(const matvar_t& matrix, std::size_t count) {
     return {first, first + count};
 }
 
-// The classes of numbers, among matio's others.
+// Numeric classes of matio.
 struct NumberClass {
     matio_classes type;
     std::vector<double> (*values)(const matvar_t&, std::size_t);
@@ -35,7 +35,7 @@ constexpr NumberClass kNumberClasses[] = {
     {MAT_C_INT8, values_of<std::int8_t>},   {MAT_C_UINT8, values_of<std::uint8_t>},
 };
 
-// Empty unless the matrix holds real numbers.
+// Values of the matrix as doubles; empty unless they are real numbers.
 std::vector<double> numbers(const matvar_t& matrix, std::size_t count) {
     if (matrix.data == nullptr || matrix.isComplex != 0 ||
         matrix.nbytes != count * static_cast<std::size_t>(matrix.data_size)) {
@@ -55,9 +55,9 @@ bool is_real_vector(const matvar_t& matrix) {
            (matrix.dims[0] == 1 || matrix.dims[1] == 1);
 }
 
-// MAT files of version 5 (and 7) are elements one after another: type and length of 4 bytes each,
-// then as many bytes. matio takes what is missing of a cut one for zeros. Of MathWorks' description
-// of the format ("MAT-File Level 5").
+// True if a MAT file of version 5 or 7 is truncated; matio would read the missing part as zeros.
+// The file is a sequence of elements: type and length (4 bytes each), then the data. Source:
+// MathWorks, "MAT-File Level 5 File Format".
 bool is_cut(const std::string& path) {
     constexpr std::uint64_t kHeader = 128, kTag = 8;
     std::ifstream file(path, std::ios::binary | std::ios::ate);
@@ -73,7 +73,7 @@ bool is_cut(const std::string& path) {
     const bool little = header[126] == 'I' && header[127] == 'M';
     const bool big = header[126] == 'M' && header[127] == 'I';
     if ((!little && !big) || header[little ? 125 : 124] != 1) {
-        return false;  // of another version
+        return false;  // another version
     }
     std::array<unsigned char, kTag> tag{};
     std::uint64_t at = kHeader;
@@ -90,7 +90,7 @@ bool is_cut(const std::string& path) {
     return false;
 }
 
-// One struct, not an array of them.
+// True for a single struct, false for an array of structs.
 bool is_struct(const matvar_t& matrix) {
     return matrix.class_type == MAT_C_STRUCT && matrix.rank == 2 && matrix.dims[0] == 1 &&
            matrix.dims[1] == 1;
@@ -101,10 +101,10 @@ class SignalMat : public SignalFile {
     explicit SignalMat(const std::string& path)
         : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
         if (!file_) {
-            throw SignalError(path + ": is no MAT file, or damaged");
+            throw SignalError(path + ": is not a MAT file, or is damaged");
         }
         if (is_cut(path)) {
-            throw SignalError(path + ": is cut off before its end");
+            throw SignalError(path + ": is truncated");
         }
         for (;;) {
             const Matrix matrix(Mat_VarReadNextInfo(file_.get()), Mat_VarFree);
@@ -117,8 +117,8 @@ class SignalMat : public SignalFile {
         }
         if (names_.empty() && !objects_.empty()) {
             throw SignalError(fmt::format(
-                "{}: {} is a table, timetable or object, which is not read; in MATLAB save its "
-                "columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
+                "{}: {} is a table, timetable or object, which is not supported; in MATLAB, save "
+                "its columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
                 path, printable(objects_)));
         }
     }
@@ -128,7 +128,7 @@ class SignalMat : public SignalFile {
     std::vector<double> read(const std::string& name) override {
         const SilentHdf5 silent;
         Mat_Rewind(file_.get());
-        // "s.sensor": variable and field; names of variables have no dots.
+        // "s.sensor" is a variable and its field; variable names contain no dots.
         const std::size_t dot = name.find('.');
         const Matrix whole(Mat_VarRead(file_.get(), name.substr(0, dot).c_str()), Mat_VarFree);
         const matvar_t* matrix = whole.get();
@@ -162,7 +162,7 @@ class SignalMat : public SignalFile {
     }
 
   private:
-    // A vector, or the vectors that are fields of a struct.
+    // Adds a vector, or the vectors among the fields of a struct.
     void list(matvar_t& matrix) {
         if (is_object(matrix)) {
             objects_ += (objects_.empty() ? "" : ", ") + std::string(matrix.name);
@@ -180,7 +180,7 @@ class SignalMat : public SignalFile {
         }
     }
 
-    // Of a class that matio does not know, as tables are, or knows as MATLAB's own.
+    // True for classes that matio does not know, such as tables, and for MATLAB objects.
     static bool is_object(const matvar_t& matrix) {
         const matio_classes type = matrix.class_type;
         return type == MAT_C_EMPTY || type == MAT_C_OBJECT || type == MAT_C_OPAQUE;
@@ -189,7 +189,7 @@ class SignalMat : public SignalFile {
     std::string path_;
     std::unique_ptr<mat_t, int (*)(mat_t*)> file_;
     std::vector<std::string> names_;
-    std::string objects_;  // variables that are tables and the like
+    std::string objects_;  // variables that are tables or objects
 };
 
 }  // namespace

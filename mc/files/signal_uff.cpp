@@ -1,5 +1,5 @@
-// Universal files of measured functions: dataset 58 of SDRC's I-DEAS, as text or (58b) with its
-// values as bytes; evenly spaced real time histories.
+// Reads universal files of measured functions: dataset 58 of SDRC's I-DEAS, as text or with binary
+// values (58b). Only real, evenly spaced time histories are supported.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class Reading {
             }
         }
         if (all.empty()) {
-            refuse("holds no dataset 58 (a measured function)");
+            refuse("contains no dataset 58 (a measured function)");
         }
         return all;
     }
@@ -62,32 +62,32 @@ class Reading {
             trimmed_field(at < line.size() ? line.substr(at, width) : std::string()));
         const auto value = number_of(text, false);
         if (!value) {
-            refuse(fmt::format("\"{}\" is no number", text.substr(0, 40)));
+            refuse(fmt::format("\"{}\" is not a number", text.substr(0, 40)));
         }
         return *value;
     }
 
-    // `binary`: the dataset's first line where the values are bytes, else "".
+    // `binary`: first line of the dataset if its values are binary, else "".
     History read_function(const std::string& binary) {
         std::array<std::string, 11> records;
         for (std::string& record : records) {
             if (!next(record)) {
-                refuse("ends within the head of a dataset 58");
+                refuse("ends within the header of a dataset 58");
             }
         }
         const std::string& form = records[6];
         const double type = field(form, 0, 10), count = field(form, 10, 10);
         if (field(records[5], 0, 5) != 1.0 || field(form, 20, 10) != 1.0 ||
             (type != 2.0 && type != 4.0)) {
-            refuse("is no evenly spaced real time history");
+            refuse("is not an evenly spaced, real time history");
         }
         if (!(count >= 1.0 && count <= 1e9)) {
-            refuse(fmt::format("{:g} values cannot be", count));
+            refuse(fmt::format("{:g} is not a valid number of values", count));
         }
         History history;
         history.step_s = field(form, 43, 13);
         if (!(history.step_s > 0.0 && std::isfinite(1.0 / history.step_s))) {
-            refuse(fmt::format("a time step of {:g} s cannot be", history.step_s));
+            refuse(fmt::format("{:g} s is not a valid time step", history.step_s));
         }
         if (records[8].size() > 46) {
             history.unit = std::string(trimmed_field(records[8].substr(46, 20)));
@@ -102,7 +102,8 @@ class Reading {
     void read_text(std::size_t count, std::size_t width, History& history) {
         for (std::string line; history.values.size() < count;) {
             if (!next(line) || trimmed_field(line) == "-1") {
-                refuse(fmt::format("{} of {} values are there", history.values.size(), count));
+                refuse(
+                    fmt::format("only {} of {} values are present", history.values.size(), count));
             }
             line.erase(line.find_last_not_of(" \r") + 1);
             for (std::size_t at = 0; at < line.size() && history.values.size() < count;
@@ -117,9 +118,10 @@ class Reading {
                     History& history) {
         const bool little = field(head, 7, 6) == 1.0;
         if (field(head, 13, 6) != 2.0) {
-            refuse("its bytes are no IEEE numbers");
+            refuse("its binary values are not IEEE numbers");
         }
-        // No more than the file has, whatever it says.
+        // Reads in blocks: the count in the file may be wrong, and memory must not exceed the file
+        // size.
         std::string bytes;
         std::array<char, 65536> block;
         for (std::size_t left = count * width; left > 0 && stream_;) {
@@ -128,7 +130,7 @@ class Reading {
             left -= static_cast<std::size_t>(stream_.gcount());
         }
         if (bytes.size() < count * width) {
-            refuse(fmt::format("{} of {} values are there", bytes.size() / width, count));
+            refuse(fmt::format("only {} of {} values are present", bytes.size() / width, count));
         }
         for (std::size_t i = 0; i < count; ++i) {
             std::uint64_t raw = 0;

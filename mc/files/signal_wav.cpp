@@ -1,4 +1,5 @@
-// WAV files (RIFF): whole numbers of 8, 16, 24 and 32 bits and floating-point numbers of 32 and 64.
+// Reads WAV files (RIFF): integers of 8, 16, 24 and 32 bits, and floating-point numbers of 32 and
+// 64 bits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint16_t kWhole = 1, kFloating = 3, kExtensible = 0xFFFE;
 
-// Little-endian, whatever the machine.
+// Little-endian number, independent of the machine's byte order.
 std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t count) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -30,7 +31,7 @@ class SignalWav : public SignalFile {
         bytes_.assign(std::istreambuf_iterator<char>(stream), {});
         if (bytes_.size() < 12 || bytes_.compare(0, 4, "RIFF") != 0 ||
             bytes_.compare(8, 4, "WAVE") != 0) {
-            refuse("is no WAV file, or damaged");
+            refuse("is not a WAV file, or is damaged");
         }
         for (std::size_t at = 12; at + 8 <= bytes_.size();) {
             const std::string kind = bytes_.substr(at, 4);
@@ -40,13 +41,13 @@ class SignalWav : public SignalFile {
                 read_format(at, size);
             } else if (kind == "data") {
                 first_ = at;
-                // A recorder that was cut off leaves a length that the file has not.
+                // An interrupted recorder leaves a length larger than the file.
                 length_ = std::min(size, bytes_.size() - at);
             }
             at += size + size % 2;
         }
         if (channels_ == 0 || length_ == 0) {
-            refuse("is a WAV file without samples, or damaged");
+            refuse("is a WAV file without samples, or is damaged");
         }
     }
 
@@ -99,7 +100,7 @@ class SignalWav : public SignalFile {
                             kind_, bits_));
         }
     }
-    // Whole numbers as a share of the full scale.
+    // Value of a sample; integers are scaled to full scale 1.
     double sample(std::uint64_t raw) const {
         if (kind_ == kFloating) {
             return bits_ == 64 ? std::bit_cast<double>(raw)

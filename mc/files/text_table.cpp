@@ -17,7 +17,7 @@ constexpr std::size_t kMostRows = 1000000;
 constexpr std::size_t kMostColumns = 10000;
 constexpr std::size_t kLongestLine = 1 << 20;
 
-// Quoted fields may hold the separator, and quotes doubled.
+// Splits a line. Quoted fields may contain the separator and doubled quotes.
 std::vector<std::string> quoted_fields(std::string_view line, char separator) {
     std::vector<std::string> parts(1);
     bool quoted = false;
@@ -116,7 +116,7 @@ TextTable read_text_table(const std::string& path) {
             text.remove_prefix(3);
         }
         if (text.size() > kLongestLine || text.find('\0') != std::string_view::npos) {
-            throw SignalError(fmt::format("{}:{}: is no line of text", path, number));
+            throw SignalError(fmt::format("{}:{}: is not a line of text", path, number));
         }
         const std::string_view seen = trimmed_field(text);
         if (seen.empty() || seen.front() == '#') {

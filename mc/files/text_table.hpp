@@ -1,4 +1,5 @@
-// Tables of text in CSV files: a header line of names, then a line of fields a row.
+// Reads and writes tables of text in CSV files: a header line of names, then one line of fields per
+// row.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@ namespace gearpod::mc {
 
 struct TableColumn {
     std::string name;  // without the unit
-    std::string unit;  // in brackets behind the name, "[mm]" or "(mm)"; may be empty
+    std::string unit;  // in brackets after the name, "[mm]" or "(mm)"; may be empty
 };
 
 struct TextTable {
@@ -18,29 +19,30 @@ struct TextTable {
     char separator = ',';
     std::vector<TableColumn> columns;
     std::vector<std::vector<std::string>> rows;
-    std::vector<long> lines;  // of each row, from 1
+    std::vector<long> lines;  // line number of each row, from 1
 
-    // The column of that name, unless there is none.
+    // Index of the column with this name, if it exists.
     std::optional<std::size_t> find(const std::string& name) const;
-    // "a, b, c", the first twenty.
+    // List of the names, "a, b, c"; at most twenty.
     std::string names() const;
 };
 
-// Commas, semicolons or tabs between the fields, as the header has them; fields may stand in double
-// quotes; lines that begin with # are comments; a byte order mark is left aside. Throws SignalError
-// (signal_file.hpp) at the first line that does not fit, or with more than a million rows.
+// Reads a CSV file. The separator is the comma, semicolon or tab that the header uses. Fields may
+// be in double quotes, lines that begin with # are comments, and a byte order mark is skipped.
+// Throws SignalError (signal_file.hpp) at the first invalid line, or if there are more than a
+// million rows.
 TextTable read_text_table(const std::string& path);
 
-// The text as a field to write (RFC 4180): in double quotes where one of the separators, a quote or
-// an end of line is inside.
+// The text as a CSV field (RFC 4180): in double quotes if it contains a separator, a quote or an
+// end of line.
 std::string csv_field(const std::string& text, std::string_view separators = ",");
 
-// Without blanks and quotes around it.
+// The field without surrounding blanks and quotes.
 std::string_view trimmed_field(std::string_view text);
-// "sensor [m/s^2]" in its parts.
+// Splits a header such as "sensor [m/s^2]" into name and unit.
 TableColumn column_of(std::string_view header);
-// The whole field as a number, with a decimal comma if that is allowed; NaN and infinity are
-// numbers.
+// Value of a field that is a number as a whole; NaN and infinity are accepted. A decimal comma is
+// accepted if `decimal_comma` is set.
 std::optional<double> number_of(std::string_view field, bool decimal_comma);
 
 }  // namespace gearpod::mc

@@ -14,22 +14,22 @@
 namespace gearpod::mc {
 namespace {
 
-// Bytes that the assessment has of every value (gearbox, feature and noise level) at a time:
-// columns, their parts by size, ranks. From the peaks of `report` on results of 48,000, 126,000 and
-// 420,000 values.
+// Peak memory of the assessment in bytes per value (gearbox, feature and noise level): columns,
+// their parts by size, ranks. Measured for `report` on results of 48,000, 126,000 and 420,000
+// values.
 constexpr double kBytesOfValue = 60.0;
 
-// Of every record while a feature's rates are counted at one noise level, beside its values
-// (row_source.hpp), whose columns grow by doubling.
+// Memory in bytes per record while the rates of a feature are counted at one noise level, and per
+// value of its columns (row_source.hpp), which grow by doubling.
 constexpr double kBytesOfRecord = 60.0, kBytesOfColumns = 16.0;
 
 double sum_of_products(const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-// Least-squares parabola through values over sizes, of whose terms (orthogonal over the sizes) only
-// those stay that are three standard errors or more: what the few computed gearboxes leave open
-// must not look like a finding among many.
+// Least-squares parabola through values over sizes, in terms that are orthogonal over the sizes.
+// Only terms of at least three standard errors are kept: the uncertainty of a few gearboxes must
+// not look like an effect.
 class Trend {
   public:
     Trend(const std::vector<double>& sizes, const std::vector<double>& values) {
@@ -66,7 +66,7 @@ class Trend {
         square_ = b2 * b2 * p2 >= least ? b2 : 0.0;
     }
 
-    // But for a constant.
+    // Without the constant term.
     double at(double size) const {
         const double x = size - mean_;
         return linear_ * x + square_ * (x * x - square_mean_ - square_slope_ * x);
@@ -77,7 +77,7 @@ class Trend {
     double linear_ = 0.0, square_ = 0.0;
 };
 
-// The computed gearboxes of one group, by fault size.
+// Computed gearboxes of one group, sorted by fault size.
 class Pool {
   public:
     Pool(const RunCalibration& calibration, const RowShape& shape, Group group)
@@ -93,7 +93,7 @@ class Pool {
 
     bool empty() const { return order_.empty(); }
 
-    // A gearbox of that size or, with no such, any.
+    // Random gearbox with this fault size, or any gearbox of the group if there is none.
     std::size_t draw(double wanted, Philox& engine) const {
         auto [low, high] =
             std::pair(std::partition_point(order_.begin(), order_.end(),
@@ -108,7 +108,7 @@ class Pool {
                            0, high - low - 1)(engine));
     }
 
-    // How a feature follows the size.
+    // Trend of a feature over the fault size.
     Trend trend(std::size_t feature, std::size_t level) const {
         std::vector<double> sizes, values;
         for (const std::size_t row : order_) {
@@ -124,7 +124,8 @@ class Pool {
         return rows_.values[row * shape_.values() + shape_.value_of(feature, level)];
     }
 
-    // The smoothing's standard deviation: of the values, over the fifth root of their number.
+    // Standard deviation of the smoothing: that of the values, divided by the fifth root of their
+    // number.
     double smoothing(std::size_t feature, std::size_t level) const {
         double sum = 0.0, squares = 0.0, n = 0.0;
         for (const std::size_t row : order_) {
@@ -149,7 +150,7 @@ class Pool {
     std::vector<std::size_t> order_;
 };
 
-// Noise levels from the middle on.
+// Noise levels in order of their distance from the middle one.
 std::vector<std::size_t> level_order(std::size_t levels) {
     std::vector<std::size_t> order(levels);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -161,7 +162,7 @@ std::vector<std::size_t> level_order(std::size_t levels) {
     return order;
 }
 
-// Areas and curves rest on gearboxes, whatever records they have.
+// Number of gearboxes, on which areas and curves are based, independent of the number of records.
 std::size_t gearboxes_of(const BatchPlan& plan) {
     return plan.threshold_gearboxes() + plan.graded_rows();
 }
@@ -192,11 +193,12 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
         results.noise_levels.push_back(study.sensor.noise_levels[level]);
     }
     results.request.noise_levels = results.noise_levels;
-    results.contact_loss.clear();  // no part of the analysis
+    results.contact_loss.clear();  // not part of the analysis
 
     std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
                               Pool(calibration, shape, Group::graded)};
-    // Healthy gearboxes scatter as those of the threshold sample do, or as all do if none is there.
+    // Values of healthy gearboxes scatter as in the threshold sample; without one, as in all
+    // gearboxes.
     const Pool& scatter = pools[pools[0].empty() ? 1 : 0];
     std::vector<double> smoothing;
     std::array<std::vector<Trend>, 2> trends;
@@ -243,7 +245,7 @@ double assessment_bytes(const Study& study, const BatchPlan& plan) {
     if (plan.threshold_records() == 1) {
         return gearboxes;
     }
-    // Of several records all, so long as there is room for these.
+    // With several records per gearbox, all records count if they fit into memory.
     const std::size_t of_feature = plan.rows() * study.sensor.noise_levels.size();
     const std::size_t all = of_feature * study.features.use.size();
     if (all <= kMostAssessedValues) {

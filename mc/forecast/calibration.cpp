@@ -19,10 +19,10 @@ std::size_t at(Group group) {
     return static_cast<std::size_t>(group);
 }
 
-constexpr std::size_t kTriedRecords = 4;  // of a gearbox; further ones cost as much
+constexpr std::size_t kTriedRecords = 4;  // per gearbox; further records cost as much
 
-// All tiles of a plan, one after another: first one of each group, then here and there, so that any
-// first part of them is spread over the ensemble. They are counted, not listed.
+// Enumerates all tiles of a plan without storing them. The first ones come from each group; the
+// order spreads every leading subset over the ensemble.
 class SpreadTiles {
   public:
     SpreadTiles(const BatchPlan& plan, std::size_t lanes)
@@ -30,7 +30,7 @@ class SpreadTiles {
           lanes_(lanes),
           healthy_(tiles(plan.threshold_gearboxes())),
           all_(healthy_ + tiles(plan.graded_rows())),
-          // Near the golden section of the whole, and without a common divisor.
+          // Close to the golden section of the number of tiles, and coprime to it.
           stride_(std::max<std::size_t>(1, all_ / 1000 * 618 + all_ % 1000 * 618 / 1000)) {
         while (std::gcd(stride_, all_) != 1) {
             ++stride_;
@@ -57,7 +57,7 @@ class SpreadTiles {
         return place;
     }
 
-    // A batch is filled by whole tiles but for the last one of its group.
+    // Full batches consist of whole tiles; only the last batch of a group may be incomplete.
     std::size_t tiles(std::size_t rows) const {
         return rows / kBatchRows * ((kBatchRows + lanes_ - 1) / lanes_) +
                (rows % kBatchRows + lanes_ - 1) / lanes_;
@@ -84,12 +84,12 @@ struct MeasuredTile {
     BatchRows rows = {};
     Seconds work = {};
     double wall_s = 0.0;
-    bool first = false;   // of its thread
-    bool reused = false;  // its motion
-    bool again = false;   // the same gearboxes once more
+    bool first = false;   // first tile of its thread
+    bool reused = false;  // its motion came from the cache
+    bool again = false;   // repetition with the same gearboxes
 };
 
-// What the threads of a calibration share.
+// Measures tiles on several threads. Its members are common to all threads.
 class Measurement {
   public:
     Measurement(const BatchTask& task, const SpreadTiles& tiles, bool reusable, double budget_s)
@@ -144,7 +144,7 @@ class Measurement {
     std::vector<MeasuredTile> measured_;
 };
 
-// Means over tiles of one kind.
+// Mean cost of tiles of one kind.
 class Mean {
   public:
     void add(const MeasuredTile& tile) {
@@ -172,7 +172,7 @@ class Mean {
     int tiles_ = 0;
 };
 
-// Of a group's tiles; of a thread's first ones only if there are no others.
+// Mean cost of a group's tiles. First tiles of threads count only if there are no others.
 TileCost cost_of(const std::vector<MeasuredTile>& all, Group group, bool reused,
                  const TileCost& otherwise) {
     for (const bool first : {false, true}) {
@@ -202,19 +202,19 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
     return threads == 0 ? 0.0 : std::max(0.0, sum / threads);
 }
 
-// A tile that records `measured`'s meshes, as one that records all of `whole`. Its records and
-// their baselines are marched alike.
+// Converts the cost of a tile that recorded the mesh periods of `measured` to that of all mesh
+// periods of `whole`. Test and baseline records scale alike.
 void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
     if (measured.recorded_meshes() == whole.recorded_meshes()) {
         return;
     }
-    const bool marched = cost.whole.meshes > 0;  // otherwise copied
+    const bool marched = cost.whole.meshes > 0;  // otherwise copied from the cache
     cost.whole.march *=
         marched ? marched_meshes(whole) / marched_meshes(measured)
                 : static_cast<double>(whole.recorded_meshes()) / measured.recorded_meshes();
 }
 
-// Meshes that a tile may record.
+// Number of mesh periods that a tile may record within the budget.
 int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
     const int all = scene.recorded_meshes();
     if (scene.study().numerics.horizon == Horizon::reuse || mesh_s == 0.0) {
@@ -276,7 +276,7 @@ RunCalibration calibrate_run(const Scene& scene, const BatchPlan& plan, int thre
     result.to_record = scene.recorded_meshes();
     const bool moves = !scene.study().effects.quasi_static();
     const double mesh_s = moves ? mesh_period_s(scene) : 0.0;
-    // So that a thread has two.
+    // Half of the budget, so that a thread can compute two tiles.
     result.recorded = choose_recorded(scene, mesh_s, 0.5 * budget_s);
     const double all_records = motion_bytes(scene), whole_march_s = mesh_s * marched_meshes(scene);
     const Scene measured = scene.recording_at_most(result.recorded);

@@ -1,4 +1,4 @@
-// What a run of a study costs, measured on some of its gearboxes by the code that runs them.
+// Measures the cost of a run on some of its gearboxes, with the code of the run itself.
 #pragma once
 
 #include <array>
@@ -9,59 +9,59 @@
 
 namespace gearpod::mc {
 
-// Seconds of one thread for a tile: as many gearboxes as there are lanes, computed at once.
+// Seconds of one thread for a tile: as many gearboxes as there are lanes, computed together.
 struct TileCost {
-    Seconds whole;      // of any tile, full or not: sampling, stiffness, march, signals
-    Seconds row;        // of each of its gearboxes: noise, features
-    double rest = 0.0;  // of any tile: asking gearboxes that failed why, waiting for a processor
+    Seconds whole;      // per tile, full or not: sampling, stiffness, time integration, signals
+    Seconds row;        // per record: noise, features
+    double rest = 0.0;  // per tile: diagnosis of failed gearboxes, waiting for a processor
 
     double seconds(std::size_t rows) const {
         return whole.sum() + rest + static_cast<double>(rows) * row.sum();
     }
 };
 
-// Of the gearboxes of one group.
+// Cost of the gearboxes of one group.
 struct GroupCost {
-    TileCost fresh;   // marched
-    TileCost reused;  // with a motion that an earlier tile left behind (march_cache.hpp)
+    TileCost fresh;   // integrated
+    TileCost reused;  // with the motion of an earlier tile (march_cache.hpp)
 };
 
-// Process memory, bytes.
+// Process memory in bytes.
 struct MemoryUse {
-    double before = 0.0;   // the most before any gearbox was computed
-    double peak = 0.0;     // and after
-    double records = 0.0;  // that a run has beside it: motion that was not recorded
-    double kept = 0.0;     // likewise: motions kept for later tiles
+    double before = 0.0;   // peak before the first gearbox was computed
+    double peak = 0.0;     // peak afterwards
+    double records = 0.0;  // additional memory of a run: motion that was not recorded here
+    double kept = 0.0;     // additional memory of a run: motion cached for later tiles
 };
 
 struct RunCalibration {
     int threads = 0;
-    double wall_s = 0.0;  // of the tiles
-    double task_s = 0.0;  // what all threads share: path tables, healthy records
-    // A thread's first tile takes so much longer: its tables, cold caches, fresh memory.
+    double wall_s = 0.0;  // for the tiles
+    double task_s = 0.0;  // data common to all threads: path tables, healthy records
+    // Additional time of a thread's first tile: its tables, cold caches, new memory.
     double start_s = 0.0;
-    std::array<GroupCost, 2> cost;  // by Group
-    // The gearboxes that were computed, an entry each; rows as BatchRows has them.
+    std::array<GroupCost, 2> cost;  // indexed by Group
+    // Computed gearboxes, one entry per record; rows as in BatchRows.
     std::vector<GearboxId> gearboxes;
     BatchRows rows;
-    // Mesh periods recorded one by one of those that a run records; fewer only where every mesh is
-    // marched and a tile would take too long. `cost` is that of all of them.
+    // Number of mesh periods recorded here and in a run. They differ only if every mesh period is
+    // integrated and a tile would take too long. `cost` is that of all mesh periods.
     int recorded = 0, to_record = 0;
-    long meshes = 0;  // marched in all
+    long meshes = 0;  // total number integrated
     MemoryUse memory;
-    // Where even a tile of the fewest mesh periods takes too long, nothing is computed but one
-    // healthy mesh period, and `cost` has a march of as many as it takes.
+    // True if even a tile with the fewest mesh periods takes too long. Then only one healthy mesh
+    // period is computed, and `cost` contains only the time integration extrapolated from it.
     bool march_alone = false;
 };
 
 inline constexpr int kFewestMeshes = 8;
-// The longest tile that is computed, seconds by the time of a mesh period.
+// Longest tile that is computed, in seconds, estimated from the time of one mesh period.
 inline constexpr double kLongestTile_s = 5.0;
 
-// Computes tiles from all over the ensemble on all threads at once: two a thread (unless there
-// are fewer, or they are slow), and more until `budget_s` seconds are over. A tile that would take
-// longer than that because every mesh is marched records fewer meshes, kFewestMeshes at least; its
-// march then counts for what all of them take.
+// Computes tiles from the whole ensemble on all threads: two per thread (unless there are fewer or
+// they are slow), and more until `budget_s` seconds are over. If every mesh period is integrated
+// and a tile would take longer, it records fewer mesh periods, at least kFewestMeshes. The measured
+// time is then extrapolated to all mesh periods.
 RunCalibration calibrate_run(const Scene& scene, const BatchPlan& plan, int threads,
                              double budget_s);
 

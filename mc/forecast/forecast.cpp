@@ -12,11 +12,11 @@
 namespace gearpod::mc {
 namespace {
 
-// What describing a study leaves out: a checkpoint and a results file are made and written, with
-// the HDF5 library at work. From runs of two gearboxes; a slow disk's syncing comes on top.
+// Costs of a run that `describe` does not have: writing a checkpoint and a results file, and the
+// HDF5 library. Measured for runs of two gearboxes; syncing to a slow disk takes longer.
 constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
 
-// Hands out the tiles of a group: those that march before those that need not.
+// Costs of the tiles of a group in order: first those to integrate, then those found in the cache.
 class Tiles {
   public:
     Tiles(const GroupCost& cost, std::size_t marched) : cost_(cost), marches_left_(marched) {}
@@ -68,7 +68,7 @@ Seconds all_work(const RunCalibration& calibration, const BatchPlan& plan, std::
 double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
                    const MarchCounts& marches) {
     auto tiles = tiles_of(calibration, marches);
-    // When each thread is free again, the first to be on top.
+    // Times at which the threads become free; the earliest is on top.
     std::priority_queue<double, std::vector<double>, std::greater<>> free(
         {},
         std::vector<double>(static_cast<std::size_t>(calibration.threads), calibration.start_s));
@@ -103,7 +103,7 @@ double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double 
                     double analysis_bytes) {
     const double kept =
         std::max(0.0, memory.kept + static_cast<double>(marches.kept) * motion_bytes);
-    // The analysis has what the gearboxes leave.
+    // The analysis reuses the memory of the gearboxes.
     return std::max(memory.peak + memory.records + kept,
                     memory.before + analysis_bytes + kFileBytes);
 }

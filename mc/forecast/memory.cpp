@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// "MemAvailable:   123 kB" and the like, in bytes.
+// Entry such as "MemAvailable:   123 kB", in bytes.
 double entry_of(const char* path, const std::string& name, double otherwise) {
     std::ifstream stream(path);
     for (std::string word; stream >> word;) {
@@ -23,7 +23,7 @@ double entry_of(const char* path, const std::string& name, double otherwise) {
     return otherwise;
 }
 
-// The one number in a file; "max" and no file are no limit.
+// Number in a file. "max" or a missing file means no limit.
 double number_in(const char* path) {
     std::ifstream stream(path);
     double number = 0.0;

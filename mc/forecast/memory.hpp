@@ -3,10 +3,11 @@
 
 namespace gearpod::mc {
 
-// The most memory this process has had so far; 0 if the system does not say.
+// Peak memory of this process so far; 0 if the system does not report it.
 double peak_memory_bytes();
 
-// What this process may still take: of the machine, of its control group, of its own limit.
+// Memory that this process may still allocate: the minimum for the machine, its control group and
+// its own limit.
 double memory_at_hand_bytes();
 
 }  // namespace gearpod::mc

@@ -1,4 +1,5 @@
-// The sensor and encoders of a tile that is marched mesh by mesh, and the sensor's gain.
+// Records the accelerometer and encoder signals of a tile while it is being integrated, and applies
+// the gain of the sensor.
 #pragma once
 
 #include <memory>
@@ -13,20 +14,20 @@
 namespace gearpod::mc {
 
 bool has_gain(std::span<const InstanceInputs> inputs);
-// The sensor's gain, into what was recorded of each lane's motion.
+// Multiplies the recorded acceleration of each lane by the sensor gain of that lane's gearbox.
 void amplify(std::span<const InstanceInputs> inputs, machine::AlignedVector& acceleration);
 
 std::vector<double> path_exponents(std::span<const InstanceInputs> inputs);
 
 class Ears {
   public:
-    // Of the sensor's samples the first `kept_meshes` are kept; -1: all. `inputs`, one a lane, must
-    // outlive it, and `path` the march.
+    // Keeps the first `kept_meshes` mesh periods of sensor samples; -1 keeps all. `inputs` has one
+    // entry per lane and must outlive the object. `path` must outlive the time integration.
     Ears(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
          std::span<const InstanceInputs> inputs, int kept_meshes);
 
-    // Recorded mesh k, as lockstep::TileSettings::hear. Where fewer are recorded than the signal
-    // has, it repeats them.
+    // Takes the record of mesh period k; matches lockstep::TileSettings::hear. If fewer mesh
+    // periods are recorded than the signal has, the signal repeats them.
     void operator()(int k, const lockstep::MeshRecord& record);
 
     std::unique_ptr<signals::HeardSpan> take_heard() { return std::move(heard_); }

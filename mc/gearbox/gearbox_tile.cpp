@@ -23,15 +23,16 @@
 namespace gearpod::mc {
 namespace {
 
-// Seconds since `start`, which moves on to now.
+// Returns the seconds since `start` and sets `start` to now.
 double lap(WallClock::time_point& start) {
     const auto now = WallClock::now();
     return std::chrono::duration<double>(now - std::exchange(start, now)).count();
 }
 
-// What of a march is wanted besides its records, and what it may start from.
+// Optional outputs of a time integration, and the healthy states that it may start from.
 struct MarchWishes {
     bool with_motion = false;
+    int contact_meshes = 0;
     bool keep_states = false;
     const std::vector<lockstep::TileState>* healthy = nullptr;
     std::function<void(int, const lockstep::MeshRecord&)> hear = nullptr;
@@ -47,6 +48,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wish
     settings.compose = superposition(scene).healthy && wishes.healthy == nullptr;
     settings.compose_faulty = superposition(scene).faulty;
     settings.with_motion = wishes.with_motion;
+    settings.contact_meshes = wishes.contact_meshes;
     settings.keep_states = wishes.keep_states;
     settings.healthy = wishes.healthy;
     settings.hear = wishes.hear;
@@ -102,7 +104,7 @@ Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::L
         return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_settled;
     }
     if (ok) {
-        // A motion that nothing excites does not grow although it would.
+        // A solution without excitation does not grow even if it is unstable.
         return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
                                               scene.mean_pairs())
                    ? Status::supercritical
@@ -126,7 +128,7 @@ Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::L
 signals::PathGrid path_grid(const Scene& scene) {
     const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
     if (planetary == nullptr || scene.study().effects.path == nullptr) {
-        // One sensor that weighs the same whatever turns.
+        // A sensor on the housing: one window with constant weight.
         return {signals::path_window("rectangular"), 1, scene.samples_per_mesh(), scene.span()};
     }
     const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
@@ -166,7 +168,7 @@ void march_and_hear(const Scene& scene, const signals::PathGrid& path,
     tile.signals_s += ears.spent_s();
 }
 
-// What the sensors see of a tile that has been marched.
+// Computes the signals of the sensors from an integrated tile.
 void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
                  GearboxTile& tile) {
     add_status(scene, ids, tile);
@@ -183,7 +185,7 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
             amplify(tile.inputs, record.acceleration);
         }
     }
-    // A gearbox without inertia shakes no sensor.
+    // A quasi-static gearbox has no inertia and therefore no acceleration.
     if (!scene.study().effects.quasi_static()) {
         tile.tones = draw_tones(scene, ids, tile.inputs);
         const signals::FoldPlan plan(tile.march.content, scene.span());
@@ -198,7 +200,9 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
 void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
                  const TileWishes& wanted, GearboxTile& tile) {
     const MarchCache* const kept = wanted.with_motion ? nullptr : wanted.marches;
-    const MarchWishes wishes{.with_motion = wanted.with_motion, .keep_states = wanted.keep_states};
+    const MarchWishes wishes{.with_motion = wanted.with_motion,
+                             .contact_meshes = wanted.contact_meshes,
+                             .keep_states = wanted.keep_states};
     const bool recorded = wanted.with_motion || wanted.keep_states || wanted.with_records;
     auto start = WallClock::now();
     if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
@@ -231,8 +235,8 @@ std::vector<GearboxId> baselines_of(std::span<const GearboxId> ids) {
     return earlier;
 }
 
-// The baseline records' signals, status and times; their motion is freed before the judged ones are
-// marched.
+// Computes signals, status and times of the baseline records. Their motion is freed before the test
+// records are integrated.
 GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest, const MarchCache* marches) {
     const int meshes = looked_at_meshes(scene);
@@ -249,7 +253,7 @@ GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const sign
     return tile;
 }
 
-// Of the judged gearboxes, what their baselines' status leaves.
+// Replaces the status `ok` of each test record by the status of its baseline record.
 void judge_with_baselines(std::span<const Status> earlier, GearboxTile& tile) {
     for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
         if (tile.status[lane] == Status::ok) {
@@ -271,8 +275,8 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
     tile.marched_instead += earlier.marched_instead;
 }
 
-// Of gearboxes that fill at most half of the lanes: their baseline records in other lanes of the
-// same tile, behind the judged ones.
+// Runs gearboxes that fill at most half of the lanes. Their baseline records take further lanes of
+// the same tile, after the test records.
 GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
                              const signals::PathGrid& path, std::span<const GearboxId> ids,
                              int lanes, TileWishes wishes) {

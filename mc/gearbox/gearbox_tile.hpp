@@ -1,4 +1,4 @@
-// W gearboxes of a study from their sampled inputs to recorded motion and folded signals.
+// Computes recorded motion and folded signals of a tile of W gearboxes from their sampled inputs.
 #pragma once
 
 #include <memory>
@@ -18,86 +18,92 @@ namespace gearpod::mc {
 
 class MarchCache;  // march_cache.hpp
 
-// One lane of a tile.
+// Signals of one lane of a tile.
 struct LaneSignals {
     std::vector<double> folded;   // as GearboxTile::folded
     std::vector<double> te_turn;  // as GearboxTile::te_turn
     std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
-    // Of the gearbox's baseline record, kept by the tile; null unless features compare with it.
+    // Signals of the gearbox's baseline record, owned by the tile. Null unless a feature compares
+    // with the baseline.
     const LaneSignals* baseline = nullptr;
 };
 
-// A tile's results; `march.records` owns what `views` shows: the healthy mesh alone where `heard`
-// has taken the others.
+// Results of a tile. `march.records` owns the data that `views` refers to. If `heard` recorded the
+// sensor signal, `march.records` holds only the healthy mesh period.
 struct GearboxTile {
-    std::vector<InstanceInputs> inputs;  // one per lane
+    std::vector<InstanceInputs> inputs;  // one entry per lane
     lockstep::TileResult march;
-    std::vector<Status> status;  // of the gearboxes asked for
+    std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
-    std::unique_ptr<signals::HeardSpan> heard;  // or null
-    signals::Tones tones;                       // interfering; empty without
+    std::unique_ptr<signals::HeardSpan> heard;  // null if the records were kept
+    signals::Tones tones;                       // interfering tones; may be empty
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
-    // Of the gearboxes asked for; none unless features compare with it.
+    // One entry per requested gearbox. Empty unless a feature compares with the baseline record.
     std::vector<LaneSignals> baseline;
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
-    // Records of the gearboxes asked for, baselines among them, that were superposed, and those
-    // that were to be but were marched.
+    // Number of records (baselines included) computed by superposition, and number that fell back
+    // to full integration.
     std::ptrdiff_t superposed = 0, marched_instead = 0;
-    int meshes = 0;            // mesh periods marched for it, 0 if `march` was there before
-    double march_cpu_s = 0.0;  // the march's share of this thread's processor time
+    int meshes = 0;  // mesh periods integrated for this tile; 0 if `march` came from the cache
+    double march_cpu_s = 0.0;  // processor time of this thread for the time integration
 };
 
-// The path's tables for a scene.
+// Tables of the transfer path of a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
-// What is wanted of a tile beside its signals.
+// Optional outputs of a tile.
 struct TileWishes {
-    // With either, or for its own sake, the records of every mesh.
+    // If with_motion, keep_states or with_records is set, the records of every mesh period are
+    // kept.
     bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
+    int contact_meshes = 0;                         // as in lockstep::TileSettings
     bool with_records = false;
-    // Mesh periods of the sensor's samples that will be looked at where these are heard; -1: all.
+    // Number of mesh periods of sensor samples to keep if the signal is recorded during
+    // integration; -1 keeps all.
     int signal_meshes = -1;
-    const MarchCache* marches = nullptr;  // what was marched before is not marched again
+    const MarchCache* marches = nullptr;  // earlier results, which are reused
 };
 
-// Runs the gearboxes in `ids` (and before them, or beside them where half of the lanes are free,
-// their baseline records, where features compare with them: a gearbox whose baseline fails has
-// failed), at most as many as there are lanes: `fewest` (16, 8, 4 or 1) or the next number that the
-// program has kernels for. Missing lanes repeat the last one. Where every mesh is marched, the
-// sensors hear it as it comes, and it is not kept.
+// Runs the gearboxes in `ids`, at most one per lane. The number of lanes is `fewest` (16, 8, 4 or
+// 1) or the next larger number for which the program has kernels. Unused lanes repeat the last
+// gearbox. If features compare with baseline records, these run first, or in the same tile if half
+// of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh period is
+// integrated, the sensor signals are recorded during integration and the motion is not kept.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
                           const TileWishes& wishes = {});
 
-// The judged records of gearboxes with these inputs, whatever the study's distributions say,
-// without baselines.
+// Runs the test records of gearboxes with the given inputs, without baselines. The distributions of
+// the study are not used.
 GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
                       std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
                       int fewest, const TileWishes& wishes = {});
 
-// Of gearboxes with these inputs, as many as there were lanes, the meshes that their faults change,
-// marched from the states that were kept of the same without: inputs, march and status alone.
+// Integrates only the mesh periods that the faults of gearboxes with the given inputs change.
+// Starts from the healthy states of the same gearboxes; their number must equal the number of
+// lanes. Sets only inputs, march and status of the result.
 GearboxTile run_changes(const Scene& scene, std::span<const GearboxId> ids,
                         std::vector<InstanceInputs> inputs,
                         const std::vector<lockstep::TileState>& healthy);
 
-// Of what was recorded of the tile's march, which must outlive them.
+// Views of the recorded motion of a tile, which must outlive them.
 signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
 
-// As run_gearboxes from a march made elsewhere, of as many lanes as it has a status.
+// Completes a tile from a time integration made elsewhere, as run_gearboxes does. The number of
+// lanes is the number of status entries of `march`.
 GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult march);
 
-// The contact loss ratio of each of the gearbox's meshes: means over the gear pairs of a mesh,
-// whose number is `meshes`. None of no meshes.
+// Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.
+// `meshes` is the number of meshes; 0 gives an empty result.
 std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes);
 
-// `meshes`: mesh periods of sensor signal, 0 for none.
+// Signals of one lane. `meshes` is the number of mesh periods of sensor signal, 0 for none.
 LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
                          int lane, int meshes);
-// The same of all gearboxes asked for, at once.
+// Signals of all requested gearboxes, computed together.
 std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
                                           const GearboxTile& tile, int meshes);
 

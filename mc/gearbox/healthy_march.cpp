@@ -23,10 +23,10 @@ void remove_mean(std::vector<double>& values) {
     }
 }
 
-// Of the span, those that were marched again, and where each of them is recorded.
+// Mesh periods of the span that were integrated again, and the record of each of them.
 struct ChangedMeshes {
     std::vector<int> meshes;
-    signals::Timeline timeline;  // the others show any record
+    signals::Timeline timeline;  // unchanged mesh periods refer to an arbitrary record
 
     explicit ChangedMeshes(const lockstep::TileResult& march) : timeline(march.content) {
         for (std::size_t k = 0; k < timeline.size(); ++k) {
@@ -90,7 +90,7 @@ HealthyMarch::Signals HealthyMarch::with_fault(double size) const {
     const GearboxTile changed = run_changes(scene_, ids_, inputs_of(size), states_);
     Signals all = healthy_;
     for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
-        all.lane[lane].folded.clear();  // those of the gearbox without a fault
+        all.lane[lane].folded.clear();  // the folded squares of the healthy gearbox no longer apply
         if (all.status[lane] == Status::ok) {
             all.status[lane] = changed.status[lane];
         }
@@ -101,7 +101,7 @@ HealthyMarch::Signals HealthyMarch::with_fault(double size) const {
     return all;
 }
 
-// Tooth j's average changes by the mean of what its turns' meshes change (signals::average_te).
+// Adds to the average of tooth j the mean change of its mesh periods (signals::average_te).
 void HealthyMarch::change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const {
     const auto per_mesh = static_cast<std::size_t>(scene_.te_samples_per_mesh());
     const std::size_t width = inputs_.size(),

@@ -1,6 +1,6 @@
-// Gearboxes that are marched once without a fault, and then at any size of it: where every mesh is
-// marched for itself, a fault changes but those that it passes and some behind, and no others are
-// marched again.
+// Integrates gearboxes once without a fault, then again for any fault size. If every mesh period is
+// integrated separately, a fault changes only its passages and the mesh periods of decay after
+// them. Only these are integrated again.
 #pragma once
 
 #include <span>
@@ -10,26 +10,27 @@
 
 namespace gearpod::mc {
 
-// Whether a fault marches but what differs from the march without; otherwise all of it.
+// True if only the perturbation from the healthy solution has to be integrated.
 bool marches_changes_alone(const Scene& scene);
 
-// The scene, the path and the ids must outlive it.
+// Healthy reference solution of a tile, and its solutions with a fault. The scene, the path and the
+// ids must outlive it.
 class HealthyMarch {
   public:
-    // `inputs`: of the gearboxes in `ids`, with whatever fault. Their gain is taken as 1: the
-    // records amplify.
+    // `inputs` holds the inputs of the gearboxes in `ids`; their fault sizes are ignored. The
+    // sensor gain is taken as 1, because the records apply it later.
     HealthyMarch(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
                  std::vector<InstanceInputs> inputs, int fewest);
 
-    // Of the gearboxes: sensor and transmission error, and how the march ended; a gearbox that
-    // failed has no signals.
+    // Sensor signal, transmission error and status of each gearbox. A gearbox that failed has no
+    // signals.
     struct Signals {
         std::vector<LaneSignals> lane;
         std::vector<Status> status;
     };
     const Signals& healthy() const { return healthy_; }
-    // All with a fault of that size, SI. Changed meshes are those of a march of all of them but for
-    // the settling tolerance.
+    // Signals of all gearboxes with a fault of this size (SI units). They equal those of a full
+    // integration within the convergence tolerance.
     Signals with_fault(double size) const;
 
   private:
@@ -41,9 +42,9 @@ class HealthyMarch {
     const Scene& scene_;
     const signals::PathGrid& path_;
     const std::span<const GearboxId> ids_;
-    std::vector<InstanceInputs> inputs_;  // one a lane
+    std::vector<InstanceInputs> inputs_;  // one per lane
     std::vector<lockstep::TileState> states_;
-    std::vector<machine::AlignedVector> te_;  // of every mesh: MeshRecord::te
+    std::vector<machine::AlignedVector> te_;  // MeshRecord::te of every mesh period
     Signals healthy_;
 };
 

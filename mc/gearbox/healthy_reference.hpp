@@ -1,4 +1,4 @@
-// What trending features compare with: the records of a few healthy gearboxes of the study.
+// Mean properties of a few healthy records of the study; trending features compare with them.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ struct HealthyReference {
     }
 };
 
-// Sums records up, then divides.
+// Accumulates healthy records and returns their mean.
 class HealthyRecordsMean {
   public:
     explicit HealthyRecordsMean(std::size_t levels);
-    // `input` holds the averaged sensor signal's parts.
+    // `input` must hold the parts of the averaged sensor signal.
     void add(std::size_t level, const features::FeatureInput& input);
-    // NaN without records.
+    // NaN if no record was added.
     HealthyReference mean() const;
 
   private:
@@ -35,10 +35,11 @@ class HealthyRecordsMean {
     std::vector<int> records_;
 };
 
-// Of the first eight gearboxes of the threshold sample, with their own noise: those that worked.
+// Mean over the first eight gearboxes of the threshold sample, with their own noise. Gearboxes that
+// failed are left out.
 HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
                                      const signals::PathGrid& path);
-// The same, but empty unless a feature that the study uses needs it.
+// The same mean; empty unless a feature of the study needs it.
 HealthyReference healthy_reference(const Scene& scene, const Sampler& sampler,
                                    const signals::PathGrid& path);
 

@@ -9,7 +9,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the sensor in an earlier record of the gearbox.
+// Rms of the sensor noise in the baseline record of the gearbox, m/s^2.
 double earlier_noise(const Study& study, const InstanceInputs& inputs, const GearboxId& earlier) {
     const RandomInput* drawn = study.find_random("sensor.noise_m_s2");
     return drawn != nullptr && drawn->distribution.per_record()

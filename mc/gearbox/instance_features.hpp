@@ -1,4 +1,4 @@
-// From one gearbox's signals to its features at every noise level.
+// Computes the features of one gearbox at every noise level from its signals.
 #pragma once
 
 #include <memory>
@@ -9,20 +9,20 @@
 
 namespace gearpod::mc {
 
-// What the features of one noise level look at.
+// Signals from which features are computed at one noise level.
 struct LevelSignals {
     std::vector<double> te_turn;    // rad, Z_p P_te samples
-    std::vector<double> tooth_rms;  // m/s^2, Z_p; empty without a sensor
+    std::vector<double> tooth_rms;  // m/s^2, Z_p values; empty without a sensor
 };
 
-// The features that a study uses.
+// Computes the features that a study uses.
 class InstanceFeatures : public InstanceSignals {
   public:
-    // `healthy` is that of healthy_reference() and outlives the object.
+    // `healthy` comes from healthy_reference() and must outlive the object.
     InstanceFeatures(const Scene& scene, const HealthyReference* healthy);
 
-    // Values of all used features: [feature * noise levels + level]. `signals` gets what they look
-    // at, an entry a noise level, unless it is null.
+    // Values of all used features, [feature * noise levels + level]. If `signals` is not null, one
+    // entry per noise level is appended to it.
     std::vector<double> compute(const LaneSignals& gearbox, const InstanceInputs& inputs,
                                 const GearboxId& id, std::vector<LevelSignals>* signals = nullptr);
 
@@ -33,7 +33,7 @@ class InstanceFeatures : public InstanceSignals {
     std::vector<const features::Feature*> features_;
     const HealthyReference* healthy_;
     std::size_t levels_;
-    // Where features compare with them.
+    // Null unless a feature compares with the baseline record.
     std::unique_ptr<InstanceSignals> baseline_, change_;
     LaneSignals changed_;
 };

@@ -15,7 +15,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Adds the time of its life to a sum.
+// Adds its own lifetime in seconds to a sum.
 class Stopwatch {
   public:
     explicit Stopwatch(double& sum) : sum_(sum) {}
@@ -45,8 +45,8 @@ std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& input
         low_pass_noise(scene, inputs).draw(engine, std::span(unit));
         return unit;
     }
-    // A gearbox has a stream for its sensor noise, one for its encoder noise, and this one for the
-    // directions that spell a drawn sensor noise out sample by sample.
+    // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
+    // the directions that expand folded sensor noise to individual samples.
     Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor.direction");
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);

@@ -1,11 +1,11 @@
-// From a number of lanes to the code that is compiled for it.
+// Calls code that is compiled for a fixed number of lanes.
 #pragma once
 
 #include <type_traits>
 
 namespace gearpod::mc {
 
-// call(std::integral_constant<int, W>) for W = 1, 4, 8 or 16 lanes.
+// Calls call(std::integral_constant<int, W>) for W = 1, 4, 8 or 16 lanes.
 template <class Call>
 auto with_lane_count(int lanes, Call call) {
     if (lanes == 1) {

@@ -1,4 +1,4 @@
-// What one gearbox of a tile, or all of them, give to the features.
+// Extracts the signals of one gearbox of a tile, or of all of them.
 #include "mc/gearbox/ears.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "signals/sensor/sensor.hpp"
@@ -20,7 +20,7 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
 
 namespace {
 
-// All but the sensor's samples.
+// All signals of a lane except the sensor samples.
 LaneSignals folded_lane(const GearboxTile& tile, int lane) {
     const auto lanes = static_cast<std::size_t>(tile.views.lanes);
     LaneSignals own;

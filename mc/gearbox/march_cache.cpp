@@ -16,7 +16,7 @@ static_assert(std::is_trivially_copyable_v<InstanceInputs> &&
                   sizeof(InstanceInputs) % sizeof(double) == 0,
               "the inputs of a gearbox are compared byte by byte");
 
-// All inputs of the march, bit by bit.
+// Bytes of all inputs on which the time integration depends; a key for exact comparison.
 std::string key_of(std::span<const InstanceInputs> lanes) {
     std::string key;
     for (InstanceInputs inputs : lanes) {
@@ -52,7 +52,7 @@ std::optional<std::size_t> distinct_marches(const Scene& scene) {
             return std::nullopt;
         }
         if (input.key.starts_with("fault.")) {
-            values.push_back(0.0);  // the threshold sample
+            values.push_back(0.0);  // the healthy gearboxes of the threshold sample
         }
         std::sort(values.begin(), values.end());
         count *=
@@ -62,7 +62,7 @@ std::optional<std::size_t> distinct_marches(const Scene& scene) {
 }
 
 MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double motion_bytes) {
-    // More distinct ones than that do not come again before they are many.
+    // With more distinct gearboxes than this, repetitions are too rare to count.
     constexpr std::size_t kMostDistinct = 2000;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const std::array<std::size_t, 2> rows{plan.threshold_gearboxes(), plan.graded_rows()};
@@ -77,7 +77,8 @@ MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double moti
         }
         const Sampler sampler(scene.study());
         const std::size_t before = keys.size();
-        // n distinct gearboxes in turn fill at most n different tiles; the last may not be full.
+        // n distinct gearboxes in cyclic order fill at most n different tiles; the last tile may be
+        // partly filled.
         for (std::size_t t = 0; t < tiles;
              t = t + 1 < distinct ? t + 1 : std::max(t + 1, tiles - 1)) {
             std::vector<InstanceInputs> inputs;
@@ -94,7 +95,7 @@ MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double moti
     }
     const auto room = static_cast<std::size_t>(kMostBytes / std::max(1.0, motion_bytes));
     counts.kept = std::min(room, keys.size());
-    // What found no room is marched again whenever it comes.
+    // Results that do not fit into the cache are integrated again each time.
     const double lost = 1.0 - static_cast<double>(counts.kept) /
                                   static_cast<double>(std::max<std::size_t>(1, keys.size()));
     for (std::size_t g = 0; g < rows.size(); ++g) {

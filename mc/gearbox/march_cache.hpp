@@ -1,5 +1,5 @@
-// Dynamics that a study needs more than once. Path exponent, gain and noise have no part in the
-// march: a study whose other inputs take few values marches the same eight gearboxes again and
+// Cache of time integrations that a study needs repeatedly. Path exponent, gain and noise do not
+// affect the motion. If the other inputs take few values, the same eight gearboxes occur again and
 // again.
 #pragma once
 
@@ -19,26 +19,27 @@
 
 namespace gearpod::mc {
 
-// How many gearboxes of the study differ in what their march depends on; none if all of them do: an
-// input of the march has a continuous distribution, or every tooth or planet its own errors.
+// Number of gearboxes of the study that differ in inputs of the time integration. Empty if all of
+// them differ: such an input has a continuous distribution, or every tooth or planet has its own
+// errors.
 std::optional<std::size_t> distinct_marches(const Scene& scene);
 
-// How often a run of the plan marches, by group: tiles (of as many gearboxes as there are lanes)
-// whose motion no tile before them has left behind. `motion_bytes`: of a tile's records.
+// Number of tiles that a run of the plan integrates, by group. Tiles hold as many gearboxes as
+// there are lanes; tiles found in the cache are not counted. `motion_bytes`: size of the records of
+// a tile.
 struct MarchCounts {
     std::array<std::size_t, 2> marched{};
-    std::size_t kept = 0;  // motions in the cache at the end
+    std::size_t kept = 0;  // results in the cache at the end
 };
 MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double motion_bytes);
 
-// Results of marched tiles by the inputs of their gearboxes, 256 MB of them at most; what finds no
-// room is marched again. A result that is used again has the bits of its march. All threads may use
-// it at once.
+// Results of integrated tiles, by the inputs of their gearboxes; at most 256 MB. Results that do
+// not fit are integrated again. A cached result is bitwise equal to a new integration. Thread-safe.
 class MarchCache {
   public:
     explicit MarchCache(const Scene& scene) : active_(distinct_marches(scene).has_value()) {}
 
-    // Null if these gearboxes, lane by lane, were not kept.
+    // Null if these gearboxes, in this order of lanes, are not in the cache.
     std::shared_ptr<const lockstep::TileResult> find(std::span<const InstanceInputs> lanes) const;
     void keep(std::span<const InstanceInputs> lanes, const lockstep::TileResult& result) const;
 

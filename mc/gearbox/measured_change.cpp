@@ -22,7 +22,7 @@ MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
         std::min({record.sensor_meshes / teeth, baseline.sensor_meshes / teeth, of_span});
     if (!record.has_sensor || !baseline.has_sensor || turns < 1) {
         throw SignalError(
-            fmt::format("{}: a baseline and its recording must both have {} mesh "
+            fmt::format("{}: the baseline and the recording must both have at least {} mesh "
                         "periods of sensor signal",
                         baseline_file, teeth));
     }
@@ -39,15 +39,15 @@ MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
     }
     change.correlation = signals::correlation(now, before);
     if (!(change.correlation >= kLeastCorrelation)) {
-        throw SignalError(
-            fmt::format("{}: the recording is not like this baseline (correlation {:.2f}): another "
-                        "gearbox or speed{}",
-                        baseline_file, change.correlation,
-                        turns == of_span || turns == 1
-                            ? ""
-                            : fmt::format(", or another place to begin, which only recordings of "
-                                          "{} mesh periods or of one averaged planet turn may have",
-                                          scene.span_meshes())));
+        throw SignalError(fmt::format(
+            "{}: the recording does not resemble this baseline (correlation {:.2f}): another "
+            "gearbox or speed{}",
+            baseline_file, change.correlation,
+            turns == of_span || turns == 1
+                ? ""
+                : fmt::format(", or another start position, which is allowed only for recordings "
+                              "of {} mesh periods or of one averaged planet turn",
+                              scene.span_meshes())));
     }
     std::transform(now.begin(), now.end(), before.begin(), before.begin(), std::minus<>());
     change.signal.sensor = std::move(before);

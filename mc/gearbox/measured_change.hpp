@@ -1,4 +1,4 @@
-// What has changed in a measured gearbox since an earlier recording of it.
+// Change of a measured gearbox since an earlier recording of it.
 #pragma once
 
 #include "mc/gearbox/measured_signal.hpp"
@@ -6,17 +6,17 @@
 namespace gearpod::mc {
 
 struct MeasuredChange {
-    // The sensor's signal less the baseline's, over as many planet turns as both have; no
-    // transmission error.
+    // Difference of the two sensor signals, over the planet turns that both have. No transmission
+    // error.
     MeasuredSignal signal;
-    // Mesh periods by which the baseline was turned on to begin where the recording does; only
-    // recordings of the whole span, or of one averaged planet turn, repeat and can be turned.
+    // Mesh periods by which the baseline was shifted to align it with the recording. Only
+    // recordings of the whole span or of one averaged planet turn are periodic and can be shifted.
     double meshes = 0.0;
-    double correlation = 0.0;  // of both, as they were then subtracted
+    double correlation = 0.0;  // of both signals after alignment
 };
 
-// Without a sensor signal of a planet turn in both, or where they are not alike (a correlation
-// below 0.2), throws SignalError with the reason; `baseline_file` names the baseline there.
+// Throws SignalError if a recording has less than one planet turn of sensor signal, or if the
+// correlation is below 0.2. `baseline_file` is the baseline's name in messages.
 MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
                                const MeasuredSignal& baseline, const std::string& baseline_file);
 

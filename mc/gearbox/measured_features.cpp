@@ -21,9 +21,9 @@ namespace {
 
 using features::Feature;
 
-constexpr int kFewestOfParts = 4;  // samples a mesh period that can be parted (mesh_separation.hpp)
+constexpr int kFewestOfParts = 4;  // samples per mesh period that mesh_separation.hpp needs
 
-// Why a feature cannot be had of this signal; "" if it can.
+// Reason why a feature cannot be computed from this signal; "" if it can.
 std::string missing(const Feature& feature, const Scene& scene, const MeasuredSignal& signal,
                     bool has_reference) {
     const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
@@ -39,20 +39,20 @@ std::string missing(const Feature& feature, const Scene& scene, const MeasuredSi
     const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
     const int needed = meshes_of(feature, scene);
     if (has < needed) {
-        return fmt::format("{} mesh periods, but it takes {}", has, needed);
+        return fmt::format("{} mesh periods, but {} are needed", has, needed);
     }
     if ((feature.needs & features::kTeParts) != 0 && scene.te_samples_per_mesh() < kFewestOfParts) {
-        return fmt::format("the study's encoders sample {} times a mesh period, but it takes {}",
-                           scene.te_samples_per_mesh(), kFewestOfParts);
+        return fmt::format(
+            "the study's encoders take {} samples per mesh period, but {} are needed",
+            scene.te_samples_per_mesh(), kFewestOfParts);
     }
     if ((feature.needs & features::kHealthy) != 0 && !has_reference) {
-        return "no healthy gearboxes at that noise level to compare with: give --healthy or "
-               "--noise-level";
+        return "no healthy reference at this noise level: give --healthy or --noise-level";
     }
     return "";
 }
 
-// The signals of a recording as features look at them.
+// Prepares the signals of a recording for feature computation.
 class MeasuredInput {
   public:
     MeasuredInput(const Scene& scene, unsigned needs) : scene_(scene), analysis_(scene, needs) {}
@@ -71,7 +71,7 @@ class MeasuredInput {
     }
 
   private:
-    // Over as many planet turns as there are, at most those of the span.
+    // Averages over all available planet turns, at most those of the span.
     void add_te(const MeasuredSignal& signal, features::FeatureInput& input) {
         const std::size_t turn = static_cast<std::size_t>(scene_.span().planet_teeth) *
                                  static_cast<std::size_t>(scene_.te_samples_per_mesh());
@@ -87,7 +87,7 @@ class MeasuredInput {
             value -= sum / static_cast<double>(turn);
             deviation = std::max(deviation, std::abs(value));
         }
-        // What then is left is rounding, whose ratios say nothing.
+        // The remainder is rounding error; its ratios are meaningless.
         if (deviation <= kRounding * largest) {
             std::fill(te_.begin(), te_.end(), 0.0);
         }
@@ -106,7 +106,8 @@ class MeasuredInput {
             static_cast<std::size_t>(scene_.span().planet_teeth) * static_cast<std::size_t>(phases);
         auto folded = signals::fold_of_squares(
             std::span(signal.sensor).first(turn * static_cast<std::size_t>(turns)), turn);
-        // As many squares as of a whole span, whose number the windows divide by.
+        // Scales to the sum over a whole span, because the windows divide by the number of squares
+        // in it.
         if (turns < scene_.span().ring_teeth) {
             for (double& sum : folded) {
                 sum *= static_cast<double>(scene_.span().ring_teeth) / turns;
@@ -128,7 +129,7 @@ class MeasuredInput {
     std::vector<double> te_, amplitude_, tooth_rms_;
 };
 
-// Why a feature has no number although its signal is there.
+// Reason why a feature has no finite value although its signal exists.
 std::string why_no_value(const Feature& feature, const features::FeatureInput& input,
                          const Scene& scene) {
     const auto zero = [](std::span<const double> values) {
@@ -138,13 +139,13 @@ std::string why_no_value(const Feature& feature, const features::FeatureInput& i
         return "the transmission error is constant";
     }
     if (feature.compute == features::te_fm0 && scene.te_samples_per_mesh() <= 2) {
-        return fmt::format("no mesh harmonic: the study's encoders sample {} times a mesh period",
+        return fmt::format("no mesh harmonic: the study's encoders take {} samples per mesh period",
                            scene.te_samples_per_mesh());
     }
     if (feature.from_sensor && input.sensor_mean_square == 0.0) {
         return "the sensor's signal is zero";
     }
-    return "no finite number: its definition divides by what is zero in this signal";
+    return "not finite: its definition divides by a quantity that is zero in this signal";
 }
 
 WorstTooth worst_tooth(const char* gear, std::span<const double> rms) {
@@ -269,8 +270,8 @@ HealthyReference measured_reference(const std::vector<std::string>& paths,
         const MeasuredSignal signal = read_measured_signal(path, columns, scene);
         if (planet_turns(signal, scene) < std::max(1, turns)) {
             throw SignalError(fmt::format(
-                "{}: {} mesh periods of sensor signal, but a healthy record must have "
-                "{}, as many planet turns as the signal",
+                "{}: {} mesh periods of sensor signal, but a healthy record must have at least {}, "
+                "as many planet turns as the signal",
                 path, signal.sensor_meshes, std::max(1, turns) * scene.span().planet_teeth));
         }
         MeasuredInput input(scene, features::kSensorTurn);

@@ -1,4 +1,4 @@
-// A study's features of measured signals: what each needs, and what it gives.
+// Features of measured signals: the requirements and the value of each feature.
 #pragma once
 
 #include <optional>
@@ -16,39 +16,39 @@ namespace gearpod::mc {
 struct MeasuredFeature {
     const features::Feature* feature;
     double value;
-    std::string missing;  // why it has none, else empty
+    std::string missing;  // reason if there is no value, else empty
 };
 
-// The loudest tooth of a gear.
+// Tooth of a gear with the largest RMS.
 struct WorstTooth {
     std::string gear;  // "planet"
-    int tooth = 0;     // from 1, the one whose window is the recording's first
+    int tooth = 0;     // from 1; tooth 1 has the recording's first window
     int teeth = 0;
-    double ratio = 0.0;  // of its RMS to the median
+    double ratio = 0.0;  // RMS of this tooth divided by the median
 };
 
-// Whole planet turns of sensor signal that a recording has for the planets' teeth, at most the
-// span's. Fewer than the span's meet fewer ring teeth, and average less.
+// Number of whole planet turns of sensor signal that features of the planets' teeth can use, at
+// most the span's. With fewer turns, each tooth meets fewer ring teeth and is averaged less.
 int planet_turns(const MeasuredSignal& signal, const Scene& scene);
 
-// Mesh periods of its signal that a feature looks at, at least.
+// Smallest number of mesh periods of its signal that a feature needs.
 int meshes_of(const features::Feature& feature, const Scene& scene);
 
-// An earlier recording of the gearbox while it was healthy.
+// Earlier recording of the gearbox in healthy condition.
 struct MeasuredBaseline {
     std::string file;
     MeasuredSignal signal;
 };
 
-// None if `path` is "". Throws SignalError.
+// Empty if `path` is "". Throws SignalError.
 std::optional<MeasuredBaseline> measured_baseline(const std::string& path,
                                                   const SignalColumns& columns, const Scene& scene);
 
-// What is measured: all features with a baseline, those of one record without.
+// Features that can be measured: all of them with a baseline, only those of one record without it.
 std::span<const features::Feature> measurable(const MeasuredBaseline* baseline);
 
-// measurable() features, in their order; of every gear that features look at, its loudest tooth, of
-// what has changed if there is a baseline. `healthy` may be empty, `baseline` null.
+// Features in the order of measurable(), and the loudest tooth of every gear that features use.
+// With a baseline, the teeth are those of the change. `healthy` may be empty and `baseline` null.
 struct Measurement {
     std::vector<MeasuredFeature> features;
     std::vector<WorstTooth> teeth;
@@ -57,17 +57,17 @@ struct Measurement {
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,
                     const HealthyReference& healthy, const MeasuredBaseline* baseline = nullptr);
 
-// Of some features alone that need no healthy gearboxes, in their order; NaN for what the signal
-// does not give.
+// Values of `wanted` features that need no healthy reference, in this order. NaN where the signal
+// is insufficient.
 std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
                                     std::span<const features::Feature* const> wanted);
 
-// Of recordings of healthy gearboxes, each as long as `turns` planet turns at least. Throws
+// Mean over recordings of healthy gearboxes; each must have at least `turns` planet turns. Throws
 // SignalError.
 HealthyReference measured_reference(const std::vector<std::string>& paths,
                                     const SignalColumns& columns, const Scene& scene, int turns);
 
-// The simulated one at a noise level; empty if the study lacks it.
+// Simulated healthy reference at a noise level; empty if the study does not have this level.
 HealthyReference simulated_reference_at(double noise_level, const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -23,7 +23,7 @@ constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
-constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s
+constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     if (factor != 1.0) {
@@ -40,7 +40,7 @@ class Reading {
         : path_(path), wanted_(columns), scene_(scene) {}
 
     MeasuredSignal read() {
-        // The libraries that read files serve one thread at a time.
+        // The libraries that read files are not thread-safe.
         static std::mutex reading;
         std::unique_lock lock(reading);
         struct Closed {
@@ -52,8 +52,8 @@ class Reading {
         std::vector<double> te = chosen(wanted_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
             reject(
-                fmt::format("no column sensor and none te; its columns are {}; choose with "
-                            "--sensor or --te",
+                fmt::format("it has neither a column sensor nor a column te; its columns are {}; "
+                            "choose with --sensor or --te",
                             columns_text()));
         }
         stop_at_problems();
@@ -78,7 +78,7 @@ class Reading {
         stop_at_problems();
         if (ratio != 1.0) {
             phase = scaled(std::move(phase), ratio);
-            measured.tracking += fmt::format(", times {:.5f} after the mesh lines", ratio);
+            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
             resample(sensor, te, phase, measured);
         }
         check_losses(measured);
@@ -128,7 +128,7 @@ class Reading {
         reject(fmt::format("no column {}; its columns are {}", name, columns_text()));
     }
 
-    // What the values of a column are times.
+    // Factor that converts a column to the program's units.
     double factor(const std::string& name, Quantity quantity) {
         std::string unit = file_->unit(name);
         if (unit.empty() && quantity == Quantity::acceleration) {
@@ -136,13 +136,13 @@ class Reading {
         }
         const auto factor = unit_factor(quantity, unit);
         if (!factor) {
-            reject(fmt::format("column {}: unknown unit {}; known are {}", name, unit,
+            reject(fmt::format("column {}: unknown unit {}; known units are {}", name, unit,
                                known_units(quantity)));
         }
         return factor.value_or(1.0);
     }
 
-    // A column that was asked for.
+    // Reads a column that the user requested.
     std::vector<double> present(const std::string& name, Quantity quantity) {
         if (!file_->has(name)) {
             reject_missing(name);
@@ -151,7 +151,7 @@ class Reading {
         return column(name, quantity);
     }
 
-    // A column of finite numbers as long as the others.
+    // Reads a column and checks that it is finite and as long as the others.
     std::vector<double> column(const std::string& name, Quantity quantity) {
         std::vector<double> values = scaled(file_->read(name), factor(name, quantity));
         reject_column(name, bad_values(values));
@@ -181,7 +181,7 @@ class Reading {
         return {};
     }
 
-    // Seconds of every sample.
+    // Time of every sample, s.
     std::vector<double> times(std::size_t samples) {
         if (wanted_.sampling_Hz <= 0.0 && file_->has(kTime)) {
             std::vector<double> written = column(kTime, Quantity::time);
@@ -196,8 +196,8 @@ class Reading {
             wanted_.sampling_Hz > 0.0 ? wanted_.sampling_Hz : file_->sampling_Hz().value_or(0.0);
         if (!(rate > 0.0 && std::isfinite(rate))) {
             reject(
-                fmt::format("no sampling rate: neither a column {} or {} nor sampling_Hz in the "
-                            "file; its columns are {}; give --sampling-Hz",
+                fmt::format("no sampling rate: the file has neither a column {} or {} nor "
+                            "sampling_Hz; its columns are {}; give --sampling-Hz",
                             kTime, kPhase, columns_text()));
             return {};
         }
@@ -207,7 +207,7 @@ class Reading {
     // Mesh phase of every sample.
     std::vector<double> phases(std::size_t samples, std::string& how) {
         if (wanted_.samples_per_mesh > 0.0) {
-            how = fmt::format("{:.6g} samples a mesh period", wanted_.samples_per_mesh);
+            how = fmt::format("{:.6g} samples per mesh period", wanted_.samples_per_mesh);
             return counted(samples, wanted_.samples_per_mesh);
         }
         if (!wanted_.tachometer.empty()) {
@@ -234,11 +234,11 @@ class Reading {
         reject_column(kSpeed, turning_about(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
-                  : "column speed_rpm, which is negative: turning backwards";
+                  : "column speed_rpm, which is negative: backward rotation";
         return integrated(phase, speed_rpm);
     }
 
-    // Of a tachometer; the samples between its first pulse and its last are left.
+    // Mesh phase from a tachometer. Keeps the samples between its first and last pulse.
     std::vector<double> phases_of_pulses(std::string& how) {
         const std::vector<double> heights = present(wanted_.tachometer, Quantity::phase);
         const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
@@ -246,14 +246,14 @@ class Reading {
         if (!problems_.empty()) {
             return {};
         }
-        how = fmt::format("{} pulses of column {}, {:g} a turn", pulses.at.size(),
+        how = fmt::format("{} pulses of column {}, {:g} per turn", pulses.at.size(),
                           wanted_.tachometer, wanted_.pulses_per_turn);
         PulseCount counted = count_pulses(pulses.at);
         first_sample_ = counted.first;
         return scaled(std::move(counted.count), meshes_per_turn() / wanted_.pulses_per_turn);
     }
 
-    // Of an encoder; samples before its first count and behind its last are cut.
+    // Mesh phase from an encoder. Removes samples before its first and after its last count.
     std::vector<double> phases_of_angle(std::string& how) {
         std::vector<double> written = present(wanted_.encoder, Quantity::angle);
         if (!problems_.empty()) {
@@ -266,9 +266,9 @@ class Reading {
         return scaled(std::move(angle.rad), meshes_per_turn() / (2.0 * std::numbers::pi));
     }
 
-    // Of the member whose speed the study gives.
+    // Mesh periods per turn of the member whose speed the study gives.
     double meshes_per_turn() const {
-        // A turn a second is as many meshes as radians a second.
+        // The argument 2 pi rad/s is one turn per second.
         return std::abs(scene_.drive().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
                (2.0 * std::numbers::pi);
     }
@@ -280,33 +280,36 @@ class Reading {
         }
     }
 
-    // How many times the speed of the phase the mesh lines show; 1 where they say nothing else.
+    // Ratio of the speed shown by the mesh lines to the stated speed; 1 if the lines do not
+    // contradict it.
     double speed_of_lines(const MeasuredSignal& measured) {
         if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor) {
             return 1.0;
         }
         const auto found =
             signals::mesh_speed(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes());
-        constexpr double kClearly = 0.5;  // of the best fit
-        constexpr int kEnough = 4;  // harmonics: fewer fit a tooth of the comb further as well
+        constexpr double kClearly = 0.5;  // relative to the best fit
+        // harmonics; with fewer, a ratio that is off by one tooth fits as well
+        constexpr int kEnough = 4;
         if (!found || found->stated > kClearly * found->fit) {
             return 1.0;
         }
         const std::string lines = fmt::format(
-            "the mesh lines lie at {:.4f}{} times the stated speed ({})", found->ratio,
+            "the mesh lines fit {:.4f}{} times the stated speed ({})", found->ratio,
             found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "", measured.tracking);
         if (wanted_.speed == SpeedCheck::refuse) {
-            reject(
-                fmt::format("{}: {:.0f} % of their amplitudes there, {:.0f} % here; correct the "
-                            "speed, or take theirs by --speed found",
-                            lines, 100.0 * found->fit, 100.0 * found->stated));
+            reject(fmt::format(
+                "{}: they hold {:.0f} % of the amplitudes at that speed, {:.0f} % at the stated "
+                "one; correct the speed, or use the fitted one with --speed found",
+                lines, 100.0 * found->fit, 100.0 * found->stated));
         } else if (found->other > 0.0 || found->harmonics < kEnough) {
-            reject(lines + ", but they are too few to tell it by; correct the speed");
+            reject(lines + ", but they are too few to determine the speed; correct it");
         }
         return found->ratio;
     }
 
-    // Where the phase is only counted samples, times and speed: lost ones leave a jump in it.
+    // Checks for lost samples if the phase comes only from sample numbers, times and speed. Lost
+    // samples then leave a jump in the phase.
     void check_losses(MeasuredSignal& measured) {
         if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_) {
             return;
@@ -316,7 +319,7 @@ class Reading {
                                   measured.losses_noticed));
     }
 
-    // Backwards is as good as forwards.
+    // Mesh phase from the absolute speed; the direction of rotation does not matter.
     std::vector<double> integrated(const std::vector<double>& time,
                                    const std::vector<double>& speed_rpm) {
         if (!problems_.empty()) {
@@ -334,46 +337,48 @@ class Reading {
     std::vector<double> rising(std::vector<double> phase) {
         for (std::size_t i = 1; i < phase.size() && problems_.empty(); ++i) {
             if (!(phase[i] > phase[i - 1])) {
-                reject(fmt::format("the mesh phase does not rise from sample {} to the next", i));
+                reject(
+                    fmt::format("the mesh phase does not increase from sample {} to the next", i));
             }
         }
         return phase;
     }
 
-    // A grid coarser than the samples would fold high frequencies down.
+    // Checks that the study's grid is not coarser than the samples, because it would alias high
+    // frequencies.
     void check_rate(const std::vector<double>& phase, bool sensor, bool te) {
         const double per_mesh =
             static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
         const double mesh_Hz = scene_.nominal_mesh_frequency_Hz();
         if (te && per_mesh < kFewestSamples) {
             reject(
-                fmt::format("{:.6g} samples a mesh period do not show the mesh frequency of the "
-                            "transmission error; is the speed or the sampling rate right?",
+                fmt::format("{:.6g} samples per mesh period do not resolve the mesh frequency of "
+                            "the transmission error; check the speed and the sampling rate",
                             per_mesh));
         }
         const double low_pass = scene_.study().sensor.low_pass_Hz;
         if (sensor && per_mesh > kSpareRate * scene_.samples_per_mesh()) {
             reject(
-                fmt::format("{:.6g} samples a mesh period, but the study's grid has {}; set "
-                            "sensor.sampling_Hz to the recording's, about {:.6g} Hz",
+                fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
+                            "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
                             per_mesh, scene_.samples_per_mesh(), per_mesh * mesh_Hz));
         }
         if (sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
             reject(
-                fmt::format("{:.6g} samples a mesh period, {:.6g} Hz, hold nothing of the "
-                            "study's band up to {:.6g} Hz; lower sensor.low_pass_Hz",
+                fmt::format("{:.6g} samples per mesh period, {:.6g} Hz, do not cover the study's "
+                            "band up to {:.6g} Hz; lower sensor.low_pass_Hz",
                             per_mesh, per_mesh * mesh_Hz, low_pass));
         }
     }
 
-    // All that any feature looks at.
+    // Largest number of mesh periods that any feature uses.
     int most_meshes() const {
         const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
         return meshes_needed(scene_.study(), scene_.span(),
                              planetary ? features::kSun | features::kRing : 0U);
     }
 
-    static constexpr double kFewestSamples = 2.0;  // a mesh period
+    static constexpr double kFewestSamples = 2.0;  // per mesh period
     static constexpr double kSpareRate = 1.02;
 
     const std::string& path_;
@@ -382,7 +387,7 @@ class Reading {
     std::unique_ptr<SignalFile> file_;
     std::string problems_, first_;
     std::size_t samples_ = 0, first_sample_ = 0;
-    bool counted_ = false;  // the phase, from samples and times alone
+    bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
 
 }  // namespace

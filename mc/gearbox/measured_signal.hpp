@@ -1,4 +1,4 @@
-// A measured signal on the mesh-phase grid of a study.
+// Measured signal on the mesh-phase grid of a study.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace gearpod::mc {
 
-// What is made of the mesh lines' own speed (signals/spectra/mesh_speed.hpp).
+// Use of the speed that the mesh lines show (signals/spectra/mesh_speed.hpp).
 enum class SpeedCheck {
-    refuse,  // a recording whose lines fit another speed clearly better
-    follow,  // take that speed
+    refuse,  // reject a recording whose lines fit another speed clearly better
+    follow,  // use that speed
     ignore,
 };
 
-// Which columns of a signal file to take; "" for those that it may do without.
+// Columns of a signal file to read; "" for optional ones.
 struct SignalColumns {
-    std::string sensor;                   // by default "sensor", if there is one
-    std::string te;                       // by default "te", if there is one
+    std::string sensor;                   // default "sensor", if it exists
+    std::string te;                       // default "te", if it exists
     double sampling_Hz = 0.0;             // 0: from the file
-    double samples_per_mesh = 0.0;        // of a recording sampled evenly in mesh phase; 0: in time
-    std::optional<std::size_t> row = {};  // of a file with a record in each row
-    std::string sensor_unit = {};         // where the file says none; "": m/s^2
+    double samples_per_mesh = 0.0;        // for even sampling in mesh phase; 0: sampled in time
+    std::optional<std::size_t> row = {};  // for a file with one record per row
+    std::string sensor_unit = {};         // used if the file states none; "": m/s^2
     std::string tachometer = {};  // pulses of the member whose speed the study gives; "": none
     double pulses_per_turn = 1.0;
     std::string encoder = {};  // angle of that member; "": none
@@ -32,32 +32,31 @@ struct SignalColumns {
 };
 
 struct MeasuredSignal {
-    // The mesh periods that features look at, as many as there are of them.
-    std::vector<double> sensor;               // m/s^2, P a mesh period
-    std::vector<double> te;                   // rad, P_te a mesh period
-    bool has_sensor = false, has_te = false;  // whether there is such a column, however short
+    // Mesh periods that features use, as far as the recording has them.
+    std::vector<double> sensor;               // m/s^2, P values per mesh period
+    std::vector<double> te;                   // rad, P_te values per mesh period
+    bool has_sensor = false, has_te = false;  // true if the column exists, however short
     int sensor_meshes = 0, te_meshes = 0;     // whole mesh periods of the recording
-    std::string tracking;                     // how the samples got their mesh phase
-    // Whether samples that were lost without a trace in its times would have been noticed.
+    std::string tracking;                     // source of the mesh phase of the samples
+    // True if lost samples would have been detected even if the times do not show them.
     bool losses_noticed = true;
 };
 
-// Reads a file (signal_file.hpp) and resamples it where it is not on the grid already. A sample's
-// mesh phase comes from
+// Reads a file (signal_file.hpp) and resamples it unless it is on the grid already. The mesh phase
+// of a sample comes from
 //
-//     samples_per_mesh     as many samples in each mesh period; whole planet turns are taken for
-//                          averages, which go on from their beginning
+//     samples_per_mesh     a constant number of samples per mesh period; whole planet turns
+//                          count as averages and are continued periodically
 //     column mesh_phase    mesh periods
-//     a tachometer         its pulses, counted; what is not between the first and the last is cut
-//     an encoder           its angle, unwrapped
-//     column speed_rpm     of the member whose speed the study gives, integrated over the time
-//     otherwise            the study's speed, which is then constant
+//     a tachometer         its counted pulses; samples outside the first and last pulse are removed
+//     an encoder           its unwrapped angle
+//     column speed_rpm     speed of the member whose speed the study gives, integrated over time
+//     otherwise            the constant speed of the study
 //
-// and its time from sampling_Hz, the column time (s), or the rate that the file tells.
-// Units are converted (signal_units.hpp); unknown ones are problems, as are missing and clipped
-// samples (sample_times.hpp, signals/spectra/lost_samples.hpp), and a speed that the mesh lines do
-// not fit. Throws SignalError with
-// every problem, one a line. May be called by several threads: one reads at a time.
+// and its time from sampling_Hz, from the column time (s), or from the sampling rate in the file.
+// Units are converted (signal_units.hpp). Problems are unknown units, missing and clipped samples
+// (sample_times.hpp, signals/spectra/lost_samples.hpp), and a speed that does not fit the mesh
+// lines. Throws SignalError with one line per problem. Thread-safe: one thread reads at a time.
 MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
                                     const Scene& scene);
 

@@ -24,8 +24,9 @@
 namespace gearpod::mc {
 namespace {
 
-// One thread's seconds for a healthy mesh period of W nominal gearboxes, the least of some marches
-// from rest, in which the motion may well grow without bound; that costs the same.
+// Processor seconds of one thread for a healthy mesh period of W nominal gearboxes: the minimum of
+// several integrations from rest. The motion may grow without bound, which does not change the
+// cost.
 template <int W>
 double least_mesh_s(const Scene& scene, const lockstep::MarchPlan& plan, bool as_driven,
                     int marches) {
@@ -35,7 +36,7 @@ double least_mesh_s(const Scene& scene, const lockstep::MarchPlan& plan, bool as
     const auto excitation = as_driven ? draw_excitation(scene, ids, instances) : std::nullopt;
     lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
     std::function<void(lockstep::TileState&)> march;
-    if constexpr (W <= 8) {  // sixteen abreast nothing drives unevenly
+    if constexpr (W <= 8) {  // there is no kernel with variable excitation for 16 lanes
         if (excitation) {
             march = [&, driven = std::shared_ptr<lockstep::DrivenMarch<W>>(
                             lockstep::make_driven_march<W>(plan, *excitation, inputs))](
@@ -59,7 +60,7 @@ double least_mesh_s(const Scene& scene, const lockstep::MarchPlan& plan, bool as
     return least;
 }
 
-// The scene's plan by the classical Runge-Kutta method.
+// Integration plan of the scene with the classical Runge-Kutta method.
 lockstep::MarchPlan explicit_plan(const Scene& scene, int steps) {
     lockstep::MarchPlan plan = scene.plan();
     plan.integrator = lockstep::Integrator::rk4;
@@ -75,7 +76,8 @@ lockstep::MarchPlan explicit_plan(const Scene& scene, int steps) {
     return plan;
 }
 
-// Mesh periods recorded beside the healthy one: all, or the passages of the fault.
+// Mesh periods recorded in addition to the periodic orbit: all of them, or the passages of the
+// fault.
 double recorded_beside_orbit(const Scene& scene) {
     if (scene.study().numerics.horizon != Horizon::reuse) {
         return scene.recorded_meshes();
@@ -99,12 +101,12 @@ std::vector<int> part_periods(const Scene& scene) {
     return lockstep::part_periods(std::move(teeth));
 }
 
-// Where every mesh is marched.
+// Mesh periods to integrate if every one of the recorded mesh periods is integrated.
 double meshes_of_march(const Scene& scene) {
     return approach_meshes(scene) + run_in_meshes(scene) + scene.recorded_meshes();
 }
 
-// Of superposed gearboxes without a fault.
+// Mesh periods to integrate for superposed gearboxes without a fault.
 double meshes_of_parts(const Scene& scene) {
     return approach_meshes(scene) +
            lockstep::part_meshes(part_periods(scene), run_in_meshes(scene));
@@ -175,7 +177,7 @@ double motion_bytes(const Scene& scene) {
     if (!hears_march(scene)) {
         return record_bytes(scene);
     }
-    // Samples as they are heard and lane by lane, and of the baseline records.
+    // Copies: samples as recorded and by lane, plus those of the baseline records.
     const double copies = compares_records(scene.study()) ? 3.0 : 2.0;
     const double samples = static_cast<double>(looked_at_meshes(scene)) * scene.samples_per_mesh();
     return copies * 8.0 * samples * scene.study().numerics.lanes +

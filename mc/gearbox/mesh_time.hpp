@@ -1,49 +1,51 @@
-// How long a march is going to take and how large its records will be, before it is marched.
+// Estimates of the number of mesh periods to integrate, of their time, and of the memory for their
+// records.
 #pragma once
 
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
 
-// Mesh periods that the nominal gearboxes march until their orbit repeats; 0 if nothing is marched.
+// Mesh periods that the nominal gearbox needs to converge to its periodic orbit; 0 for a
+// quasi-static study.
 double approach_meshes(const Scene& scene);
-// Mesh periods that a tile of gearboxes marches or solves: approach, run-in, and the passages of
-// the fault or, where every mesh is marched, all that is recorded. From the nominal damping: most
-// gearboxes march about as many.
+// Mesh periods that a tile integrates or solves: approach, run-in, and the passages of the fault or
+// all recorded periods, as the strategy requires. Estimated from the nominal damping; most
+// gearboxes need about as many.
 double marched_meshes(const Scene& scene);
 
-// Mesh periods that a fault of theirs changes: its passages, until the motion is back.
+// Mesh periods that a fault changes: its passages and the decay after them.
 double passage_meshes(const Scene& scene);
 
-// Likewise without the fault.
+// Mesh periods that a tile without a fault integrates.
 double healthy_meshes(const Scene& scene);
 
-// Which gearboxes are superposed while they keep contact: where the study asks for it and it
-// marches fewer meshes.
+// True for gearboxes that are superposed while their teeth keep contact: the study requests it and
+// it takes fewer mesh periods.
 struct Superposition {
     bool healthy = false, faulty = false;
 };
 Superposition superposition(const Scene& scene);
 
-// Whether the sensors hear the meshes of a tile as they are marched, which are not kept then: where
-// every mesh is marched and no other tile can use them.
+// True if sensor signals are recorded during integration and the motion is not kept. This is so if
+// every mesh period is integrated and no other tile can use the result.
 bool hears_march(const Scene& scene);
 
-// Mesh periods of the sensor's samples that are looked at one by one: by features with these needs
-// (features::Need), or by all of the study's.
+// Number of mesh periods of sensor samples that must be synthesized: for features with these needs
+// (features::Need), or for all features of the study.
 int looked_at_meshes(const Scene& scene, unsigned needs);
 int looked_at_meshes(const Scene& scene);
 
-// Bytes of what a tile of a run keeps of its motion; and of the records of all its meshes.
+// Memory in bytes for the motion that a tile keeps, and for the records of all its mesh periods.
 double motion_bytes(const Scene& scene);
 double record_bytes(const Scene& scene);
 
-// Seconds of one thread for one healthy mesh period of as many gearboxes as there are lanes, driven
-// as the study says: the least of some marches from rest.
+// Processor seconds of one thread for one healthy mesh period of a full tile with the study's
+// excitation: the minimum of several integrations from rest.
 double mesh_period_s(const Scene& scene);
 
-// The same of a step of the classical Runge-Kutta method, also where nobody would march by it, and
-// of one gearbox in a full tile; nothing drives it unevenly.
+// Processor seconds of one step of the classical Runge-Kutta method, per gearbox of a full tile,
+// with constant excitation. The study need not use this method.
 double explicit_step_s(const Scene& scene);
 
 }  // namespace gearpod::mc

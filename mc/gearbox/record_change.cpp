@@ -15,7 +15,7 @@ std::vector<double> less(std::span<const double> a, std::span<const double> b) {
     return difference;
 }
 
-// The turns that fold, of a signal that may go on behind them.
+// The part of a signal that is folded: the span. The signal may continue after it.
 std::span<const double> folding(const Scene& scene, std::span<const double> samples) {
     return samples.first(static_cast<std::size_t>(scene.span_meshes()) *
                          static_cast<std::size_t>(scene.samples_per_mesh()));

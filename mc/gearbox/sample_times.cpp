@@ -13,9 +13,9 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kEven = 1e-3;  // of a step
+constexpr double kEven = 1e-3;  // relative to a step
 
-// The coarsest power of ten that all values are multiples of, 0 if none down to 1e-9 is.
+// Largest power of ten, from 1 down to 1e-9, of which all values are multiples; 0 if there is none.
 double decimals_of(const std::vector<double>& values) {
     for (int digits = 0; digits <= 9; ++digits) {
         const double unit = std::pow(10.0, -digits);
@@ -30,7 +30,7 @@ double decimals_of(const std::vector<double>& values) {
     return 0.0;
 }
 
-// Farthest from even spacing.
+// Largest deviation from even spacing.
 double unevenness(const std::vector<double>& time, double start, double step) {
     double most = 0.0;
     for (std::size_t i = 0; i < time.size(); ++i) {
@@ -48,8 +48,7 @@ std::string what_is_uneven(const std::vector<double>& time, double unit, double 
         std::find_if(steps.begin(), steps.end(), [&](double step) { return step < -1.01 * unit; });
     if (back != steps.end()) {
         return fmt::format(
-            "runs back by {:.6g} s from sample {} to the next; the samples must be "
-            "evenly spaced",
+            "decreases by {:.6g} s from sample {} to the next; the samples must be evenly spaced",
             -*back, back - steps.begin() + 1);
     }
     const double usual = machine::upper_median(steps);
@@ -90,7 +89,8 @@ SampleTimes sample_times(std::vector<double> column) {
     if (even) {
         return {std::move(column), ""};
     }
-    // Rounded times scatter about even ones by half a unit; the line through them is nearer.
+    // Rounded times deviate from evenly spaced ones by up to half a unit; a fitted line is more
+    // accurate.
     const double unit = decimals_of(column);
     double mean = 0.0, slope = 0.0, squares = 0.0;
     for (const double value : column) {
@@ -113,7 +113,7 @@ SampleTimes sample_times(std::vector<double> column) {
 
 Pulses tachometer_pulses(std::span<const double> column) {
     constexpr std::size_t kFewest = 3;
-    constexpr double kHysteresis = 0.2;  // of the height, either side of half of it
+    constexpr double kHysteresis = 0.2;  // relative to the height, on both sides of half the height
     constexpr double kIrregular = 1.5;
     const auto [low, high] = std::minmax_element(column.begin(), column.end());
     const double height = *high - *low, half = 0.5 * (*high + *low);
@@ -132,7 +132,7 @@ Pulses tachometer_pulses(std::span<const double> column) {
         }
     }
     if (pulses.at.size() < kFewest) {
-        pulses.problem = fmt::format("{} pulse(s); it takes {}", pulses.at.size(), kFewest);
+        pulses.problem = fmt::format("{} pulse(s), but {} are needed", pulses.at.size(), kFewest);
         return pulses;
     }
     for (std::size_t i = 2; i < pulses.at.size(); ++i) {
@@ -140,9 +140,8 @@ Pulses tachometer_pulses(std::span<const double> column) {
         const double before = pulses.at[i - 1] - pulses.at[i - 2];
         if (here > kIrregular * before || before > kIrregular * here) {
             pulses.problem = fmt::format(
-                "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly apart: one is "
-                "missing "
-                "or one too many",
+                "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly spaced: one is "
+                "missing or superfluous",
                 pulses.at[i - 2] + 1.0, pulses.at[i - 1] + 1.0, pulses.at[i] + 1.0);
             return pulses;
         }
@@ -152,7 +151,7 @@ Pulses tachometer_pulses(std::span<const double> column) {
 
 PulseCount count_pulses(const std::vector<double>& pulses) {
     const std::size_t n = pulses.size();
-    // Pulses a sample at each pulse, from its neighbours.
+    // Pulses per sample at each pulse, from its neighbours.
     std::vector<double> speed(n);
     for (std::size_t p = 0; p < n; ++p) {
         const std::size_t before = p == 0 ? 0 : p - 1, after = std::min(p + 1, n - 1);
@@ -166,7 +165,7 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
             ++p;
         }
         const double length = pulses[p + 1] - pulses[p], t = (at - pulses[p]) / length;
-        // Hermite's cubic from p to p + 1.
+        // Cubic Hermite interpolation between p and p + 1.
         out.count.push_back(static_cast<double>(p) + t * t * (3.0 - 2.0 * t) +
                             length * t * (1.0 - t) * (speed[p] * (1.0 - t) - speed[p + 1] * t));
     }
@@ -175,7 +174,7 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
 
 namespace {
 
-// Goes on behind each turn, and upwards.
+// Removes the jumps of 2 pi, and makes the angle rise.
 void unwrap(std::vector<double>& angle) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     double turns = 0.0, before = angle.front();
@@ -209,7 +208,8 @@ ShaftAngle shaft_angle(std::vector<double> column) {
         angle.rad = std::move(column);
         return angle;
     }
-    // Half a sample before a count's first one the shaft is half-way to it.
+    // The count changes between two samples: the shaft angle half a sample before the new count is
+    // the mean of both counts.
     std::vector<double> at, half_way;
     for (std::size_t i = 1; i < column.size(); ++i) {
         if (column[i] > column[i - 1]) {
@@ -218,7 +218,7 @@ ShaftAngle shaft_angle(std::vector<double> column) {
         }
     }
     if (at.size() < 3) {
-        angle.problem = fmt::format("changes at {} sample(s) alone", at.size());
+        angle.problem = fmt::format("changes at only {} sample(s)", at.size());
         return angle;
     }
     angle.first = static_cast<std::size_t>(std::ceil(at.front()));
@@ -282,8 +282,8 @@ std::string bad_values(std::span<const double> values) {
     const auto bad = std::find_if(values.begin(), values.end(), is_bad);
     if (bad != values.end()) {
         return fmt::format(
-            "{} of {} samples are no finite numbers, the first is sample {}; cut them off or fill "
-            "the gaps",
+            "{} of {} samples are not finite, the first is sample {}; cut them off or fill the "
+            "gaps",
             std::count_if(values.begin(), values.end(), is_bad), values.size(),
             bad - values.begin() + 1);
     }
@@ -291,14 +291,14 @@ std::string bad_values(std::span<const double> values) {
                                    [](double value) { return std::abs(value) > kLargest; });
     return huge == values.end()
                ? ""
-               : fmt::format("sample {} is {:g}; numbers above {:g} cannot be computed with",
+               : fmt::format("sample {} is {:g}; numbers above {:g} are not supported",
                              huge - values.begin() + 1, *huge, kLargest);
 }
 
 std::string clipping(std::span<const double> samples) {
     constexpr std::size_t kRun = 3;
     constexpr long kFewestRuns = 2;
-    constexpr double kJump = 4.0;  // in the least difference between samples
+    constexpr double kJump = 4.0;  // times the smallest difference between samples
     const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
     double resolution = std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -308,7 +308,7 @@ std::string clipping(std::span<const double> samples) {
     long runs = 0, clipped = 0;
     double level = 0.0;
     for (std::size_t i = 0; i < samples.size();) {
-        std::size_t end = i + 1;  // a NaN is not even its own equal
+        std::size_t end = i + 1;  // starts at i + 1 because a NaN does not equal itself
         while (end < samples.size() && samples[end] == samples[i]) {
             ++end;
         }
@@ -323,12 +323,11 @@ std::string clipping(std::span<const double> samples) {
         }
         i = end;
     }
-    return runs >= kFewestRuns
-               ? fmt::format(
-                     "{} samples in {} runs stand at the signal's end, {:.6g}: clipped; "
-                     "record with a larger range",
-                     clipped, runs, level)
-               : "";
+    return runs >= kFewestRuns ? fmt::format(
+                                     "clipped: {} samples in {} runs have the extreme value "
+                                     "{:.6g}; record with a larger range",
+                                     clipped, runs, level)
+                               : "";
 }
 
 std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
@@ -339,8 +338,9 @@ std::string losses_text(std::span<const double> samples, int per_mesh, int turn_
         return "";
     }
     return fmt::format(
-        "the meshes come {:.2f} of a period too {} (or whole periods more) after mesh period {} to "
-        "{}: samples were lost or repeated without a trace in the times; cut the recording there",
+        "the meshes are {:.2f} periods too {} (plus any number of whole periods) after mesh period "
+        "{} to {}: samples were lost or repeated, which the times do not show; cut the recording "
+        "there",
         std::abs(lost->meshes), lost->meshes > 0.0 ? "early" : "late", lost->first_mesh,
         lost->last_mesh);
 }

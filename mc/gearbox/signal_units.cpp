@@ -11,7 +11,7 @@ namespace {
 struct SignalUnit {
     const char* name;
     double factor;
-    bool listed = true;  // else another way to write the one before
+    bool listed = true;  // false for another spelling of the previous unit
 };
 
 constexpr double kDegree = std::numbers::pi / 180.0;

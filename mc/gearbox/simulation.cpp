@@ -17,8 +17,8 @@ namespace {
 
 using Column = SignalColumn;
 
-// Values of the first lane that repeat with the recorded mesh periods: value(record, sample) over
-// `meshes` meshes.
+// Values of the first lane over `meshes` mesh periods, repeating the recorded ones. value(record,
+// sample) reads one value.
 template <typename Value>
 std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
     std::vector<double> all;
@@ -46,6 +46,13 @@ void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simula
                  return r.motion[(p * names.size() + d) * lanes];
              })});
     }
+    const auto pairs = static_cast<std::size_t>(scene.plan().nodes.pairs);
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        out.columns.push_back({scene.drive().pair_name(static_cast<int>(pair)) + "_force", "N",
+                               unroll(tile, samples, meshes, [&](const auto& r, auto p) {
+                                   return r.mesh_force[(p * pairs + pair) * lanes];
+                               })});
+    }
 }
 
 void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::PathGrid& path,
@@ -66,7 +73,7 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
     }
 }
 
-// Seconds of every sample, which a fluctuating speed spaces unevenly.
+// Time of every sample, s. A fluctuating speed makes the spacing uneven.
 std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
                                  const InstanceInputs& instance, long meshes) {
     const auto& grid = scene.plan().grid;
@@ -109,7 +116,8 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
     const Sampler sampler(scene.study());
     const GearboxTile tile =
-        run_gearboxes(scene, sampler, path, std::span(&id, 1), 1, {.with_motion = true});
+        run_gearboxes(scene, sampler, path, std::span(&id, 1), 1,
+                      {.with_motion = true, .contact_meshes = static_cast<int>(meshes)});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
@@ -141,6 +149,13 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         add_sensor(scene, tile, path, features, id, rows, out);
     }
     add_motion(scene, tile, meshes, out);
+    if (!tile.march.contact_loss.empty()) {
+        const auto meshes_of_kind = meshes_of(scene.study().gearbox.kind);
+        const auto loss = contact_loss(tile, 0, meshes_of_kind.size());
+        for (std::size_t m = 0; m < loss.size(); ++m) {
+            out.contact_loss.push_back({mesh_name(meshes_of_kind[m]), {loss[m]}});
+        }
+    }
     return out;
 }
 

@@ -1,4 +1,4 @@
-// One gearbox of a study with all its signals.
+// Simulates one gearbox of a study with all its signals.
 #pragma once
 
 #include <string>
@@ -11,15 +11,16 @@ namespace gearpod::mc {
 
 struct Simulation {
     std::vector<SignalColumn> columns;
+    std::vector<MeshResult> contact_loss;  // over the mesh periods of the signals
     std::vector<double> noise_levels;
     std::vector<std::string> feature_names;
     std::vector<double> features;  // [feature * levels + level], as in a results file
 };
 
-// The gearbox in a row of the results.
+// Gearbox in a given row of the results.
 GearboxId id_of_row(const Study& study, long row);
 
-// Its first mesh periods. Throws std::runtime_error if it diverges or does not settle.
+// Simulates the first `meshes` mesh periods. Throws std::runtime_error if the gearbox fails.
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes);
 
 }  // namespace gearpod::mc

@@ -23,7 +23,8 @@ features::ToothSignals views(const signals::ToothStatistics& teeth) {
     return {teeth.rms, teeth.kurtosis, teeth.crest, teeth.m8a};
 }
 
-// The RMS becomes a ratio as well. Statistics that nobody needed are empty.
+// Divides the statistics by their trend along the path; the squared RMS becomes a ratio, too.
+// Statistics that were not needed are empty.
 void remove_path_trend(int planets, signals::ToothStatistics& teeth) {
     for (double& rms : teeth.rms) {
         rms *= rms;
@@ -90,7 +91,8 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     }
 }
 
-// Teeth at places of their own along the path, those of a held gear, are freed from its trend.
+// The teeth of a fixed gear have constant positions along the path; their statistics are freed of
+// its trend.
 features::ToothSignals SpanAnalysis::central_teeth(std::span<const double> samples, int teeth,
                                                    bool moments,
                                                    signals::ToothStatistics& statistics) {

@@ -1,5 +1,5 @@
-// From the sensor's samples over a span and the averaged TE to the signals that features look at,
-// beyond the folded squares: for simulated gearboxes and for measured signals alike.
+// Computes further signals that features need from the sensor samples over a span and from the
+// averaged transmission error. Used for simulated gearboxes and for measured signals.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,18 @@
 
 namespace gearpod::mc {
 
-// For features with some needs (features::Need). Holds scratch memory: one object per thread.
+// `needs`: needs of the features (features::Need). Holds scratch memory: use one object per thread.
 class SpanAnalysis {
   public:
     SpanAnalysis(const Scene& scene, unsigned needs);
 
-    // `samples`: m/s^2, P a mesh period, at least meshes_needed() of them, or, of features of the
-    // planets' teeth and turns alone, those of `planet_turns`: the span's Z_r, or fewer of a short
-    // recording. `planet_offset`: of the best first window of the planets' teeth. Fills what was
-    // needed; `input` looks at this object's memory.
+    // `samples`: m/s^2, P per mesh period, at least meshes_needed() mesh periods. Features of the
+    // planets' teeth and turns need only `planet_turns` turns: Z_r, or fewer in a short recording.
+    // `planet_offset`: first sample of the best window of the planets' teeth. Fills the needed
+    // parts of `input`, which refer to memory of this object.
     void sensor(std::span<const double> samples, int planet_turns, int planet_offset,
                 features::FeatureInput& input);
-    // `turn`: rad, the averaged TE.
+    // `turn`: averaged transmission error, rad.
     void te(std::span<const double> turn, features::FeatureInput& input);
 
   private:
@@ -34,7 +34,7 @@ class SpanAnalysis {
 
     const Scene& scene_;
     unsigned needs_;
-    std::vector<double> window_;  // of one mesh period
+    std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
     std::vector<double> average_;
     signals::ToothStatistics planet_, sun_, ring_;

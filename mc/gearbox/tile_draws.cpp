@@ -15,7 +15,7 @@ namespace gearpod::mc {
 
 namespace {
 
-// What a sine and noise are made from.
+// Parameters of a sinusoidal fluctuation; next, of a random one.
 struct SineInputs {
     double amplitude, turns_per_mesh, turns_per_s, phase_rad;
 };
@@ -30,7 +30,7 @@ void add_sine(const SineInputs& in, lockstep::Fluctuation& f) {
     f.turns.push_back(in.phase_rad / (2.0 * std::numbers::pi));
 }
 
-// Independent normal knots; lanes with fewer of them are filled up with zeros.
+// Generates independent normal knot values. Lanes with fewer knots are filled up with zeros.
 void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_period_s,
                 double first_mesh, double last_mesh, std::vector<Philox> engines,
                 lockstep::Fluctuation& f) {
@@ -41,7 +41,7 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
         const double a_mesh = lockstep::knots_per_s(noise[l].band_Hz) * mesh_period_s[l];
         f.knots_per_s.push_back(a_mesh / mesh_period_s[l]);
         f.first_knot.push_back(1.0 + part(engines[l]) - first_mesh * a_mesh);
-        // The spline reaches two knots further.
+        // The spline uses two further knots.
         count[l] = 4 + static_cast<std::size_t>(std::ceil((last_mesh - first_mesh) * a_mesh));
     }
     f.knot.resize(*std::max_element(count.begin(), count.end()) * lanes);
@@ -53,13 +53,13 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
     }
 }
 
-// Mesh periods of run-in at most; fluctuations begin so long before the first recorded one, however
-// many of them are marched.
+// Upper limit of the run-in, in mesh periods. Fluctuations always begin this long before the first
+// recorded mesh period, so that they do not depend on the actual run-in.
 int most_run_in(const Scene& scene) {
     return scene.max_meshes() / 2;
 }
 
-// Mesh periods in which the slowest oscillation of the sensor's low-pass decays by 1/e.
+// Mesh periods in which the slowest mode of the sensor's low-pass filter decays to 1/e.
 double filter_decay_meshes(const Scene& scene) {
     const double rate = 0.5 * lockstep::kFilterDamping[1] * scene.plan().low_pass_rad_s;
     return scene.nominal_mesh_frequency_Hz() / rate;
@@ -73,7 +73,8 @@ int run_in_meshes(const Scene& scene) {
     if (why_no_mesh_repeats(study).empty() || study.effects.quasi_static()) {
         return 0;
     }
-    // Twice what the nominal gearbox and its sensor take: others decay more slowly.
+    // Twice the decay time of the nominal gearbox and its sensor, because other gearboxes decay
+    // more slowly.
     const double decays = -2.0 * std::log(settle_tolerance(study));
     const double meshes = decays * std::max(scene.decay_meshes(), filter_decay_meshes(scene));
     return static_cast<int>(
@@ -107,7 +108,7 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
             record_stream(study, id_of_lane(ids, lane), "operation.speed_noise.knots"));
         excitation.turning_m_s.push_back(drive.turning_m_s(inputs[lane]));
     }
-    // The sensor's time runs on when the speed drops: some more of the torque's knots.
+    // When the speed drops, the sensor's time continues: the torque needs additional knots.
     const double first = -most_run_in(scene), last = scene.signal_meshes();
     if (torque_fluctuates(study)) {
         excitation.torque = torque_has_sine(study) ? torque : lockstep::Fluctuation{};

@@ -1,5 +1,6 @@
-// What is drawn for a gearbox beside its inputs: the phases of interfering tones, and the errors of
-// its teeth (tooth_draws.hpp). As with the inputs, a gearbox's draws depend on nothing but itself.
+// Random inputs of a gearbox that are not among its sampled parameters: phases of interfering
+// tones, and excitation. Errors of the teeth: tooth_draws.hpp. The random inputs of a gearbox
+// depend on no other gearbox.
 #pragma once
 
 #include <optional>
@@ -12,24 +13,27 @@
 
 namespace gearpod::mc {
 
-// `inputs` holds one gearbox a lane; lanes beyond `ids` repeat the last of them.
+// In the functions below `inputs` has one gearbox per lane; lanes beyond `ids` repeat the last
+// gearbox.
 
-// The gearbox in a lane.
+// Id of the gearbox in a lane.
 inline const GearboxId& id_of_lane(std::span<const GearboxId> ids, std::size_t lane) {
     return ids[lane < ids.size() ? lane : ids.size() - 1];
 }
 
-// Nothing keeps step with the tones: each begins anywhere in its turn. Empty without tones.
+// Interfering tones. Their phases are uniformly distributed, because no tone is synchronous with
+// the meshes. Empty without tones.
 signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
                           std::span<const InstanceInputs> inputs);
 
-// Mesh periods that are marched before the first recorded one: those in which what its teeth or its
-// drive excite when they set in decays to the settling tolerance.
+// Run-in: mesh periods that are integrated before the first recorded one. In this time, the
+// transient from the onset of tooth errors or variable excitation decays to the convergence
+// tolerance.
 int run_in_meshes(const Scene& scene);
 
-// Gravity, and the fluctuations of torque and speed; their noise has knots from before any run-in,
-// the same however long it is, to behind the last mesh of scene.signal_meshes(), and begins
-// anywhere between two knots. None if nothing drives the gearboxes unevenly.
+// Gravity, and the fluctuations of torque and speed. The noise has knots from before the longest
+// run-in until after the last mesh of scene.signal_meshes(), independent of the actual run-in. Its
+// first knot has a random position. Empty if the excitation is constant.
 std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
                                                     std::span<const GearboxId> ids,
                                                     std::span<const InstanceInputs> inputs);

@@ -9,16 +9,16 @@
 namespace gearpod::mc {
 namespace {
 
-// A gear with one working side, or a planet with two.
+// Gear with one working side, or planet with two.
 struct ToothedBody {
     Member member;
-    int which;                       // of the planets
-    std::vector<std::size_t> sides;  // places in lockstep::ToothErrors
-    std::vector<int> first;          // which of its teeth a side counts as 0
+    int which;                       // planet number
+    std::vector<std::size_t> sides;  // indices into lockstep::ToothErrors
+    std::vector<int> first;          // tooth that each side counts as 0
 };
 
-// The tooth of planet n that its ring side counts as 0: it engages with the ring half a planet turn
-// after it did with the sun (lockstep::planet_fault_pattern).
+// Tooth of planet n that its ring side counts as 0. This tooth meshes with the ring half a planet
+// turn after its mesh with the sun (lockstep::planet_fault_pattern).
 int first_on_ring(const lockstep::PairSet& pairs, int n, int teeth) {
     const int ring_pair = pairs.pairs() / 2 + n;
     const double half_turn = 0.5 * (teeth + (pairs.reversed ? 1 : -1));
@@ -26,7 +26,7 @@ int first_on_ring(const lockstep::PairSet& pairs, int n, int teeth) {
     return static_cast<int>((teeth - later % teeth) % teeth);
 }
 
-// In the order of lockstep::planetary_teeth and fixed_shaft_teeth.
+// Bodies in the order of lockstep::planetary_teeth and fixed_shaft_teeth.
 std::vector<ToothedBody> toothed_bodies(const Scene& scene) {
     const Study& study = scene.study();
     if (study.gearbox.kind == GearboxKind::fixed_shaft) {
@@ -78,7 +78,7 @@ gears::DeviationScales scales_of_member(const Scene& scene, Member member,
          inputs.profile_slope_m});
 }
 
-// Fills one lane of all flanks.
+// Fills one lane of the errors of all flanks.
 class LaneTeeth {
   public:
     LaneTeeth(const Scene& scene, std::size_t lane, std::size_t lanes, Normals pitch, Normals waves,
@@ -95,14 +95,15 @@ class LaneTeeth {
         const gears::WaveNumbers numbers = wave_numbers(waves_);
         for (std::size_t s = 0; s < body.sides.size(); ++s) {
             lockstep::GearErrors& flanks = errors_.gears[body.sides[s]];
-            // Teeth are numbered as they engage, against the turn of gears that turn backwards.
+            // Teeth are numbered in order of engagement: against the direction of rotation if the
+            // gear turns backwards.
             const int looks = (s == 0) != scene_.pairs().reversed ? 1 : -1;
             const gears::FlankDeviations wave = gears::wave_deviations(
                 flanks.teeth, working_angle_rad(scene_.study(), mesh_of_side(body, s)), scales,
                 numbers, looks);
             const Engagement engagement = engagement_of(body.sides[s]);
-            // The wave speaks of the flank a quarter of a pitch from the tooth's middle, in contact
-            // at the pitch point; the deviation is that of the engagement's middle.
+            // The wave is given at the flank a quarter pitch from the tooth's centre, in contact at
+            // the pitch point. The deviation is needed at the middle of the engagement.
             const double ahead = 0.25 * looks + engagement.from_pitch;
             const double common = scales.common_slope * slopes_();
             const std::span<const double> measured = measured_index(body, s, flanks.teeth);
@@ -121,7 +122,7 @@ class LaneTeeth {
     }
 
   private:
-    // Of one gear's side; empty where it is drawn.
+    // Measured index deviations of one side of a gear; empty if they are random.
     std::span<const double> measured_index(const ToothedBody& body, std::size_t side,
                                            int teeth) const {
         const MemberValues& given = scene_.study().gearbox.bodies[body.member];
@@ -131,8 +132,8 @@ class LaneTeeth {
                                          static_cast<std::size_t>(teeth));
     }
 
-    // Mesh periods from the contact at the pitch point to the middle of the engagement, and those
-    // of all of it from the root to the tip: negative if it runs the other way.
+    // Mesh periods from contact at the pitch point to the middle of the engagement, and duration of
+    // the engagement from root to tip. The duration is negative if contact moves from tip to root.
     struct Engagement {
         double from_pitch = 0.0, outwards = 0.0;
     };

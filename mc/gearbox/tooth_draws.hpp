@@ -1,4 +1,5 @@
-// The errors of a gearbox's teeth: waves, eccentricity, scatter and slopes of every gear's flanks.
+// Random errors of a gearbox's teeth: waves, eccentricity, scatter and slopes of every gear's
+// flanks.
 #pragma once
 
 #include <optional>
@@ -10,8 +11,8 @@
 
 namespace gearpod::mc {
 
-// `inputs` holds one gearbox a lane; lanes beyond `ids` repeat the last of them. A gearbox's draws
-// depend on nothing but itself. None without tooth errors.
+// `inputs` has one gearbox per lane; lanes beyond `ids` repeat the last gearbox. The errors of a
+// gearbox depend on no other gearbox. Empty without tooth errors.
 std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
                                                        std::span<const GearboxId> ids,
                                                        std::span<const InstanceInputs> inputs);

@@ -7,7 +7,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of text in roff: a backslash, a hyphen that shall stay one, a dot or quote at a line's start.
+// Escapes text for roff: backslashes, hyphens, and a dot or quote at the start of a line.
 std::string roff(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -37,7 +37,7 @@ void add_option(std::string& out, const CLI::Option& option) {
     out += "\n" + roff(option.get_description()) + "\n";
 }
 
-// The names behind "IN:{a,b}", as the check of such an option calls itself.
+// Choices of an option, taken from the name of its check, "IN:{a,b}".
 std::vector<std::string> choices(const CLI::Option& option) {
     std::vector<std::string> names;
     const std::string type = option.get_type_name();
@@ -65,7 +65,7 @@ std::string words(const CLI::App& app) {
 
 std::string man_page(const CLI::App& app, const std::string& version) {
     std::string out = ".TH GEARPOD 1 \"\" \"" + roff(version) + "\" \"User Commands\"\n" +
-                      ".SH NAME\ngearpod \\- which gear faults a sensor would have found\n" +
+                      ".SH NAME\ngearpod \\- probability of detection of gear faults\n" +
                       ".SH SYNOPSIS\n.B gearpod\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n" +
                       ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";
     for (const CLI::Option* option : options(app)) {
@@ -80,10 +80,9 @@ std::string man_page(const CLI::App& app, const std::string& version) {
         }
     }
     return out +
-           ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n2\nbad input; every problem is said\n.TP\n3\nsome "
-           "gearboxes failed; they are counted, and the results are written\n.TP\n4\nstopped "
-           "before "
-           "the end, with a checkpoint that \\-\\-resume goes on from\n";
+           ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n2\nwrong input; every problem is printed\n"
+           ".TP\n3\nsome gearboxes failed; they are counted, and the results are written\n"
+           ".TP\n4\nstopped before the end; \\-\\-resume continues from the checkpoint\n";
 }
 
 std::string bash_completion(const CLI::App& app) {
@@ -101,7 +100,7 @@ std::string bash_completion(const CLI::App& app) {
             }
         }
     }
-    return "# Completion of gearpod for bash; made from its command line.\n"
+    return "# Bash completion of gearpod, generated from its command line.\n"
            "_gearpod() {\n"
            "    local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} options= choices=\n"
            "    COMPREPLY=()\n"

@@ -1,5 +1,4 @@
-// The command line's own description as a man page and as a completion of bash: whatever --help
-// says, these say.
+// Man page and bash completion, generated from the same command-line definition as --help.
 #pragma once
 
 #include <string>
@@ -10,11 +9,11 @@ class App;
 
 namespace gearpod::mc {
 
-// roff, section 1. `version`: version_text().
+// Returns the man page as roff, section 1. `version`: version_text().
 std::string man_page(const CLI::App& app, const std::string& version);
 
-// For bash's programmable completion: commands, their options, the values of options that take one
-// of a few, files elsewhere.
+// Returns a script for bash's programmable completion. It completes commands, options, values of
+// options with fixed choices, and file names elsewhere.
 std::string bash_completion(const CLI::App& app);
 
 }  // namespace gearpod::mc

@@ -11,9 +11,9 @@
 
 #include "mc/input/nesting.hpp"
 
-// toml++ 3.3 asserts, and in release builds assumes, what malformed headers such as "[[[" break
-// (its pull request 301 says so). Here a broken assumption is an exception, and thereby a syntax
-// error.
+// toml++ 3.3 asserts conditions that malformed headers such as "[[[" violate, and relies on them in
+// release builds (see its pull request 301). Here a violated assertion throws an exception and is
+// reported as a syntax error.
 namespace gearpod::mc {
 struct BrokenAssumption {};
 constexpr void require(bool assumption) {
@@ -74,7 +74,7 @@ class Converter {
     std::string file_;
 };
 
-// toml++ ends its message with the text position, which the problem states in its own way.
+// Message without line breaks; toml++ appends the position, which the problem states separately.
 std::string plain_message(std::string_view description) {
     std::string message(description);
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -87,11 +87,11 @@ bool is_bare_word(std::string_view text) {
                        [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
-// toml++ recurses into what is nested, and so does what reads its tables.
-constexpr std::string_view kNested = "nested more than 32 deep";
+// toml++ and the reader of its tables are recursive, so nesting is limited.
+constexpr std::string_view kNested = "nested deeper than 32 levels";
 static_assert(kMostNesting == 32);
 
-// The value of an assignment; a bare word is a string because shells eat quotes.
+// Parses the value of an assignment. A bare word is a string, because shells remove quotes.
 bool parse_value(const std::string& text, Value& value, std::string& why) {
     if (line_nested_too_deep(text) != 0) {
         why = kNested;
@@ -130,8 +130,8 @@ bool breaks(std::string_view text) {
     return false;
 }
 
-// The first line with which the text, which does so, breaks toml++'s assumptions. It is read in
-// order, so a text breaks them as soon as it holds that line.
+// First line that violates toml++'s assertions. Precondition: the text violates them. Found by
+// bisection: text is parsed in order, so every longer prefix violates them, too.
 int breaking_line(std::string_view text) {
     std::vector<std::size_t> ends;
     for (std::size_t end = text.find('\n'); end != std::string_view::npos;
@@ -160,7 +160,7 @@ Entry* find_entry(Value& table, std::string_view name) {
     return found == table.entries.end() ? nullptr : &*found;
 }
 
-// The entry of that name in a table, made if absent. What is no table becomes one.
+// Entry of that name in a table, created if absent. A parent that is no table is replaced by one.
 Entry& child(Entry& parent, const std::string& name) {
     const Position at{std::string(kOverrideFile), 0};
     if (parent.value.kind != Value::Kind::table) {
@@ -172,18 +172,18 @@ Entry& child(Entry& parent, const std::string& name) {
     }
     std::vector<Entry>& entries = parent.value.entries;
     entries.push_back({name, {}, at});
-    // A section that only an override names is missing from the file.
+    // A section that only an override names does not exist in the file.
     entries.back().value.position = {parent.value.position.file, 0};
     return entries.back();
 }
 
-// Whether an override set this entry or a part of it.
+// True if an override set this entry or a part of it.
 bool overridden(const Entry& entry) {
     return entry.position.file == kOverrideFile ||
            std::any_of(entry.value.entries.begin(), entry.value.entries.end(), overridden);
 }
 
-// Drops the correlations of a random input.
+// Removes the correlations of a random input.
 void uncorrelate(Entry& random, const std::string& key) {
     for (Entry& entry : random.value.entries) {
         if (entry.name == "correlations") {
@@ -236,10 +236,10 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
     } catch (const toml::parse_error& error) {
         problems.push_back({file, static_cast<int>(error.source().begin.line), "",
                             "not valid TOML (" + plain_message(error.description()) + ")",
-                            "correct this line; what follows it was not read"});
+                            "correct this line; the rest of the file was not read"});
     } catch (const BrokenAssumption&) {
         problems.push_back({file, breaking_line(text), "", "not valid TOML (malformed)",
-                            "correct this line; what follows it was not read"});
+                            "correct this line; the rest of the file was not read"});
     }
     return {};
 }

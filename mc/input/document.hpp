@@ -1,4 +1,4 @@
-// A TOML file as a plain tree that knows the line of every key, with overrides applied.
+// TOML file as a tree that records the line of every key, with overrides applied.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct Value {
     Position position;
 
     const Entry* find(std::string_view name) const;
-    // "a string", "an integer", ...
+    // Name of the kind for messages: "a string", "an integer", ...
     std::string_view kind_name() const;
 };
 
@@ -34,21 +34,21 @@ struct Entry {
     Position position;  // of the name
 };
 
-// Parses TOML. On a syntax error `problems` gets it and the tree is empty.
+// Parses TOML. A syntax error is appended to `problems`, and the tree is then empty.
 Value parse_document(const std::string& text, const std::string& file, Problems& problems);
 
-// Applies "section.key=value": sets the value at that path, creating tables on the way.
+// Applies "section.key=value": sets the value at that path and creates missing tables.
 void apply_override(Value& document, const std::string& assignment, Problems& problems);
 
-// Drops random.section.key wherever an override set section.key and none set anything of
-// random.section.key, and the correlations that name it: the value given is meant for all
-// gearboxes.
+// Removes random.section.key wherever an override set section.key and none set any part of
+// random.section.key: the given value is meant for all gearboxes. Also removes the correlations
+// that name this key.
 void drop_overridden_random(Value& document);
 
-// The whole file; a problem if it cannot be read.
+// Content of a file. A problem is appended if it cannot be read.
 std::string read_file(const std::string& path, Problems& problems);
 
-// "a.b.c" in its parts; of "" one, which is empty.
+// Splits "a.b.c" into its parts; "" has one part, which is empty.
 std::vector<std::string> split(const std::string& text, char separator);
 
 }  // namespace gearpod::mc

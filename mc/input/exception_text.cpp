@@ -8,8 +8,8 @@ namespace gearpod::mc {
 std::string exception_text(const std::exception& error) {
     const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
                            dynamic_cast<const std::length_error*>(&error) != nullptr;
-    return no_memory ? "the memory is exhausted; take fewer numerics.threads, or what makes the "
-                       "study large (ensemble.instances, sensor.noise_levels, sensor.sampling_Hz)"
+    return no_memory ? "out of memory; reduce numerics.threads, or the size of the study "
+                       "(ensemble.instances, sensor.noise_levels, sensor.sampling_Hz)"
                      : error.what();
 }
 

@@ -1,4 +1,4 @@
-// What to tell of an exception that nobody has put into words.
+// Message for an exception that has not been translated into a problem.
 #pragma once
 
 #include <exception>
@@ -6,7 +6,7 @@
 
 namespace gearpod::mc {
 
-// Its own words, or that the memory is exhausted, whose exceptions have none.
+// what(), or a message about exhausted memory for the exceptions that report it.
 std::string exception_text(const std::exception& error);
 
 }  // namespace gearpod::mc

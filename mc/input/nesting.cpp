@@ -26,7 +26,7 @@ class Scan {
     }
 
   private:
-    // One token: a part of a key or a value, a dot, a bracket, blanks, a comment.
+    // Reads one token: a part of a key or a value, a dot, a bracket, blanks, a comment.
     void step() {
         const char c = text_[at_];
         if (c == '"' || c == '\'') {
@@ -66,7 +66,8 @@ class Scan {
         dot_ = false;
     }
 
-    // Behind its closing quotes, or at the end of the line or text that it lacks them in.
+    // Skips a string up to its closing quotes, or to the end of the line or text if they are
+    // missing.
     void skip_string(char quote) {
         const std::string_view rest = text_.substr(at_);
         const bool many_lines = rest.size() > 2 && rest[1] == quote && rest[2] == quote;

@@ -1,16 +1,17 @@
-// How deep a TOML text nests, known before a parser that recurses reads it.
+// Nesting depth of a TOML text, checked before a recursive parser reads it.
 #pragma once
 
 #include <string_view>
 
 namespace gearpod::mc {
 
-// No study nests deeper than four.
+// Largest depth; valid studies nest at most four deep.
 inline constexpr int kMostNesting = 32;
 
-// The first line (from 1) on which a dotted key or header has more than kMostNesting parts, or
-// lists and tables lie more than kMostNesting deep in each other; 0 if there is none. Strings and
-// comments do not count. Linear in the text; what follows a syntax error may be misjudged.
+// First line (from 1) that is nested too deep; 0 if there is none. That is a dotted key or header
+// with more than kMostNesting parts, or lists and tables nested deeper than kMostNesting. Strings
+// and comments are ignored. Linear in the length of the text; after a syntax error the result may
+// be wrong.
 int line_nested_too_deep(std::string_view text);
 
 }  // namespace gearpod::mc

@@ -3,7 +3,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Length of a control character at `at`: one byte of ASCII, two of the C1 set in UTF-8; 0 if none.
+// Length in bytes of the control character at `at`: 1 for ASCII, 2 for the C1 set in UTF-8; 0 if
+// there is none.
 std::size_t control_at(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;

@@ -1,4 +1,4 @@
-// Text from files, as a terminal may be shown it.
+// Makes text from files safe to print on a terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace gearpod::mc {
 
-// Control characters, with which a terminal can be told to do things, become spaces where they are
-// blanks and question marks where they are not.
+// Replaces control characters, which can control a terminal: by a space if they are blanks, else by
+// a question mark.
 std::string printable(std::string_view text);
 
 bool is_printable(std::string_view text);

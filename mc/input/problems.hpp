@@ -1,4 +1,4 @@
-// What is wrong with a user's input: collected, never thrown, shown all at once.
+// Problems in a user's input: collected, never thrown, and shown together.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace gearpod::mc {
 
-// Where a key or value was written. Overrides have the file "--set" and line 0.
+// Position at which a key or value was written. Overrides have the file "--set" and line 0.
 struct Position {
     std::string file;
-    int line = 0;  // 1 for the first line; 0 where no line applies
+    int line = 0;  // from 1; 0 if no line applies
 };
 
-// One grammar for all messages: key: what is wrong (why it is wrong); what to do instead.
+// One problem. Messages have the form key: problem (reason); remedy.
 struct Problem {
     std::string file;
     int line = 0;
@@ -24,13 +24,14 @@ struct Problem {
 
 using Problems = std::vector<Problem>;
 
-// "studies/x.toml:12: gearbox.module: unknown key; did you mean module_mm? (unit missing)"
+// One-line message, e.g. "studies/x.toml:12: gearbox.module: unknown key; did you mean module_mm?
+// (unit missing)".
 std::string format(const Problem& problem);
 
-// One line a problem.
+// Messages of all problems, one line each.
 std::string format(const Problems& problems);
 
-// By file in order of first appearance, overrides last; by line within a file.
+// Sorts by file in order of first appearance, overrides last, and by line within a file.
 void sort_problems(Problems& problems);
 
 }  // namespace gearpod::mc

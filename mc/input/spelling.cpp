@@ -6,7 +6,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Those of the schema and those that people try.
+// Unit suffixes of the schema and others that users try.
 constexpr std::array kUnits = {
     "_kg_mm2", "_rad_s", "_kg_m2", "_N_s_mm", "_N_s_m",  "_kN_m", "_MN_m", "_N_um", "_N_mm",
     "_N_m",    "_m_s2",  "_mm_s2", "_arcsec", "_arcmin", "_inch", "_rad",  "_deg",  "_rpm",

@@ -10,7 +10,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Where a lives file says what its rows took.
+// Names of entries in a lives file that describe the cost of its rows.
 constexpr const char *kGearboxTime = "gearboxes_processor_s", *kRecordTime = "records_processor_s",
                      *kGearboxCount = "gearboxes_computed", *kRecordCount = "records_computed",
                      *kRecordText = "record";
@@ -38,8 +38,8 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
         const auto lives =
             tiles.run(part, batch.group == Group::graded, costs, std::span(errors).first(looked));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
-            add_life(tiles.scene().study(), sampler.row(part[lane]),
-                     lives[lane], errors[lane], rows);
+            add_life(tiles.scene().study(), sampler.row(part[lane]), lives[lane], errors[lane],
+                     rows);
         }
     }
     seconds.march += costs.gearboxes;

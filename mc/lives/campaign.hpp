@@ -1,4 +1,4 @@
-// Lives of many gearboxes.
+// Simulates the lives of many gearboxes.
 #pragma once
 
 #include <string>
@@ -9,26 +9,27 @@
 
 namespace gearpod::mc {
 
-// ensemble.threshold_instances healthy lives set the thresholds, life.healthy_lives others count
-// false alarms, in ensemble.instances lives cracks grow.
+// Lives of a study: ensemble.threshold_instances healthy lives determine the thresholds,
+// life.healthy_lives further ones count false alarms, and ensemble.instances lives have growing
+// cracks.
 struct Campaign {
     std::vector<GearboxLife> setting, healthy, cracked;
     LifeCosts costs;
-    InterpolationErrors interpolation;  // the largest of the first eight that crack
+    InterpolationErrors interpolation;  // maximum over the first eight gearboxes with a crack
     long failed = 0;
-    std::string record;  // record_text()
+    std::string record;  // result of record_text()
 };
 
-// run_batches() of lives: rows as lives_frame() says, of lives_plan(). The same bits for any
-// threads, ranks and lanes, and however often it was interrupted.
+// Runs run_batches() for lives; rows as in lives_frame(), batches as in lives_plan(). The result
+// does not depend on threads, ranks, lanes and interruptions, to the last bit.
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run);
-// What a record is and what the rows took, into the frame.
+// Stores the description of a record and the cost of the rows in the frame.
 void note_run(const Scene& scene, const EnsembleOutcome& outcome, Results& frame);
 
-// Of finished rows; costs are those of the run that wrote them.
+// Reads a campaign from finished rows; the costs are those of the run that wrote them.
 Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows);
 
-// All in memory and in this process.
+// Simulates all lives in memory and in this process.
 Campaign run_campaign(const Scene& scene);
 
 }  // namespace gearpod::mc

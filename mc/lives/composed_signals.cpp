@@ -43,7 +43,7 @@ LaneSignals ComposedSignals::at(std::span<const double> coefficients) const {
             add(products_[product], twice * coefficients[k] * coefficients[l], sum.folded);
         }
     }
-    // Squares, but for the rounding of terms that cancel.
+    // The sum of squares may become negative by rounding.
     for (double& value : sum.folded) {
         value = std::max(0.0, value);
     }

@@ -1,6 +1,6 @@
-// Signals that are sums of a few: what a record sees of a gearbox is a sum of its signals at some
-// depths of the crack and torques, and of the noise of an earlier record. Their folded squares
-// follow from the folded products, without a look at the samples.
+// Superposition of signals. The signal of a record is a linear combination of the gearbox's signals
+// at several crack depths and torques, and of the noise of earlier records. Its folded squares
+// follow from folded products, without the samples.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@ namespace gearpod::mc {
 
 class ComposedSignals {
   public:
-    // `basis`: sensors of the same length, of which the whole turns of `bins` samples fold, and
-    // turns of transmission error of the same length, empty for none. The samples must outlive
-    // it if turns are added. Without `folds` sums have no folded squares.
+    // `basis`: sensor signals of equal length, which consist of whole turns of `bins` samples, and
+    // averaged transmission errors of equal length, which may be empty. The samples must outlive
+    // the object if add_turns() is used. Without `folds`, at() gives no folded squares.
     ComposedSignals(std::span<const LaneSignals* const> basis, std::size_t bins, bool folds);
 
-    // The sum with these coefficients, one for each of the basis: folded squares and transmission
-    // error; no samples.
+    // Linear combination with one coefficient per basis signal: folded squares and transmission
+    // error, without samples.
     LaneSignals at(std::span<const double> coefficients) const;
 
-    // Adds its folded squares over some turns alone, from the samples; from the last turn it goes
-    // on with the first.
+    // Adds the folded squares of `turns` turns of a linear combination, computed from the samples.
+    // The turns continue periodically after the last one.
     void add_turns(std::span<const double> coefficients, std::size_t first, std::size_t turns,
                    std::vector<double>& folded) const;
 
@@ -30,7 +30,7 @@ class ComposedSignals {
     std::vector<std::span<const double>> samples_;
     std::size_t bins_;
     std::size_t count_;
-    std::vector<std::vector<double>> products_;  // folded, of k <= l, in rows
+    std::vector<std::vector<double>> products_;  // folded products for k <= l, row by row
     std::vector<std::vector<double>> te_turns_;
 };
 

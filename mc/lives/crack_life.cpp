@@ -24,7 +24,7 @@ stiffness::RootCrack root_crack(const Scene& scene) {
             crack_law(study)};
 }
 
-// Linear between the points of a curve, whose ends go on beyond it.
+// Piecewise linear interpolation; the end segments are extrapolated.
 double interpolated(const std::vector<double>& at, const std::vector<double>& values, double x) {
     const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, x);
     const auto i = static_cast<std::size_t>(above - at.begin());
@@ -40,7 +40,7 @@ CrackLife::CrackLife(const Scene& scene)
 double CrackLife::cycles_per_hour(const InstanceInputs& inputs) const {
     const Study& study = scene_.study();
     const Member member = *study.fault.member;
-    // A central gear's tooth meets every planet in turn.
+    // A tooth of a central gear meets every planet in turn.
     const int meetings = member == Member::sun ? study.gearbox.planets : 1;
     const double meshes_a_second =
         std::abs(scene_.drive().mesh_frequency_rad_s(inputs.speed_rad_s)) /

@@ -1,5 +1,4 @@
-// The life of one gearbox as its records see it: when they are taken, under what load, and how deep
-// the crack is by then.
+// History of one gearbox: times of its records, their loads, and the crack depths.
 #pragma once
 
 #include <optional>
@@ -11,37 +10,39 @@
 
 namespace gearpod::mc {
 
-// What a record has of its own, as factors on its gearbox's values.
+// Properties of a record; the factors apply to the values of its gearbox.
 struct LifeRecord {
     double hours = 0.0;
-    double depth_m = 0.0;  // 0: no crack yet
+    double depth_m = 0.0;  // 0 before the crack
     double torque = 1.0, speed = 1.0, gain = 1.0, noise = 1.0;
 };
 
 struct LifeHistory {
     std::vector<LifeRecord> records;
-    std::size_t first_cracked = 0;    // record; all of them without a crack
-    std::optional<double> end_hours;  // when the tooth went; empty while it holds
+    // index of the first record with a crack; number of records without one
+    std::size_t first_cracked = 0;
+    std::optional<double> end_hours;  // time of tooth failure; empty if the tooth survives
 };
 
-// Growth at the root of the study's faulty tooth by Paris' law, or along the study's curve: the
-// torque and speed of a record act until the next one. The force is the static one of the mesh,
+// Crack growth at the root of the study's faulty tooth by Paris' law, or along the study's curve.
+// The torque and speed of a record act until the next record. The force is the static mesh force,
 // shared evenly by the planets. The study must have a life.
 class CrackLife {
   public:
     explicit CrackLife(const Scene& scene);
 
-    // Engagements of the faulty tooth in an hour, on the side of its crack.
+    // Load cycles of the faulty tooth per hour, on the side of its crack.
     double cycles_per_hour(const InstanceInputs& inputs) const;
-    // Delta K at a force of 1 N on the mesh, m^(-3/2).
+    // Delta K at a mesh force of 1 N, m^(-3/2).
     double range_per_force(double depth_m) const;
 
-    // The crack is there from the first record behind the baseline on. A healthy life has all its
-    // records, a cracked one those before its end. Random numbers are the gearbox's own.
+    // History of a gearbox. The crack exists from the first record after the baseline. A healthy
+    // life has all its records, a cracked one those before its end. The random numbers depend only
+    // on the gearbox.
     LifeHistory history(const GearboxId& id, const InstanceInputs& inputs, bool cracked) const;
 
   private:
-    // Both end the history when the tooth goes.
+    // Both end the history when the tooth fails.
     void grow(const InstanceInputs& inputs, LifeHistory& history) const;
     void follow_curve(const InstanceInputs& inputs, LifeHistory& history) const;
     bool breaks(const InstanceInputs& inputs, const LifeRecord& record) const;

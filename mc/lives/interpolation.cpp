@@ -6,7 +6,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Rms of signal - (a share_a + b share_b).
+// Rms of signal - (share_a a + share_b b).
 double rms_apart(std::span<const double> signal, std::span<const double> a, double share_a,
                  std::span<const double> b, double share_b) {
     double sum = 0.0;

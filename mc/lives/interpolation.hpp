@@ -1,22 +1,23 @@
-// What interpolation takes, seen while the gearboxes are marched.
+// Measures the errors of interpolation between crack depths and between loads (InterpolationErrors)
+// while gearboxes are integrated.
 #pragma once
 
 #include "mc/lives/life_tile.hpp"
 
 namespace gearpod::mc {
 
-// All must outlive it.
+// All arguments must outlive the object.
 class LifeTiles::Look {
   public:
-    // `march`: of these gearboxes at the first of the loads.
+    // `march` holds these gearboxes at the first load.
     Look(const LifeTiles& tiles, std::span<const GearboxId> ids, const HealthyMarch& march,
          std::span<InterpolationErrors> errors)
         : tiles_(tiles), ids_(ids), march_(march), errors_(errors) {}
 
-    // Between every two neighbouring loads, the largest.
+    // Computes the largest error halfway between neighbouring loads.
     void between_loads(const Marched& healthy);
-    // In the middle of a step of depth, at the first load; the first and the last step are looked
-    // at.
+    // Computes the error at the middle of a depth step at the first load. Only the first and last
+    // steps are evaluated.
     void between_depths(int step, const Marched& healthy, const Marched& low, const Marched& high);
 
   private:

@@ -1,4 +1,5 @@
-// LifeTiles::run(): gearboxes from depth to depth, and what interpolation takes on the way.
+// Implements LifeTiles::run(): integrates gearboxes from depth to depth, and measures the
+// interpolation errors.
 #include "machine/thread_clock.hpp"
 #include "mc/lives/interpolation.hpp"
 #include "mc/lives/life_lane.hpp"

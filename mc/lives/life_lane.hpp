@@ -1,4 +1,4 @@
-// One gearbox on its way through the steps of depth: what its records hear.
+// Computes the records of one gearbox while its crack grows step by step.
 #pragma once
 
 #include <algorithm>
@@ -43,9 +43,9 @@ class LifeTiles::Lane {
     }
     bool failed() const { return life_.status != Status::ok; }
 
-    // The pattern that changes are counted from: as many records as the baseline has, before the
-    // first one, each at its torque and speed, averaged. Recordings that are short count as many
-    // as make up the span, which is heard once at least.
+    // Computes the reference pattern from which changes are measured: the average of as many
+    // records as the baseline has, taken before the first record, each at its own torque and speed.
+    // Recordings shorter than the span count in proportion, with at least one span in total.
     void learn(const std::vector<LaneSignals>& healthy) {
         if (!compares_) {
             return;
@@ -79,8 +79,9 @@ class LifeTiles::Lane {
         }
     }
 
-    // Records whose depth lies in (low, high], with `low` 0 those without a crack too. Signals by
-    // load at no depth, at low and at high; those at high may be empty if none lies above low.
+    // Computes the records whose depth lies in (low, high]; for `low` = 0 also those without a
+    // crack. The signals are given by load for zero depth, `low` and `high`. Those at `high` may be
+    // empty if no record is deeper than `low`.
     void listen(double low, double high, const std::vector<LaneSignals>& healthy,
                 const std::vector<LaneSignals>& at_low, const std::vector<LaneSignals>& at_high) {
         std::vector<std::size_t> here;
@@ -102,7 +103,7 @@ class LifeTiles::Lane {
         }
     }
 
-    // What records are sums of.
+    // Basis signals of which records are linear combinations.
     std::vector<const LaneSignals*> basis_of(const std::vector<LaneSignals>& healthy,
                                              const std::vector<LaneSignals>& at_low,
                                              const std::vector<LaneSignals>& at_high) const {
@@ -125,8 +126,8 @@ class LifeTiles::Lane {
     }
 
   private:
-    // Streams of a record's own, far behind those of all gearboxes. The first record's are the
-    // gearbox's: a life of one record is the record of a run.
+    // Random streams of single records, far beyond those of all gearboxes. The first record uses
+    // the stream of the gearbox, so that a life of one record equals a record of `run`.
     static GearboxId record_id(const GearboxId& id, std::size_t record, bool change) {
         constexpr int kRecordShift = 40;
         return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
@@ -152,7 +153,7 @@ class LifeTiles::Lane {
         const std::vector<std::size_t> starts = starts_of(r);
         LaneSignals own = heard(composed, coefficients, starts);
         for (double& value : own.te_turn) {
-            value /= inputs_.gain * record.gain;  // of the sensor alone
+            value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
         }
         record_.load(own, inputs, record_id(id_, r, false));
         features::FeatureInput input = record_.at(0), change;
@@ -173,7 +174,7 @@ class LifeTiles::Lane {
         }
     }
 
-    // The turns with which a record's recordings begin; none where they hold all turns.
+    // First turns of the recordings of a record; empty if each recording contains all turns.
     std::vector<std::size_t> starts_of(std::size_t r) const {
         std::vector<std::size_t> starts;
         if (!span_.whole()) {
@@ -188,7 +189,7 @@ class LifeTiles::Lane {
         return starts;
     }
 
-    // Folded over all that a record's recordings take in.
+    // Signals folded over all recordings of a record.
     LaneSignals heard(const ComposedSignals& composed, std::span<const double> coefficients,
                       const std::vector<std::size_t>& starts) const {
         const int spans = span_.turns / span_.all_turns * span_.recordings;
@@ -211,7 +212,7 @@ class LifeTiles::Lane {
     const RecordSpan span_;
     InstanceSignals record_, change_;
     GearboxLife life_;
-    LaneSignals noise_;            // of the pattern
+    LaneSignals noise_;            // noise of the reference pattern
     std::vector<double> pattern_;  // coefficients of the healthy signals
 };
 

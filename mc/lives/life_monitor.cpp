@@ -12,7 +12,7 @@
 
 namespace gearpod::mc {
 
-// A feature of all lives, or several as one.
+// A feature of all lives, or the combination of several features.
 class LifeMonitor::Watched {
   public:
     Watched(const Study& study, const Campaign& campaign, std::vector<std::size_t> features)

@@ -1,4 +1,4 @@
-// What the study's monitoring makes of a campaign's lives.
+// Applies the monitoring of a study to the lives of a campaign.
 #pragma once
 
 #include <memory>
@@ -10,34 +10,34 @@
 
 namespace gearpod::mc {
 
-// Of a feature of the study, or "fused", by one detector.
+// Results of one feature of the study, or of all features ("fused"), with one detector.
 struct MonitoredFeature {
     std::string feature, detector;
     analysis::LifeAnswers answers;
 };
 
-// The better one finds more, then shallower.
+// True if `a` finds more cracks than `b`, or as many at smaller depths.
 bool better(const analysis::LifeAnswers& a, const analysis::LifeAnswers& b);
 
-// What more or fewer false alarms would win or lose, by the detector that is best at the study's.
+// Effect of the false-alarm rate on detection, for the detector that is best at the study's rate.
 struct TradeOff {
     struct Point {
-        double stated_per_1000_h, per_1000_h;  // set, and counted on other lives
+        double stated_per_1000_h, per_1000_h;  // target rate, and rate counted on other lives
         double share, depth_50_m, depth_90_m;
     };
     std::string feature, detector;
     std::vector<Point> points;
 };
 
-// Deviations from the own baseline, by record: of the healthy lives that count false alarms 5, 50
-// and 95 %, and of the first lives with a crack each; NaN where the monitor sees none.
+// Deviations from each gearbox's baseline, by record: the 5, 50 and 95 % quantiles of the healthy
+// lives that count false alarms, and the first lives with a crack. NaN if there is no value.
 struct FeatureFan {
     std::string feature;
     std::vector<double> low, median, high;
     std::vector<std::vector<double>> lives;
 };
 
-// Study and campaign must outlive it.
+// Study and campaign must outlive the object.
 class LifeMonitor {
   public:
     LifeMonitor(const Study& study, const Campaign& campaign);
@@ -47,7 +47,8 @@ class LifeMonitor {
     const Study& study() const { return study_; }
     const Campaign& campaign() const { return campaign_; }
 
-    // Every feature, and all fused where that is more, by every detector.
+    // Results of every feature, and of all features together if there are several, with every
+    // detector.
     const std::vector<MonitoredFeature>& answers() const { return answers_; }
     std::vector<TradeOff> trade_offs() const;
     std::vector<FeatureFan> fans() const;

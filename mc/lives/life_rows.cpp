@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-// Behind the random inputs.
+// Columns after the random inputs.
 struct OwnColumn {
     const char *name, *unit;
 };
@@ -22,7 +22,7 @@ constexpr std::array<OwnColumn, 5> kOwnColumns{{{"end_h", "h"},
                                                 {"interpolation_last", ""},
                                                 {"interpolation_load", ""}}};
 
-// Behind the features, one value a record.
+// Columns after the features, one value per record.
 struct RecordColumn {
     const char *name, *unit;
     double LifeRecord::*member;
@@ -42,8 +42,8 @@ BatchPlan lives_plan(const Study& study) {
 
 Results lives_frame(const Study& study) {
     Results frame = results_frame(study_of_gearboxes(study));
-    frame.parameters.pop_back();  // the fault's size, which grows
-    frame.contact_loss.clear();   // records are superposed, not integrated
+    frame.parameters.pop_back();  // the fault size, which is not constant
+    frame.contact_loss.clear();   // superposed records have no contact loss ratio
     for (const OwnColumn& column : kOwnColumns) {
         frame.parameters.push_back({column.name, column.unit, {}});
     }
@@ -62,7 +62,7 @@ Results lives_frame(const Study& study) {
 void check_lives(const std::string& path, const Results& frame, const RowSource& rows) {
     const auto study = read_study_text(frame.provenance_value("study"), path).study;
     if (!study || !study->life.interval_h) {
-        throw std::runtime_error(path + ": its study cannot be read, or has no life");
+        throw std::runtime_error(path + ": its study cannot be read, or has no [life]");
     }
     check_like(path, frame, rows,
                ExpectedResults{lives_frame(*study), lives_plan(*study), "lives", true});
@@ -104,7 +104,7 @@ LifeRow life_of_row(const Study& study, const Results& frame, const RowBlock& bl
     const double* values = block.values.data() + row * shape.values();
     const double* own = values + shape.parameters - kOwnColumns.size();
     if (!(own[1] >= 0.0 && own[1] <= static_cast<double>(shape.levels))) {
-        throw std::runtime_error("/instances/records holds a number that no life has");
+        throw std::runtime_error("/instances/records contains an invalid number");
     }
     LifeRow result;
     result.interpolation = {own[2], own[3], own[4]};

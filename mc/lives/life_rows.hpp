@@ -1,4 +1,4 @@
-// Lives as rows of a results file: what is computed, stored and exchanged of a gearbox.
+// Lives as rows of a results file.
 #pragma once
 
 #include "mc/ensemble/results_check.hpp"
@@ -6,24 +6,25 @@
 
 namespace gearpod::mc {
 
-// The threshold group are the healthy lives: ensemble.threshold_instances that set the thresholds,
-// then life.healthy_lives that count false alarms. In the graded group cracks grow.
+// Batches of lives. The threshold group contains the healthy lives: first
+// ensemble.threshold_instances that determine the thresholds, then life.healthy_lives that count
+// false alarms. Cracks grow in the graded group.
 BatchPlan lives_plan(const Study& study);
 
-// What the results say besides their rows, of kind kLivesKind. Columns are empty.
+// Results of kind kLivesKind without rows; the columns are empty.
 Results lives_frame(const Study& study);
 
-// Throws std::runtime_error as check_results() does.
+// Checks the rows. Throws std::runtime_error as check_results() does.
 void check_lives(const std::string& path, const Results& frame, const RowSource& rows);
 
-// Whether a gearbox is among those that interpolation is looked at.
+// True if the interpolation errors of a gearbox are measured.
 bool looked_at(const GearboxId& id);
 
-// `parameters`: Sampler::row(). Appends a row.
+// Appends the row of a life. `parameters` comes from Sampler::row().
 void add_life(const Study& study, const std::vector<double>& parameters, const GearboxLife& life,
               const InterpolationErrors& errors, BatchRows& rows);
 
-// The life in a row of such a frame.
+// Life in a row of such a frame.
 struct LifeRow {
     GearboxLife life;
     InterpolationErrors interpolation;

@@ -1,5 +1,5 @@
-// Some gearboxes of a study from their draws to the features of all their records: marched once at
-// each of a few depths and torques, their records composed.
+// Computes the features of all records of several gearboxes. The gearboxes are integrated once at
+// each of a few depths and loads, and their records are superpositions.
 #pragma once
 
 #include <limits>
@@ -18,56 +18,58 @@ namespace gearpod::mc {
 struct GearboxLife {
     Status status = Status::ok;
     LifeHistory history;
-    std::vector<std::vector<double>> values;  // [feature][record]; none of a gearbox that failed
+    std::vector<std::vector<double>> values;  // [feature][record]; empty for a gearbox that failed
 };
 
-// What interpolation takes, rms over the span: in the middle of the first and the last step of
-// depth, over what the crack changes there, and without a crack halfway between neighbours of the
-// torques and speeds that are marched, the largest, over the signal there. NaN where it was not
-// looked at.
+// Interpolation errors as rms over the span; NaN if not measured. `first` and `last`: at the middle
+// of the first and last depth steps, relative to the effect of the crack there. `load`: the largest
+// error halfway between neighbouring integrated torques and speeds, without a crack, relative to
+// the signal there.
 struct InterpolationErrors {
     double first = std::numeric_limits<double>::quiet_NaN();
     double last = std::numeric_limits<double>::quiet_NaN();
-    double load = std::numeric_limits<double>::quiet_NaN();  // 0 where all records have one
+    double load = std::numeric_limits<double>::quiet_NaN();  // 0 if all records have the same load
 
-    // Of both the larger one.
+    // Takes the maximum of both for each error.
     void take(const InterpolationErrors& other);
 };
-// The depths of the first two, m.
+// Depths at which `first` and `last` are measured, m.
 double first_interpolated_m(const Life& life);
 double last_interpolated_m(const Life& life);
 
-// How long what belongs to gearboxes and what belongs to records took, seconds of processor time.
+// Processor time in seconds, spent per gearbox and per record.
 struct LifeCosts {
     double gearboxes = 0.0, records = 0.0;
     long gearbox_count = 0, record_count = 0;
 };
 
-// What hearing a gearbox takes, seconds of processor time.
+// Processor time in seconds for the records of a gearbox.
 struct RecordTrial {
-    double step_s = 0.0;    // each step of depth: what its records are composed of
-    double record_s = 0.0;  // each record
+    double step_s = 0.0;    // per depth step: preparing the superposition
+    double record_s = 0.0;  // per record
 };
 
 class LifeTiles {
   public:
-    // Throws SceneError for what records cannot be composed of.
+    // Throws SceneError if the study's records cannot be superposed.
     explicit LifeTiles(const Scene& scene);
 
-    // `errors`: of the first gearboxes, as many as are looked at; of those that failed NaN.
+    // Simulates the lives of gearboxes. `errors`: interpolation errors of the first gearboxes; NaN
+    // for those that failed.
     std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked, LifeCosts& costs,
                                  std::span<InterpolationErrors> errors = {}) const;
 
-    // All records of a gearbox, of signals that are made up in place of marches.
+    // Computes all records of a gearbox from synthetic signals, and measures the time.
     RecordTrial try_records() const;
 
-    LifeHistory history(const GearboxId& id) const;  // of one that cracks
-    // At how many loads it is marched, and is looked at between these.
+    LifeHistory history(const GearboxId& id) const;  // of a gearbox with a crack
+    // Number of loads that are integrated, and number of loads between them at which interpolation
+    // errors are measured.
     std::size_t load_count() const { return torques_.size() * speeds_.size(); }
     std::size_t gap_count() const;
 
     const Scene& scene() const { return scene_; }
-    // Gearboxes in lockstep.
+    // Number of gearboxes integrated in lockstep.
     std::size_t lanes() const;
 
   private:
@@ -75,21 +77,21 @@ class LifeTiles {
     class Look;
     using Marched = std::vector<std::vector<LaneSignals>>;  // [lane][load]
     LaneSignals made_up(std::uint64_t number) const;
-    // Factors on a gearbox's torque and speed.
+    // Factors on the torque and speed of a gearbox.
     struct Load {
         double torque = 1.0, speed = 1.0;
     };
-    // Of every gearbox.
+    // Healthy reference solution of the gearboxes at a load.
     HealthyMarch march(std::span<const GearboxId> ids, const Load& load) const;
     InstanceInputs inputs(const GearboxId& id) const;
     double depth(int step) const;
-    // Those that are marched, and how much of each makes up another.
+    // Integrated loads, and interpolation weights of each of them for another load.
     std::vector<Load> loads() const;
     std::vector<double> shares(const Load& load) const;
 
     const Scene& scene_;
     const RecordLaws laws_;
-    const std::vector<double> torques_, speeds_;  // factors that are marched
+    const std::vector<double> torques_, speeds_;  // factors that are integrated
     const Sampler sampler_;
     const signals::PathGrid path_;
     const CrackLife crack_;

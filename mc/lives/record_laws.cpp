@@ -66,7 +66,8 @@ std::vector<double> RecordLaw::marched(int count) const {
     if (all.size() > 1) {
         return all;
     }
-    // A law of few values that are seldom others.
+    // The evenly spaced quantiles of a discrete distribution may coincide; then its limits are
+    // used.
     const Support support = input_ ? input_->distribution.support() : Support{1.0, 1.0};
     return support.low < support.high
                ? std::vector<double>{support.low / nominal_, support.high / nominal_}
@@ -86,7 +87,7 @@ std::string RecordLaw::text() const {
         return fmt::format("{} = {}", input_->key, input_->distribution.toml());
     }
     return scatter_ > 0.0
-               ? fmt::format("scatters by {:g} % (rms) about the gearbox's", 100.0 * scatter_)
+               ? fmt::format("varies by {:g} % (rms) about the gearbox's value", 100.0 * scatter_)
                : "the gearbox's";
 }
 

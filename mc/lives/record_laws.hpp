@@ -1,7 +1,7 @@
-// What a record has of its own: torque, speed, gain and noise, as factors on its gearbox's. Said by
-// the scatter keys of [life], which are lognormal laws about the gearbox's value in short, or in
-// [random] with per = "record". Either way a record has one standard normal number for each, which
-// its law turns into a factor.
+// Distributions of the torque, speed, gain and noise of records, as factors on the values of the
+// gearbox. They are given by the scatter keys of [life] (lognormal distributions) or in [random]
+// with per = "record". In both cases, a record has one standard normal number per quantity, which
+// the distribution converts to a factor.
 #pragma once
 
 #include <optional>
@@ -14,22 +14,25 @@ namespace gearpod::mc {
 
 class RecordLaw {
   public:
-    // `scatter`: rms of the factor's logarithm, where [random] gives no law for the quantity.
+    // `scatter`: rms of the factor's logarithm, used if [random] has no distribution of the
+    // quantity.
     RecordLaw(const Study& study, RecordQuantity quantity, double scatter);
 
     bool varies() const { return input_.has_value() || scatter_ > 0.0; }
-    // By [random].
+    // True if the distribution is given in [random].
     bool given() const { return input_.has_value(); }
-    // Rises with the standard normal number.
+    // Factor for a standard normal number; monotonically increasing.
     double factor(double unit) const;
-    // Root of the mean square that noise of such factors averages to; a little more of short laws.
+    // Root mean square of the factor (numerically, or an upper approximation for lognormal
+    // factors).
     double rms() const;
-    // Ascending factors at which a gearbox is marched for records in between, those of so many
-    // evenly spaced numbers from -1.5 to 1.5, two or more; one where nothing varies.
+    // Ascending factors at which a gearbox is integrated, between which records are interpolated.
+    // They belong to `count` (two or more) evenly spaced normal numbers from -1.5 to 1.5; {1} if
+    // the quantity is constant.
     std::vector<double> marched(int count) const;
-    // One between each of these and the next, of the number halfway.
+    // Factors halfway (in the normal number) between neighbouring ones of these.
     std::vector<double> between(int count) const;
-    // "scatters by 2 % (rms) about the gearbox's", "lognormal, ..."
+    // For example "scatters by 2 % (rms) about the gearbox's" or "lognormal, ...".
     std::string text() const;
 
   private:
@@ -42,14 +45,14 @@ struct RecordLaws {
     explicit RecordLaws(const Study& study);
 
     RecordLaw torque, speed, gain, noise;
-    bool noise_of_sensor_alone;  // else of the encoders as well
+    bool noise_of_sensor_alone;  // false if it applies to the encoders as well
 };
 
-// How much of what is marched at these ascending factors makes up another, along the line between
-// its neighbours or, beyond the ends, between the outer two.
+// Weights of linear interpolation between the ascending integrated factors; the outer two also
+// extrapolate.
 std::vector<double> shares_of(const std::vector<double>& marched, double factor);
 
-// The study as its gearboxes see it: inputs of records stay at their nominal values.
+// Study of the gearboxes: inputs that vary by record keep their nominal values.
 Study study_of_gearboxes(const Study& study);
 
 }  // namespace gearpod::mc

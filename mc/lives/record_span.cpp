@@ -34,9 +34,9 @@ RecordSpan record_span(const Scene& scene, double speed_rad_s) {
     if (record.turns < kLeast) {
         throw SceneError(
             life.record_s ? "life.record_s" : "life.record_turns",
-            fmt::format("{:.1f} mesh periods, and windows return every {}", meshes,
+            fmt::format("{:.1f} mesh periods, but windows repeat every {}", meshes,
                         span.planet_teeth),
-            fmt::format("it must hold {} of these, {:.3g} {}", kLeast,
+            fmt::format("give at least {} of these, {:.3g} {}", kLeast,
                         life.record_s
                             ? kLeast * span.planet_teeth / mesh_Hz
                             : static_cast<double>(kLeast * span.planet_teeth) / span.carrier_meshes,
@@ -52,14 +52,14 @@ std::string record_text(const Scene& scene) {
     std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
                                    record.turns * teeth / mesh_frequency_Hz(scene, speed));
     if (record.recordings > 1) {
-        text += fmt::format(", and {} such recordings on average", record.recordings);
+        text += fmt::format(", averaged over {} such recordings", record.recordings);
     }
-    return text + (record.turns >= record.all_turns
-                       ? fmt::format(": each of the {} teeth in all its {} meetings", teeth,
-                                     record.all_turns)
-                       : fmt::format(": each of the {} teeth in {} of its {} meetings, those that "
-                                     "happen to come",
-                                     teeth, record.turns, record.all_turns));
+    return text +
+           (record.turns >= record.all_turns
+                ? fmt::format(": each of the {} teeth in all its {} meetings", teeth,
+                              record.all_turns)
+                : fmt::format(": each of the {} teeth in {} of its {} meetings, chosen at random",
+                              teeth, record.turns, record.all_turns));
 }
 
 void check_composable(const Scene& scene) {
@@ -68,15 +68,16 @@ void check_composable(const Scene& scene) {
         throw SceneError(key, what, remedy);
     };
     if (!study.life.interval_h) {
-        reject("life.interval_h", "missing: how often a gearbox is measured", "add [life]");
+        reject("life.interval_h", "missing: the time between records", "add [life]");
     }
     for (const features::Feature* feature : used_features(study)) {
         const bool own = feature->compared == features::Compared::baseline;
         if (own || (feature->needs & ~features::kChange) != 0) {
             reject("features.use",
                    "\"" + std::string(feature->name) +
-                       (own ? "\": a life has its own baseline (monitoring.baseline_records)"
-                            : "\" looks at samples, and records are composed of folded squares"),
+                       (own ? "\" compares with a baseline record, but a life has its own baseline "
+                              "(monitoring.baseline_records)"
+                            : "\" needs samples, but superposed records have only folded squares"),
                    "use te_..., sensor_rms, window_ratio, window_z, change_window_ratio or "
                    "change_window_z");
         }
@@ -86,26 +87,26 @@ void check_composable(const Scene& scene) {
         if (short_records && name.starts_with("te_")) {
             reject("features.use",
                    "\"" + name +
-                       "\" averages transmission error over the whole span, and recordings have "
-                       "another length",
-                   "leave it out, or life.record_s and record_turns");
+                       "\" averages the transmission error over the whole span, but recordings "
+                       "have another length",
+                   "remove it, or life.record_s and life.record_turns");
         }
     }
     if (study.life.record_turns && scene.span().carrier_meshes == 1) {
         reject("life.record_turns", "the carrier stands still", "use record_s");
     }
     if (study.effects.quasi_static()) {
-        reject("effects.motion", "without inertia there is no sensor to compose records for",
+        reject("effects.motion", "a quasi-static gearbox has no sensor signal",
                "use motion = \"translational-torsional\" or \"torsional\"");
     }
     if (study.sensor.noise_levels.size() != 1) {
-        reject("sensor.noise_levels", "a life has one noise", "use noise_levels = [1]");
+        reject("sensor.noise_levels", "a life has one noise level", "use noise_levels = [1]");
     }
     if (draws_fluctuations(study) || !study.sensor.tones.empty()) {
         reject("life.interval_h",
-               "records are composed of steady signals, and the study has fluctuations, gravity or "
-               "tones that begin anew in each",
-               "leave them out");
+               "records are superpositions of steady signals, but the study has fluctuations, "
+               "gravity or tones that differ between records",
+               "remove them");
     }
     if (short_records) {
         record_span(scene, Sampler(study).nominal().speed_rad_s);

@@ -1,4 +1,4 @@
-// What of a gearbox's turning a record takes in, and whether its records can be composed.
+// Length of a record, and conditions under which records can be superposed.
 #pragma once
 
 #include <string>
@@ -7,24 +7,25 @@
 
 namespace gearpod::mc {
 
-// What a record takes in of its gearbox.
+// Length of a record in planet turns.
 struct RecordSpan {
-    int turns = 0;       // of a planet, whole ones, in each recording
-    int all_turns = 0;   // in which every tooth of a planet meets every one of the ring once
-    int recordings = 1;  // that a record averages
+    int turns = 0;  // whole planet turns in each recording
+    // planet turns after which every tooth of a planet has met every ring tooth once
+    int all_turns = 0;
+    int recordings = 1;  // number of recordings averaged in a record
 
-    // Whether every recording holds all of these, perhaps more than once.
+    // True if every recording consists of complete spans.
     bool whole() const { return turns % all_turns == 0; }
 };
 
-// Of a record at such a speed. Throws SceneError for recordings that are too short.
+// Length of a record at this speed. Throws SceneError if recordings are too short.
 RecordSpan record_span(const Scene& scene, double speed_rad_s);
 
-// "26 turns of the planet, ...": how long a record of the study's gearbox is, and which pairs of
-// teeth it sees.
+// Description of the length of a record and of the tooth pairs in it, for example "26 turns of
+// ...".
 std::string record_text(const Scene& scene);
 
-// Throws SceneError for what records cannot be composed of.
+// Throws SceneError if the study's records cannot be superposed.
 void check_composable(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -1,4 +1,4 @@
-// What a forecast asks of LifeTiles.
+// Measures the time for computing records, for forecasts.
 #include <algorithm>
 
 #include "machine/thread_clock.hpp"

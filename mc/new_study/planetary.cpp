@@ -19,7 +19,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Options of `new planetary` by the keys that they set.
+// Options of `new planetary` and the study keys that they set.
 constexpr std::array kOptions{
     std::pair{"gearbox.sun_teeth", "--sun"},
     std::pair{"gearbox.planet_teeth", "--planet"},
@@ -50,7 +50,8 @@ bool says(const Problem& problem, const char* words) {
     return problem.what.find(words) != std::string::npos;
 }
 
-// Names the options in place of the keys of a study that is not written yet.
+// Replaces study keys in a problem by the options that set them, because the study is not written
+// yet.
 Problem as_option(Problem problem) {
     problem.file = kName;
     problem.line = 0;
@@ -67,7 +68,7 @@ Problem as_option(Problem problem) {
     if (at != kOptions.end()) {
         problem.key = at->second;
     } else {
-        problem.remedy = "the value follows by rule: look at --module, --torque and --speed";
+        problem.remedy = "the value is derived; check --module, --torque and --speed";
     }
     return problem;
 }
@@ -77,19 +78,19 @@ Problems as_options(Problems problems) {
     return problems;
 }
 
-// Ring of standard gears. The tooth numbers are not checked yet.
+// Tooth number of the ring for standard gears. The tooth numbers are not checked yet.
 int usual_ring(const PlanetaryDatasheet& data) {
     constexpr std::int64_t kMost = 1 << 30;
     return static_cast<int>(std::clamp(data.sun + 2 * std::int64_t{data.planet}, -kMost, kMost));
 }
 
-// Rounded to whole millimetres from ten on. Any number if the module itself is refused.
+// Default face width, rounded to whole millimetres from 10 mm. Any number if the module is invalid.
 double usual_width_mm(const PlanetaryDatasheet& data) {
     const double width = 1e3 * usual_face_width_m(1e-3 * data.module_mm);
     return !(width > 0.0) || !std::isfinite(width) ? 1.0 : width < 10.0 ? width : std::round(width);
 }
 
-// Torque and speed from two of torque, speed and power.
+// Input torque and speed from two of torque, speed and power.
 InputLoad load_of(const PlanetaryDatasheet& data) {
     constexpr double kRadPerS = std::numbers::pi / 30.0;
     const double power_W = 1e3 * data.power_kW.value_or(0.0);
@@ -104,7 +105,7 @@ Problems load_problems(const PlanetaryDatasheet& data) {
     if (given != 2) {
         problems.push_back({kName, 0, "--torque, --speed, --power",
                             fmt::format("{} of the three are given", given),
-                            "give two of them, of the " + data.input});
+                            "give exactly two of them, for the " + data.input});
     }
     for (const auto& [option, value] :
          {std::pair{"--torque", data.torque_N_m}, std::pair{"--speed", data.speed_rpm},
@@ -117,7 +118,7 @@ Problems load_problems(const PlanetaryDatasheet& data) {
     return problems;
 }
 
-// Study of the teeth without what the rules add. Reading it tells whether the teeth are possible.
+// Minimal study with the teeth only. Reading it checks the teeth.
 std::string teeth_alone(const NominalGears& gears) {
     return gearbox_teeth(gears) +
            "tooth_profile = \"fillet\"\nsupport_stiffness_N_m = 1e9\n"
@@ -180,7 +181,7 @@ NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& comman
     }
     const InputLoad load = load_of(data);
     const std::string text = planetary_text(gears, derive(*teeth.study, data, load), load, command);
-    // Reading finds values out of range, the scene what only building the gearbox shows.
+    // Reading finds values out of range; building the scene finds all other problems.
     problems = as_options(make_scene(kName, read_study_text(text, kName)).problems);
     return problems.empty() ? NewStudy{text, {}} : NewStudy{"", problems};
 }

@@ -29,12 +29,12 @@ std::string header(const NominalGears& g, const std::string& command) {
     return fmt::format(
         "# A planetary gearbox of {}/{}/{} teeth and {} planets, from its datasheet by\n"
         "#   gearpod {}\n"
-        "# Rules of thumb stand in for what a datasheet leaves out; each says where it comes from. "
-        "Replace what you know.\n"
-        "# Shigley: Mechanical Engineering Design. Kraemer: Dynamics of Rotors and Foundations "
-        "(1993), section 3.4.\n"
-        "# `gearpod describe` prints what follows from it, `gearpod calibrate` fits tooth errors, "
-        "path and background to\n# recordings of healthy gearboxes.\n"
+        "# Values that the datasheet does not give follow from rules of thumb with their\n"
+        "# sources, or are chosen. Replace the values that you know.\n"
+        "# Shigley: Mechanical Engineering Design. Kraemer: Dynamics of Rotors and\n"
+        "# Foundations (1993), section 3.4.\n"
+        "# `gearpod describe` prints the resulting gearbox. `gearpod calibrate` fits tooth\n"
+        "# errors, path and background noise to recordings of healthy gearboxes.\n"
         "title = \"Planetary gearbox {}/{}/{}: crack of a planet tooth on the ring side\"\n\n",
         g.data.sun, g.data.planet, g.ring_teeth, g.data.planets, command, g.data.sun, g.data.planet,
         g.ring_teeth);
@@ -60,20 +60,20 @@ std::string bodies(const DerivedGearbox& d) {
     return line("sun_bore_mm", 2e3 * d.sun_body.inner_m,
                 "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA 2001-D04, backup "
                 "ratio)") +
-           line("planet_bore_mm", 2e3 * d.planet_body.inner_m, "its bearing sits there") +
+           line("planet_bore_mm", 2e3 * d.planet_body.inner_m, "holds the bearing") +
            line("ring_outer_mm", 2e3 * d.ring_body.outer_m,
-                "a rim of three tooth heights, room for bolts: chosen");
+                "rim of three tooth heights, with room for bolts (chosen)");
 }
 
 std::string bearings(const DerivedGearbox& d) {
     const double planet = d.bearing.stiffness_N_m(d.pin_load_N);
     const RollerBearing& b = d.bearing;
     std::string text = fmt::format(
-        "# Planet bearings: 2 rows of {} rollers of {} mm under {} kN, 1e9 Z^0.9 l^0.8 F^0.1 "
-        "(Kraemer, after Palmgren).\n"
-        "# The carrier's are as stiff, a bolted ring twice; the sun floats on a fiftieth, so that "
-        "the planets share the\n# load: chosen. Damping: 1e-5 s of the stiffness (Kraemer: 0.25e-5 "
-        "to 2.5e-5 s).\n",
+        "# Planet bearings: 2 rows of {} rollers, {} mm long, loaded with {} kN:\n"
+        "# 1e9 Z^0.9 l^0.8 F^0.1 (Kraemer, after Palmgren). Chosen: carrier bearings of the\n"
+        "# same stiffness, a bolted ring of twice the stiffness, and a floating sun of a\n"
+        "# fiftieth, so that the planets share the load. Damping: 1e-5 s times the\n"
+        "# stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
         b.rollers, figures(1e3 * b.roller_length_m), figures(1e-3 * d.pin_load_N));
     std::string damping;
     for (const auto& [name, factor] : {std::pair{"sun_bearing", 0.02},
@@ -90,7 +90,7 @@ std::string bearings(const DerivedGearbox& d) {
     return text + damping;
 }
 
-// Root mean square of the pins' places: a normal law that keeps the tolerance in 95 of 100.
+// Standard deviation of the pin positions: a normal distribution with 95 % within the tolerance.
 double pin_rms_um(const DerivedGearbox& d) {
     return 1e6 * grade_7_tolerance_m(d.centre_distance_m) / 4.0;
 }
@@ -128,9 +128,8 @@ struct SensorRates {
     double low_pass = 0, sampling = 0;
 };
 
-// Twenty mesh harmonics, up to what an accelerometer of general purpose is good for. Gears that
-// mesh faster than that still have enough samples in a mesh period for the encoders and the
-// windows.
+// Rates for twenty mesh harmonics, limited to the range of a general-purpose accelerometer. At
+// higher mesh frequencies a mesh period still has enough samples for the encoders and the windows.
 SensorRates sensor_rates(double mesh_frequency_Hz) {
     constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kAnalyser = 2.56,
                      kFewestPerMesh = 12.0;
@@ -138,9 +137,9 @@ SensorRates sensor_rates(double mesh_frequency_Hz) {
     return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
 }
 
-// Background of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which is
-// 0.1 m/s^2 up to 10 kHz, chosen. Samples far closer than the low-pass lets noise change take its
-// rms instead.
+// Background noise of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which
+// is 0.1 m/s^2 up to 10 kHz (chosen). At sampling rates far above the low-pass the rms of white
+// noise is used instead.
 struct Background {
     const char* key;
     double value;
@@ -161,12 +160,12 @@ std::string sensor(const DerivedGearbox& d) {
                 fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
                             figures(d.mesh_frequency_Hz))) +
            line("sampling_Hz", rates.sampling,
-                "2.56 times the low-pass, as analysers have it; 12 a mesh period at least") +
+                "2.56 times the low-pass, at least 12 per mesh period") +
            line("path_exponent", 0.1, "Liang (2016), section 5.1") +
            line(background(rates).key, background(rates).value,
-                "the rest of the machine: no datasheet has it; measure, or calibrate") +
-           line("encoder_sampling_Hz", rates.sampling, "with the sensor's samples") +
-           line("encoder_noise_arcsec", 1.0, "of a good encoder: chosen") +
+                "background of the machine; measure or calibrate it") +
+           line("encoder_sampling_Hz", rates.sampling, "same as the sensor") +
+           line("encoder_noise_arcsec", 1.0, "a good encoder (chosen)") +
            line("noise_levels", "[0.005, 0.25, 1, 4]",
                 "0.005: a low-noise accelerometer alone, 0.5 ug/sqrt(Hz); 0.25: an industrial "
                 "MEMS one, 25 ug/sqrt(Hz)");
@@ -187,8 +186,8 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
         depths +=
             (depths.empty() ? "" : ", ") + fmt::format("{:.3g}", 1e3 * share * d.deepest_crack_m);
     }
-    return "\n[random]                                    # what differs between gearboxes: "
-           "chosen\n" +
+    return "\n[random]                                    # variation between gearboxes "
+           "(chosen)\n" +
            varied("gearbox.planet_bearing_stiffness_N_m", lognormal(bearing, 0.3)) +
            varied("gearbox.sun_bearing_stiffness_N_m", lognormal(0.02 * bearing, 0.3)) +
            varied("gearbox.ring_bearing_stiffness_N_m", lognormal(2.0 * bearing, 0.3)) +
@@ -211,7 +210,7 @@ constexpr const char* kAnswer =
     "\"own_window_ratio\", \"change_window_ratio\"]\n"
     "baseline_torque_scatter = 0.02\n"
     "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
-    "\n[ensemble]                                  # more make the intervals narrower\n"
+    "\n[ensemble]                                  # more gearboxes narrow the intervals\n"
     "instances = 128\nthreshold_instances = 96\nseed = 1\n";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The text of a planetary gearbox' study.
+// Text of a planetary gearbox's study file.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace gearpod::mc {
 
-// A datasheet with the ring and the face width that it may leave out.
+// Datasheet completed with the ring's tooth number and the face width.
 struct NominalGears {
     PlanetaryDatasheet data;
     int ring_teeth = 0;
     double face_width_mm = 0;
 };
 
-// Values that follow by the rules.
+// Values derived by the rules of rules.hpp.
 struct DerivedGearbox {
     double centre_distance_m = 0;
     Annulus sun_body, planet_body, ring_body;
@@ -30,10 +30,10 @@ struct InputLoad {
     double torque_N_m = 0, speed_rpm = 0;
 };
 
-// [gearbox] as far as the datasheet says it, and the material.
+// Returns section [gearbox] with the datasheet values and the material.
 std::string gearbox_teeth(const NominalGears& gears);
 
-// The whole study. `command`: what made it, for its first comment.
+// Returns the complete study. `command`: command line, quoted in its first comment.
 std::string planetary_text(const NominalGears& gears, const DerivedGearbox& derived,
                            const InputLoad& load, const std::string& command);
 

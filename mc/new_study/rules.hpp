@@ -1,4 +1,4 @@
-// Rules of thumb for what a datasheet leaves out. SI units.
+// Rules of thumb for values missing in a datasheet. SI units.
 // Sources:
 // - Shigley: Budynas, Nisbett, Shigley's Mechanical Engineering Design, chapters 13 and 14.
 // - AGMA 2001-D04, annex B, and Shigley, section 14-16: the rim-thickness factor.
@@ -12,14 +12,15 @@ namespace gearpod::mc {
 
 inline constexpr double kSteelDensity_kg_m3 = 7850.0;
 
-// Four circular pitches; Shigley's rule is three to five.
+// Face width of four circular pitches; Shigley's rule is three to five.
 double usual_face_width_m(double normal_module_m);
 
-// Rim under the teeth: 1.2 tooth heights, from which on a rim bends the root no further (AGMA's
-// backup ratio).
+// Rim thickness under the teeth: 1.2 tooth heights, the backup ratio from which the rim does not
+// weaken the tooth root (AGMA).
 double usual_rim_m(double tooth_height_m);
 
-// Bore over root circle of gears with few teeth, whose rim would close the bore; chosen.
+// Least ratio of bore to root circle, for gears with few teeth whose rim would close the bore;
+// chosen.
 inline constexpr double kLeastBore = 0.3;
 
 // Steel ring. Radii in metres.
@@ -30,26 +31,26 @@ struct Annulus {
     double inertia_kg_m2() const;
 };
 
-// A cylindrical roller bearing that fills a bore of this diameter: rows side by side that share the
-// load.
+// Cylindrical roller bearing of several rows that share the load.
 struct RollerBearing {
-    int rollers = 0;  // in each row
+    int rollers = 0;  // per row
     int rows = 1;
     double roller_length_m = 0, inner_diameter_m = 0;
 
-    // d force / d deflection under a radial load, 1e9 Z^0.9 l^0.8 F^0.1 a row (Kraemer).
+    // Tangent stiffness under a radial load: 1e9 Z^0.9 l^0.8 F^0.1 per row (Kraemer).
     double stiffness_N_m(double load_N) const;
 };
-// Two rows over 0.7 of the width. Rollers of 0.14 of the bore on a circle of 0.77, 1.2 diameters
-// apart, an inner diameter of 0.55, which is that of dimension series 22 (ISO 15); the rest is
+// Returns the bearing that fills a bore: two rows over 0.7 of the width. In units of the bore, the
+// roller diameter is 0.14, the pitch circle 0.77 and the inner diameter 0.55. Rollers are 1.2
+// roller diameters apart. The inner diameter is that of dimension series 22 (ISO 15); the rest is
 // chosen.
 RollerBearing bearing_in_bore(double bore_m, double width_m);
 
-// 1e-5 s times the stiffness; Kraemer gives 0.25e-5 to 2.5e-5 s for rolling bearings.
+// Damping of a rolling bearing: 1e-5 s times the stiffness; Kraemer gives 0.25e-5 to 2.5e-5 s.
 double bearing_damping_N_s_m(double stiffness_N_m);
 
-// ISO 286-1's tolerance of grade 7, 16 i, i = 0.45 D^(1/3) + 0.001 D um up to 500 mm, 0.004 D + 2.1
-// um above.
+// Standard tolerance of grade 7 (ISO 286-1), 16 i, with i = 0.45 D^(1/3) + 0.001 D um up to 500 mm
+// and 0.004 D + 2.1 um above (D in mm).
 double grade_7_tolerance_m(double size_m);
 
 }  // namespace gearpod::mc

@@ -16,18 +16,18 @@ namespace gearpod::mc {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// The reference moves this much less than the tolerance when its steps are halved.
+// The reference changes by at most this fraction of the tolerance when its steps are halved.
 constexpr double kReferenceShare = 0.1;
 
-// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
+// Candidates have up to this many times the steps of an integrator's own rule, which aims at 0.1 %.
 constexpr double kBeyondOwnRule = 16.0;
 
-// What a rung gives on the pilot.
+// Result of a candidate setting on the pilot.
 struct Trial {
-    double error = kNever;  // of the worst feature
-    int worst = 0;          // which that is
-    double cost = kNever;   // rk4 steps a gearbox
-    bool marched = false;   // or could not win, or has no place in the study
+    double error = kNever;  // relative, of the worst feature
+    int worst = 0;          // index of that feature
+    double cost = kNever;   // in rk4 steps per gearbox
+    bool marched = false;   // false: too expensive to be chosen, or invalid for the study
 };
 
 class Search {
@@ -45,11 +45,11 @@ class Search {
         if (!reference_.reached) {
             throw SceneError(
                 "numerics.tolerance",
-                fmt::format("{:g} is beyond what this study's integrator shows: its features still "
-                            "move by {:.2g} from {} steps a mesh period to twice as many",
+                fmt::format("{:g} cannot be verified: with this study's integrator the features "
+                            "still change by {:.2g} from {} steps per mesh period to twice as many",
                             tolerance_, reference_.agreement.largest_feature(),
                             reference_.first.steps / 2),
-                "ask for a larger tolerance");
+                "use a larger tolerance");
         }
     }
 
@@ -58,7 +58,8 @@ class Search {
         std::erase_if(all, [&](const Flight& f) {
             return f.size() == 0 || !step_cost(study_, f.integrator, f.other);
         });
-        // The likeliest first: what costs more than the best so far is not tried.
+        // The least expensive families first: candidates that cost more than the best so far are
+        // not tried.
         std::stable_sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
             return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
         });
@@ -66,10 +67,12 @@ class Search {
             flight.graded() ? search_graded(flight) : search(flight);
         }
         if (!std::isfinite(best_.cost)) {
-            throw SceneError("numerics.tolerance",
-                             fmt::format("no rung keeps the features within {:g} (nearest: {:.2g})",
-                                         tolerance_, least_error_),
-                             "ask for a larger tolerance, or leave out integrator and steps");
+            throw SceneError(
+                "numerics.tolerance",
+                fmt::format(
+                    "no solver setting keeps the features within {:g} (smallest error: {:.2g})",
+                    tolerance_, least_error_),
+                "use a larger tolerance, or remove integrator and steps_per_mesh");
         }
         return choice();
     }
@@ -99,7 +102,7 @@ class Search {
             result.cost = cost_of(flight) * record.steps * record.meshes_per_tile();
             result.marched = true;
             ++marches_;
-        } catch (const SceneError&) {  // not this study's: infinitely far off
+        } catch (const SceneError&) {  // invalid for this study: infinite error
         }
         least_error_ = std::min(least_error_, result.error);
         if (result.error <= tolerance_ && result.cost < best_.cost) {
@@ -121,7 +124,8 @@ class Search {
         return worst;
     }
 
-    // The fewest steps that keep the tolerance, then for these and the next the loosest settling.
+    // Finds the smallest number of steps that keeps the tolerance, then for it and the next one the
+    // loosest convergence tolerance.
     void search(const Flight& flight) {
         const std::vector<double>& settle = settle_tolerances();
         if (!may_win(flight, 0)) {
@@ -133,7 +137,8 @@ class Search {
         std::size_t low = 0, high = flight.steps.size();
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
-            // What costs more than the best of all need not be tried; fewer steps may still do.
+            // Candidates more expensive than the best one are not tried; fewer steps may still
+            // suffice.
             if (!may_win(flight, middle) || keeps(middle, settle.front())) {
                 high = middle;
             } else {
@@ -147,7 +152,7 @@ class Search {
         }
     }
 
-    // The loosest settling that keeps the tolerance, with steps that do.
+    // Finds the loosest convergence tolerance that keeps the tolerance, for steps that keep it.
     void settle_loosely(const Flight& flight, std::size_t step) {
         const std::vector<double>& settle = settle_tolerances();
         std::size_t tight = 0, loose = settle.size();
@@ -157,8 +162,9 @@ class Search {
         }
     }
 
-    // The coarsest graded grid that keeps the tolerance. Grids cost a pilot each: only those near
-    // the tolerance, and none where the fewest steps they may have could not win.
+    // Finds the coarsest graded grid that keeps the tolerance. Every grid costs a pilot, so only
+    // grid tolerances near the tolerance are tried. None is tried if the fewest possible steps
+    // would already be too expensive.
     void search_graded(const Flight& flight) {
         constexpr double kNear = 30.0;
         if (!may_cost(flight, static_cast<std::size_t>(kFewestGraded * flight.own_steps))) {
@@ -179,7 +185,8 @@ class Search {
         }
     }
 
-    // Settled as loosely as any rung, a gearbox marches at least this many mesh periods.
+    // Lower bound of the cost: with the loosest convergence tolerance, at least this many mesh
+    // periods are integrated.
     bool may_win(const Flight& flight, std::size_t step) {
         return may_cost(flight, static_cast<std::size_t>(flight.steps[step]));
     }
@@ -212,8 +219,9 @@ class Search {
 
     const Study& study_;
     const double tolerance_;
-    const Scene own_;  // by its own rule
-    // Tried last: the next often differs in its settling alone, and shares the plan.
+    const Scene own_;  // steps by the integrator's own rule
+    // Last scene tried: the next one often differs only in its convergence tolerance and shares the
+    // plan.
     std::unique_ptr<const Scene> last_;
     const Pilot pilot_;
     Reference reference_;
@@ -228,7 +236,7 @@ class Search {
 }  // namespace
 
 std::string NumericsChoice::text() const {
-    return fmt::format("{} (features within {:.2g} on a pilot of {} gearboxes, {} the worst)",
+    return fmt::format("{} (features within {:.2g} on {} pilot gearboxes; the worst is {})",
                        rung.text(), error, gearboxes, worst_feature);
 }
 

@@ -1,5 +1,5 @@
-// numerics.tolerance: the cheapest rung of the ladder that keeps every feature of a pilot within
-// it.
+// Chooses the numerics for numerics.tolerance: the least expensive candidate setting that keeps
+// every feature of a pilot within the tolerance.
 #pragma once
 
 #include <optional>
@@ -11,27 +11,26 @@
 namespace gearpod::mc {
 
 struct NumericsChoice {
-    Numerics numerics;  // the study's, with the rung's keys
+    Numerics numerics;  // the study's, with the keys of the chosen setting
     Rung rung;
-    double error = 0.0;             // of the pilot's worst feature, relative
-    std::string worst_feature;      // which that is
-    double cost = 0.0;              // of the pilot's march by the cost model, rk4 steps a gearbox
-    std::string reference;          // what the pilot was compared with
-    double reference_change = 0.0;  // of its worst feature when its steps were halved last
-    int gearboxes = 0;              // of the pilot
-    int marches = 0;                // of them, to find the rung
+    double error = 0.0;         // relative error of the pilot's worst feature
+    std::string worst_feature;  // name of that feature
+    double cost = 0.0;      // of integrating the pilot by the cost model, in rk4 steps per gearbox
+    std::string reference;  // reference solution of the pilot
+    double reference_change = 0.0;  // of its worst feature when its steps were last halved
+    int gearboxes = 0;              // number of pilot gearboxes
+    int marches = 0;                // number of pilot integrations needed for the choice
 
     std::string text() const;
 };
 
-// A study with the numerics that it runs by, and how they were chosen: not at all without a
-// tolerance.
+// Study with resolved numerics, and how they were chosen; `choice` is empty without a tolerance.
 struct ResolvedStudy {
     Study study;
     std::optional<NumericsChoice> choice;
 };
-// Depends on the study alone: neither on clocks nor on lanes, threads or instruction set. Throws
-// SceneError where no rung keeps the tolerance.
+// Depends on the study only, not on timing, lanes, threads or instruction set. Throws SceneError if
+// no candidate keeps the tolerance.
 ResolvedStudy resolve_numerics(Study study);
 
 }  // namespace gearpod::mc

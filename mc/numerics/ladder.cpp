@@ -11,12 +11,12 @@
 namespace gearpod::mc {
 namespace {
 
-// Steps of neighbouring rungs differ by this factor, or by one step a sample.
+// Neighbouring candidates differ by this factor in steps, or by one step per sample.
 constexpr double kStepRatio = 1.25;
-// The choices of [numerics] that change how a step is taken, besides the integrator.
+// Choice keys of [numerics] other than the integrator that change how a step is computed.
 constexpr std::string_view kWays[] = {"precision"};
 
-// All combinations of those choices that a program of this version has; the first is the default.
+// All combinations of these choices that this version of the program has; the first is the default.
 std::vector<std::vector<std::string>> ways() {
     std::vector<std::vector<std::string>> all{{}};
     for (const std::string_view name : kWays) {
@@ -39,11 +39,12 @@ std::vector<std::vector<std::string>> ways() {
     return all;
 }
 
-// A grid has at least one step a sample, and as many for every sample.
+// Candidate numbers of steps. A grid has at least one step per sample, and equally many for every
+// sample.
 std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
     const int samples = own_rule.samples_per_mesh();
     const int least = (own_rule.least_steps() + samples - 1) / samples;
-    // An explicit method's rule sees to stability alone.
+    // The rule of an explicit method ensures stability only.
     const double further = own_rule.least_steps() > 1 ? 2.0 * beyond : beyond;
     const double most = further * static_cast<double>(own_rule.plan().grid.steps.size()) / samples;
     std::vector<int> steps;
@@ -54,11 +55,11 @@ std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
     return steps;
 }
 
-// Of the signals, for graded grids; a feature's error is mostly smaller.
+// Tolerances of the signals for graded grids; the error of a feature is mostly smaller.
 const std::vector<double> kGridTolerances{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
 constexpr std::string_view kSingle = "numerics.precision=single", kGraded = "numerics.grid=graded";
 
-// Of singles, eight abreast, over doubles.
+// Cost of single precision relative to double, eight lanes each.
 constexpr double kSingleCost = 0.65;
 
 void add_flights(const Study& study, const std::string& integrator,
@@ -77,7 +78,8 @@ void add_flights(const Study& study, const std::string& integrator,
         } else {
             flight.steps = step_ladder(scene, beyond);
         }
-        // The steps of an explicit method are bounded by stability, which is the same everywhere.
+        // Steps of an explicit method are limited by stability, which is the same everywhere, so
+        // grading does not help.
         may_be_graded = n.steps_per_mesh == 0 && n.grid == StepGrid::uniform &&
                         !is_explicit(scene.plan().integrator);
     } catch (const SceneError& error) {

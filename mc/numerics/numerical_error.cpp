@@ -28,7 +28,7 @@ Rung rung_of(const Scene& scene) {
         {}};
 }
 
-// The same with finer steps, all of one length: on a graded grid finer than its finest.
+// The same setting with finer uniform steps; for a graded grid finer than its finest step.
 Rung finer_than(const Scene& scene, const Rung& rung, int factor) {
     Rung finer = rung;
     finer.settle_tolerance = std::min(kSettled, rung.settle_tolerance);
@@ -43,7 +43,7 @@ Rung finer_than(const Scene& scene, const Rung& rung, int factor) {
     return finer;
 }
 
-// Spread evenly over the graded gearboxes.
+// Gearboxes spread evenly over the graded group.
 std::vector<GearboxId> spread_gearboxes(const Study& study) {
     const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
         1, study.ensemble.instances / static_cast<std::int64_t>(pilot_gearboxes().size())));
@@ -62,7 +62,7 @@ double standard_deviation(const std::vector<double>& values) {
     return n > 1.0 ? std::sqrt(squares / (n - 1.0)) : kNaN;
 }
 
-// What the rows say of one feature at one noise level.
+// Counts of one feature at one noise level over the rows of the results.
 struct Counts {
     std::vector<double> healthy;
     std::vector<long> near, tested;  // by size
@@ -158,7 +158,7 @@ FinerScene with_finer_steps(const Scene& scene) {
         finer.rung = finer_than(scene, rung, factor);
         try {
             finer.scene.emplace(scene.with(with_rung(study, finer.rung).numerics));
-        } catch (const SceneError&) {  // more steps than the program takes
+        } catch (const SceneError&) {  // more steps than the program allows
             continue;
         }
     }
@@ -214,10 +214,10 @@ std::string numerical_text(const Results& frame, const std::vector<NumericalShar
     const auto out = std::back_inserter(text);
     fmt::format_to(
         out,
-        "Numerical against statistical error: {} gearboxes by {}\nand by {}. rms: of the "
-        "error; spread: of healthy gearboxes. Pd, a90: what the\nnumerical error could turn, "
-        "beside what the number of gearboxes leaves open\n(half interval; a90 to its upper "
-        "bound)\n",
+        "Numerical and statistical error: {} gearboxes integrated with\n  {}\nand with\n  {}\nrms: "
+        "numerical error; spread: standard deviation of healthy gearboxes\nPd, a90: largest change "
+        "due to the numerical error / statistical uncertainty\n(half width of the interval of Pd; "
+        "distance of a90 from its upper bound)\n",
         error.gearboxes, error.rung, error.finer);
     const double per_unit = frame.request.size.per_unit();
     const auto number = [](double value) {

@@ -1,5 +1,5 @@
-// The numerical error of a run's results: found on some of its gearboxes by finer steps, and set
-// against what the number of gearboxes leaves uncertain.
+// Numerical error of a run's results: estimated with finer steps on some of its gearboxes, and
+// compared with the statistical uncertainty.
 #pragma once
 
 #include <optional>
@@ -14,41 +14,43 @@
 
 namespace gearpod::mc {
 
-// The scene with four times the steps (or what the integrator allows), settled to 1e-10. None of a
-// quasi-static study.
+// Scene with four times the steps (or as many as the integrator allows), converged to 1e-10. Empty
+// for a quasi-static study.
 struct FinerScene {
     Rung rung;
     std::optional<Scene> scene;
 };
 FinerScene with_finer_steps(const Scene& scene);
-// The same, but none unless the study has numerics.tolerance or numerics.verify.
+// The same; empty unless the study has numerics.tolerance or numerics.verify.
 FinerScene finer_scene(const Scene& scene);
 
-// Eight graded gearboxes, spread over the ensemble, marched as the run did and again by
-// finer_scene(): what that changes is the error of the run's own steps but for a sixteenth or less,
-// at order 2 and above. Nothing where there is no finer scene.
+// Integrates eight graded gearboxes, spread over the ensemble, as the run did and again with
+// finer_scene(). For methods of order 2 and above, the difference is the error of the run's own
+// steps to within a sixteenth. Empty if there is no finer scene.
 std::optional<NumericalError> find_numerical_error(const Scene& scene);
 
-// One feature at one noise level.
+// Numerical and statistical uncertainty of one feature at one noise level.
 struct NumericalShare {
     std::string feature;
     double noise_level = 0.0;
     double rms = 0.0;     // numerical error, in the feature's unit
     double spread = 0.0;  // standard deviation of the healthy threshold sample
-    // Largest share of a size's gearboxes whose verdict the error could turn: within twice the
-    // largest error of the threshold, which has an error of its own. Beside it the largest half
-    // width of the intervals of the same detection rates. NaN without a threshold.
+    // pd: largest fraction of a size's gearboxes whose alarm the error could change, over all
+    // sizes. Those lie within twice the largest error of the threshold, which has an error itself.
+    // pd_half_width: largest half width of the intervals of the same detection rates. NaN without a
+    // threshold.
     double pd = 0.0, pd_half_width = 0.0;
-    // That share in terms of a90 (over the POD curve's slope there), and a90's upper bound less
-    // a90; in the unit of the sizes. NaN without an a90, infinite where the bound is not reached.
+    // a90: the fraction `pd` converted to a size by the slope of the POD curve at a90.
+    // a90_interval: upper bound of a90 minus a90. Both in the unit of the sizes. NaN without an
+    // a90, infinite if the bound is not reached.
     double a90 = 0.0, a90_interval = 0.0;
-    bool numerical_dominates = false;  // of Pd, or where there is none of the feature itself
+    bool numerical_dominates = false;  // for Pd, or without a threshold for the feature itself
 };
 std::vector<NumericalShare> numerical_shares(
     const Results& frame, const RowSource& rows,
     const std::optional<analysis::Reliability>& reliability);
 
-// "" without a verified error.
+// Table of the numerical error; "" if it was not estimated.
 std::string numerical_text(const Results& frame, const std::vector<NumericalShare>& shares);
 
 }  // namespace gearpod::mc

@@ -37,7 +37,7 @@ std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile,
     return te;
 }
 
-// Squares of differences and of the reference, over all gearboxes.
+// Sums over all gearboxes of the squared differences and of the squared reference.
 struct Sums {
     double difference = 0.0, reference = 0.0;
     void add(std::span<const double> a, std::span<const double> b) {
@@ -52,7 +52,7 @@ struct Sums {
     }
 };
 
-// One feature at one noise level over the gearboxes that the reference has.
+// Adds the error of one feature at one noise level over the gearboxes that the reference has.
 void add_feature(const PilotRecord& record, const PilotRecord& reference, std::size_t at,
                  PilotError& error) {
     Sums sums;
@@ -75,8 +75,8 @@ void add_feature(const PilotRecord& record, const PilotRecord& reference, std::s
     error.largest.push_back(largest);
 }
 
-// The gearboxes again until a tile is full: where it has sixteen lanes, a gearbox takes no more of
-// its time than it would in a run.
+// Repeats the gearboxes until a tile is full, so that with sixteen lanes the time per gearbox is
+// that of a run.
 std::vector<GearboxId> filled(std::span<const GearboxId> ids, int lanes) {
     std::vector<GearboxId> all;
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(lanes); ++lane) {

@@ -1,5 +1,5 @@
-// A pilot: a few gearboxes of a study on which ways to compute it are compared. Draws, noise and
-// sampling grid are the same whatever computes them, so all that differs is numerical.
+// Pilot: a few gearboxes of a study on which solver settings are compared. Random inputs, noise and
+// sampling grid are the same for all settings, so that all differences are numerical.
 #pragma once
 
 #include <functional>
@@ -13,40 +13,41 @@
 
 namespace gearpod::mc {
 
-// What one way to compute gives of a pilot's gearboxes.
+// Result of one solver setting for the gearboxes of a pilot.
 struct PilotRecord {
     std::vector<bool> ok;                       // by gearbox
     std::vector<std::vector<double>> sensor;    // by gearbox, m/s^2, noise-free, at every sample
     std::vector<std::vector<double>> te;        // by gearbox, rad, without its mean
     std::vector<std::vector<double>> features;  // by gearbox, [feature * noise levels + level]
     int features_used = 0, levels = 0;
-    int steps = 0;             // a mesh period
-    double tile_meshes = 0.0;  // mesh periods marched, of a tile of the gearboxes at once
-    // Processor time of one thread and gearbox, in full tiles of as many lanes as a run has.
-    double march_s = 0.0;  // the march alone
-    double total_s = 0.0;  // sampling, stiffness, march, signals and features
+    int steps = 0;             // per mesh period
+    double tile_meshes = 0.0;  // mesh periods integrated, summed over tiles
+    // Processor time per gearbox of one thread, in full tiles with as many lanes as in a run.
+    double march_s = 0.0;  // time integration only
+    double total_s = 0.0;  // sampling, stiffness, integration, signals and features
 
     double meshes_per_tile() const;
-    // The march's processor time of one gearbox and mesh period.
+    // Processor time of the integration per gearbox and mesh period.
     double mesh_s() const;
 };
 
-// Gearboxes `first`, `first` + `stride`, ... of the graded group: one tile of eight, whatever
-// numerics.lanes says, so that what is found does not depend on it.
+// Gearboxes `first`, `first` + `stride`, ... of the graded group: one tile of eight, independent of
+// numerics.lanes, so that results do not depend on it.
 std::vector<GearboxId> pilot_gearboxes(std::uint64_t first = 0, std::uint64_t stride = 1);
 
-// Signals cover the fault's pattern (one mesh period without a fault), at most so many.
+// Signals cover the fault's pattern (one mesh period without a fault), at most this many mesh
+// periods.
 inline constexpr int kMostSignalMeshes = 200;
 
-// Some gearboxes of a study, to be computed in several ways.
+// Gearboxes of a study that are computed with several solver settings.
 class Pilot {
   public:
-    // Of the study of `scene`, whatever its numerics.
+    // Uses the study of `scene`, independent of its numerics.
     explicit Pilot(const Scene& scene, std::vector<GearboxId> ids = pilot_gearboxes());
     std::size_t size() const { return ids_.size(); }
-    // `scene`: of the same study but for its numerics.
+    // Precondition: the study of `scene` differs from the pilot's only in its numerics.
     PilotRecord run(const Scene& scene) const;
-    // What another program's march of them gives; one tile of eight lanes at a time.
+    // Record of motions integrated by another program; one tile of eight lanes at a time.
     using March = std::function<lockstep::TileResult(std::span<const GearboxId>)>;
     PilotRecord of_march(const Scene& scene, const March& march) const;
 
@@ -59,18 +60,18 @@ class Pilot {
     signals::PathGrid path_;
 };
 
-// How far a record is from a reference.
+// Error of a record relative to a reference.
 struct PilotError {
-    // Relative L2: root of the squared differences of all gearboxes and samples over that of the
-    // reference's squares (of the TE: without its mean). Infinite where gearboxes failed that the
-    // reference has.
+    // Relative L2 errors: root of the sum of squared differences over all gearboxes and samples,
+    // over that of the reference (transmission error: without its mean). Infinite if a gearbox
+    // failed that the reference has.
     double sensor = 0.0, te = 0.0;
-    // By feature and noise level, the same over the gearboxes: [feature * noise levels + level].
+    // The same over the gearboxes, by feature and noise level: [feature * noise levels + level].
     std::vector<double> relative;
-    // Likewise, but in the feature's unit: root mean square, and the largest of a gearbox.
+    // The same in the feature's unit: root mean square, and largest error of a gearbox.
     std::vector<double> rms, largest;
 
-    // Of feature `f`, the largest over noise levels.
+    // Largest relative error of feature `f` over the noise levels.
     double feature(int f, int levels) const;
     double largest_feature() const;
     double signals() const;  // the larger of sensor and TE

@@ -11,7 +11,8 @@
 namespace gearpod::mc {
 namespace {
 
-// `fine` with the leading error term taken out; `coarse` has steps of twice the length.
+// Richardson extrapolation: removes the leading error term from `fine`. The steps of `coarse` are
+// twice as long.
 void extrapolate(const PilotRecord& coarse, double order, PilotRecord& fine) {
     const double weight = 1.0 / (std::exp2(order) - 1.0);
     const auto improve = [weight](const std::vector<double>& from, std::vector<double>& to) {
@@ -26,7 +27,7 @@ void extrapolate(const PilotRecord& coarse, double order, PilotRecord& fine) {
     }
 }
 
-// One method with its steps halved again and again.
+// Successive refinement: one method with its steps halved repeatedly.
 class Refinement {
   public:
     Refinement(const Study& study, std::string integrator, const ReferenceRequest& request)
@@ -36,28 +37,29 @@ class Refinement {
         try {
             scene_.emplace(rung_scene(study, rung_));
             rung_.steps = static_cast<int>(scene_->plan().grid.steps.size());
-        } catch (const SceneError&) {  // an explicit method that the study is too stiff for
+        } catch (const SceneError&) {  // the study is too stiff for this explicit method
             scene_.reset();
         }
     }
 
     bool stopped() const { return !scene_.has_value(); }
     bool has_result() const { return best_.has_value(); }
-    const PilotRecord& finest() const { return *last_; }  // marched
+    const PilotRecord& finest() const { return *last_; }  // as integrated
     const PilotRecord& best() const { return *best_; }    // extrapolated
     double order() const { return order_; }
     const Rung& rung() const { return done_; }
-    // How far the last halving moved the result.
+    // Change of the result at the last halving.
     double last_change() const { return change_; }
-    // Of the next march, in steps of rk4 a mesh period; and what such a step took in the last one.
+    // Cost of the next integration, in rk4 steps per mesh period. cost_s(): processor time of one
+    // such step in the last one.
     double next_cost() const {
         return step_cost(study_, rung_.integrator, {}).value_or(1.0) * rung_.steps;
     }
     double cost_s() const { return has_result() ? last_s_ / (0.5 * next_cost()) : 0.0; }
     void stop() { scene_.reset(); }
 
-    // Steps until halving them again would move the result by the agreement asked for, in steps of
-    // rk4; infinite before the first halving.
+    // Expected cost, in rk4 steps, of the refinement at which halving the steps changes the result
+    // by the requested agreement; infinite before the first halving.
     double expected_cost() const {
         const auto step = step_cost(study_, rung_.integrator, {});
         if (!step || !has_result() || !(change_ > 0.0)) {
@@ -78,7 +80,7 @@ class Refinement {
         if (last_) {
             const double change = pilot_error(*last_, record).sensor;
             const double order = std::log2(change_ / change);
-            // Where halving the steps shows a method's order, its leading error can be taken out.
+            // The leading error can be removed if halving the steps shows the method's order.
             if (change_ > 0.0 && order > 1.5 && order < 6.5) {
                 order_ = std::round(order);
                 extrapolate(*last_, order_, *best_);
@@ -107,7 +109,7 @@ class Refinement {
     const Study& study_;
     Rung rung_, done_;
     const ReferenceRequest request_;
-    std::optional<Scene> scene_;  // none: stopped
+    std::optional<Scene> scene_;  // empty: stopped
     std::optional<PilotRecord> last_, best_;
     double change_ = 0.0, order_ = 0.0, last_s_ = 0.0;
 };
@@ -117,7 +119,8 @@ bool two_have_results(const std::vector<Refinement>& methods) {
                          [](const Refinement& m) { return m.has_result(); }) >= 2;
 }
 
-// The two that promise to agree soonest; all, while any has not halved its steps.
+// Stops all but the two methods that are expected to agree at the lowest cost, once every remaining
+// method has halved its steps.
 void keep_two(std::vector<Refinement>& methods) {
     std::vector<double> costs;
     for (const Refinement& method : methods) {
@@ -139,12 +142,12 @@ void keep_two(std::vector<Refinement>& methods) {
     }
 }
 
-// Whether both computed the same gearboxes, and any at all.
+// True if both computed the same gearboxes, and at least one.
 bool comparable(const PilotRecord& a, const PilotRecord& b) {
     return a.ok == b.ok && std::find(a.ok.begin(), a.ok.end(), true) != a.ok.end();
 }
 
-// The pair that agrees best, the one that moved less first.
+// Chooses the pair of methods that agrees best, first the one with the smaller last change.
 void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest& request,
                  double& least, Reference& reference) {
     for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -176,7 +179,7 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
 
 Reference converged_by_itself(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request) {
-    // What the study would run by without a tolerance: an explicit method unless it is too stiff.
+    // Method that the study would use without a tolerance: explicit unless the study is too stiff.
     Refinement method(study, std::string(choice_text(study, "numerics", "integrator")), request);
     if (method.stopped()) {
         rung_scene(study, method.rung());
@@ -226,8 +229,9 @@ Reference converged_reference(const Study& study, const Pilot& pilot,
         keep_two(methods);
     }
     if (!std::isfinite(least)) {
-        throw SceneError("numerics.integrator",
-                         "no two integrators march this study, so none can be shown right", "");
+        throw SceneError(
+            "numerics.integrator",
+            "no two integrators can integrate this study, so no solution can be verified", "");
     }
     return reference;
 }

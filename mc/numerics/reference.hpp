@@ -1,5 +1,4 @@
-// What a pilot's signals and features converge to: two independent methods, each with steps halved
-// until both agree.
+// Reference solution of a pilot: two independent methods with their steps halved until both agree.
 #pragma once
 
 #include <limits>
@@ -13,31 +12,31 @@ namespace gearpod::mc {
 struct ReferenceRequest {
     double agreement = 1e-8;
     double settle_tolerance = 1e-11;
-    // No march of more steps, over all mesh periods of the pilot's tile.
+    // Largest number of steps of one integration, over all mesh periods of the pilot's tile.
     double most_tile_steps = 2e7;
-    // Processor time: no march that would end later.
+    // Limit of the processor time, s: no integration is started that would end later.
     double seconds = std::numeric_limits<double>::infinity();
 };
 
 struct Reference {
-    // Extrapolated (Richardson) where halving the steps shows the method's order.
+    // Richardson-extrapolated if halving the steps shows the method's order.
     PilotRecord record;
-    Rung first, second;        // the two that agree best, at their finest; `record` is the first's
+    Rung first, second;        // the two that agree best, at their finest; `record` is from `first`
     double first_order = 0.0;  // observed on the sensor signal; 0: not extrapolated
     double second_order = 0.0;
-    PilotError agreement;  // of the second with the first
-    bool reached = false;  // the agreement asked for
+    PilotError agreement;  // error of the second relative to the first
+    bool reached = false;  // true: the requested agreement was reached
 };
 
-// Signals to `agreement`. All methods march with their own steps and half of them; the two that
-// then promise to agree soonest, by their orders and the cost of their steps, go on. Throws
-// SceneError if no two methods march the study.
+// Reference with signals to `agreement`. All methods are integrated with their own steps and half
+// of them. The two that are expected to agree at the lowest cost, judged by their orders and step
+// costs, are refined further. Throws SceneError if no two methods can integrate the study.
 Reference converged_reference(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request);
 
-// The same by one method alone, against itself with half the steps: features to `agreement`. For
-// choosing how to run, where a wrong method would show in every gearbox anyway. The integrator is
-// the study's own.
+// Reference with features to `agreement` from one method, compared with itself at half the steps.
+// Used to choose how to run, where a wrong method would be visible in every gearbox anyway. Uses
+// the study's own integrator.
 Reference converged_by_itself(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request);
 

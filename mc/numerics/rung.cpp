@@ -17,7 +17,7 @@ std::vector<std::string> Rung::overrides() const {
 
 std::string Rung::text() const {
     std::string text =
-        fmt::format("{}, {}settled to {:g}", integrator,
+        fmt::format("{}, {}converged to {:g}", integrator,
                     steps > 0 ? fmt::format("{} steps, ", steps) : "", settle_tolerance);
     for (const std::string& key : other) {
         text += ", " + key.substr(key.find('.') + 1);

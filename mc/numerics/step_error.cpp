@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMeshes = 16;
 
-// Squared deviation from a reference, and the reference's squares about its mean.
+// Sums of the squared deviation from a reference, and of the reference and its squares.
 struct Squares {
     double deviation = 0.0, sum = 0.0, squares = 0.0, count = 0.0;
 
@@ -27,7 +27,8 @@ struct Squares {
         squares += reference * reference;
         count += 1.0;
     }
-    // Root mean square, relative; `about_mean`: of a signal whose mean says nothing.
+    // Relative root mean square error; `about_mean`: relative to the reference without its mean,
+    // for signals whose mean has no meaning.
     double relative(bool about_mean) const {
         const double own = squares - (about_mean ? sum * sum / std::max(1.0, count) : 0.0);
         return own > 0.0 ? std::sqrt(deviation / own) : 0.0;
@@ -125,8 +126,7 @@ std::optional<StepError> find_step_error_of_run(const Scene& scene, std::size_t 
 std::string step_error_text(const StepError& error) {
     return fmt::format(
         "{:.1e} of the acceleration in the sensor's band, {:.1e} of the transmission error (rms; "
-        "{} "
-        "against {} steps a mesh period; {} gearboxes, {} mesh periods)",
+        "{} against {} steps per mesh period; {} gearboxes, {} mesh periods)",
         error.sensor, error.te, error.steps, error.finer_steps, error.gearboxes, error.meshes);
 }
 

@@ -22,7 +22,8 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
     }
     if (!has_gears(*reading.study)) {
         return refused({{name, 0, "gearbox.sun_teeth",
-                         "no tooth numbers or no module (only modes and describe do without)",
+                         "no tooth numbers or no module (only the commands modes and describe work "
+                         "without them)",
                          "give sun_teeth, planet_teeth, ring_teeth and module_mm"}});
     }
     try {
@@ -34,7 +35,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
         lockstep::check_lanes(reading.study->numerics.precision, reading.study->numerics.lanes);
     } catch (const lockstep::NoSuchKernel& error) {
         return refused({{name, 0, "numerics.lanes", error.what(),
-                         "leave it out, or build with all kernels (preset portable)"}});
+                         "remove it, or build with all kernels (preset portable)"}});
     }
     try {
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));

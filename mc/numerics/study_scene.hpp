@@ -1,4 +1,4 @@
-// From a study as it was read to its scene.
+// Makes the scene of a study that has been read.
 #pragma once
 
 #include <memory>
@@ -12,14 +12,14 @@ namespace gearpod::mc {
 
 struct StudyScene {
     std::unique_ptr<const Scene> scene;    // null: see `problems`
-    std::optional<NumericsChoice> choice;  // of its numerics; none without numerics.tolerance
+    std::optional<NumericsChoice> choice;  // of the numerics; empty without a tolerance
     Problems problems;
 
     explicit operator bool() const { return scene != nullptr; }
 };
 
-// Sets the kernels' instruction set, chooses the numerics and makes the scene. Problems name the
-// study `name`.
+// Sets the kernels' instruction set, chooses the numerics and makes the scene. Messages about
+// problems use `name` for the study.
 StudyScene make_scene(const std::string& name, StudyReading reading);
 
 }  // namespace gearpod::mc

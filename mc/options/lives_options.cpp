@@ -5,19 +5,21 @@ namespace gearpod::mc {
 void add_lives(CLI::App& app, LivesOptions& options, int& code) {
     auto* command = app.add_subcommand(
         "lives",
-        "gearboxes measured again and again while a crack grows: how many are found in time, how "
-        "long before, and how many false alarms that costs");
+        "simulate gearboxes that are measured repeatedly while a crack grows, and report the "
+        "cracks found in time, the warning time and the false alarms");
     RunOptions& run = options.run;
     add_study(*command, run.study);
-    add_shorthand(*command, "--instances", "ensemble.instances", "gearboxes that crack", run.study);
+    add_shorthand(*command, "--instances", "ensemble.instances",
+                  "number of gearboxes with a growing crack", run.study);
     add_shorthand(*command, "--seed", "ensemble.seed", "seed of all random numbers", run.study);
     add_results(*command, run,
-                "continue an interrupted run, or add gearboxes that crack to a finished one",
-                "overwrite the results of another study, or a file that is none");
+                "continue an interrupted run, or add cracked gearboxes to a finished one",
+                "overwrite the results of another study or any other file");
     add_progress(*command, run);
-    needs_name(command->add_option("--json", options.json, "write JSON to a file, or to -"));
-    needs_name(command->add_option("--html", options.html, "write a page"));
-    command->add_flag("--quiet", run.quiet, "no progress");
+    needs_name(command->add_option("--json", options.json,
+                                   "write JSON to a file, or - for standard output"));
+    needs_name(command->add_option("--html", options.html, "write a page with figures to a file"));
+    command->add_flag("--quiet", run.quiet, "show no progress");
     command->callback([&options, &code] { code = lives_command(options); });
 }
 

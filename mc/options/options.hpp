@@ -1,5 +1,5 @@
-// The command line's options, as CLI11 reads them. Commands of several options have an add_...() of
-// their own: it adds the command, which fills its options and leaves its exit code in `code`.
+// Command-line definition (CLI11). Each add_...() function adds a command, which fills its options,
+// runs and stores its exit code in `code`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,22 +8,22 @@
 
 namespace gearpod::mc {
 
-// The exit code of the command that the arguments ask for, which leaves it in `code`, or of their
-// refusal.
+// Parses the arguments, which runs the command. Returns the command's exit code from `code`, or
+// kBadInput if the arguments are wrong.
 int parse(CLI::App& app, int argc, char** argv, const int& code);
 
-// Of an option that names a file to write: "" would be no file, or another than the one meant.
+// Rejects an empty file name for an option that names an output file.
 CLI::Option* needs_name(CLI::Option* option);
 
-// --set SECTION.KEY=VALUE; and with it the study's path, the first positional argument.
+// Adds --set SECTION.KEY=VALUE. add_study() also adds the study file as a positional argument.
 void add_study_keys(CLI::App& command, StudyOptions& options);
 CLI::Option* add_study(CLI::App& command, StudyOptions& options);
 
-// --instances N and --seed S are short for keys of the study.
+// Adds an option that sets a key of the study, for example --seed S.
 void add_shorthand(CLI::App& command, const char* name, const char* key, const char* doc,
                    StudyOptions& options);
 
-// Where a run keeps its results and how long it may take; `resume` and `force` say what these do.
+// Adds --out, --resume, --force and --time-limit. `resume` and `force` are their help texts.
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force);
 void add_progress(CLI::App& command, RunOptions& run);
 

@@ -18,7 +18,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Reports as wide as the terminal that shows them.
+// Sets the width of reports to the width of the terminal.
 void fit_terminal() {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
@@ -40,7 +40,7 @@ int run_safely(int argc, char** argv, int (*program)(int argc, char** argv)) {
         }
         return code;
     } catch (const std::exception& error) {
-        // The command and what it was given, where no command has found words of its own.
+        // Name the command and its first argument, because the command did not handle the error.
         std::string call = "gearpod";
         for (int i = 1; i < std::min(argc, 3); ++i) {
             call += std::string(" ") + argv[i];

@@ -1,8 +1,49 @@
+#include <memory>
+#include <string>
+
+#include "mc/input/wrapped_text.hpp"
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+// Column in which the descriptions of options and commands start.
+constexpr std::size_t kDescriptionColumn = 30;
+
+// Two columns: a name, and its description in the same line or, after a long name, in the next one.
+std::string help_entry(const std::string& name, const std::string& description) {
+    std::string out = "  " + name;
+    if (out.size() < kDescriptionColumn) {
+        out.resize(kDescriptionColumn, ' ');
+    } else {
+        out += "\n" + std::string(kDescriptionColumn, ' ');
+    }
+    return out + wrapped_text(description, kDescriptionColumn) + "\n";
+}
+
+// Help output of CLI11, with descriptions wrapped to kLineWidth.
+class WrappedHelp final : public CLI::Formatter {
+  public:
+    std::string make_description(const CLI::App* app) const override {
+        return wrapped_text(app->get_description(), 0) + "\n";
+    }
+    std::string make_subcommand(const CLI::App* command) const override {
+        return help_entry(command->get_name(), command->get_description());
+    }
+    std::string make_option(const CLI::Option* option, bool is_positional) const override {
+        return help_entry(make_option_name(option, is_positional) + make_option_opts(option),
+                          make_option_desc(option));
+    }
+};
+
+}  // namespace
 
 int parse(CLI::App& app, int argc, char** argv, const int& code) {
+    const auto help = std::make_shared<WrappedHelp>();
+    app.formatter(help);
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->formatter(help);
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -13,7 +54,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& code) {
 
 CLI::Option* needs_name(CLI::Option* option) {
     return option->check([](const std::string& name) {
-        return name.empty() ? std::string("the file name is empty; name a file, or leave it out")
+        return name.empty() ? std::string("the file name is empty; give a name, or omit the option")
                             : std::string();
     });
 }
@@ -47,12 +88,14 @@ void add_results(CLI::App& command, RunOptions& run, const char* resume, const c
     command.add_flag("--force", run.force, force);
     command
         .add_option("--time-limit", run.time_limit,
-                    "finish, save and exit with 4 before this time is over")
+                    "save a checkpoint and exit with code 4 before this time ends")
         ->type_name("HH:MM:SS");
 }
 
 void add_progress(CLI::App& command, RunOptions& run) {
-    command.add_option("--progress", run.progress, "json: progress as an object a line on stderr")
+    command
+        .add_option("--progress", run.progress,
+                    "json: print progress to stderr, one JSON object per line")
         ->type_name("json");
 }
 

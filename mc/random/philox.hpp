@@ -1,8 +1,7 @@
 // Counter-based random numbers: Philox4x64-10 (Salmon et al. 2011), from Random123.
-//
-// Contract: the words depend on (seed, group, instance, parameter) alone. The same instance is the
-// same gearbox whatever the ranks, threads, lanes, order or restart, and a new random parameter
-// leaves the draws of the others as they were.
+// Contract: the words depend on (seed, group, instance, parameter) only. The same instance is the
+// same gearbox for any ranks, threads, lanes, order or restart. A new random parameter does not
+// change the random numbers of the others.
 #pragma once
 
 #include <Random123/philox.h>
@@ -18,17 +17,17 @@
 
 namespace gearpod::mc {
 
-// The two independent samples of a study: healthy gearboxes that set the thresholds, and the graded
-// ones that the thresholds are tried on.
+// Two independent samples of a study: healthy gearboxes that set the thresholds, and graded ones to
+// which the thresholds are applied.
 enum class Group : std::uint64_t { threshold = 0, graded = 1 };
 
-// Number of a random parameter, from its name.
+// Identifier of a random parameter, computed from its name.
 constexpr std::uint64_t parameter_id(std::string_view name) {
     return fnv1a(name);
 }
 
-// A UniformRandomBitGenerator. Word w of a stream is word w mod 4 of block w / 4, the block being
-// Philox at counter (block, instance, parameter, 0) and key (seed, group).
+// UniformRandomBitGenerator. Word w of a stream is word w mod 4 of block w / 4. The block is Philox
+// at counter (block, instance, parameter, 0) and key (seed, group).
 class Philox {
   public:
     using result_type = std::uint64_t;
@@ -47,7 +46,7 @@ class Philox {
         return buffer_[used_++];
     }
 
-    // The next words of the stream.
+    // Fills `words` with the next words of the stream.
     void fill(std::span<std::uint64_t> words) {
         std::size_t next = 0;
         while (next < words.size()) {
@@ -62,7 +61,7 @@ class Philox {
         }
     }
 
-    // Block `number` of the stream, wherever it stands.
+    // Block `number` of the stream, independent of its current position.
     Block block(std::uint64_t number) const {
         Engine::ctr_type counter = counter_;
         counter[0] = number;

@@ -8,8 +8,8 @@ Sobol::Sobol(std::size_t dimensions) : directions_(dimensions * kBits) {
     if (dimensions == 0) {
         return;
     }
-    // Boost walks in Gray code and leaves out the origin: after 2^(k + 1) - 2 steps the code has
-    // bit k alone.
+    // Boost iterates in Gray code and omits the origin: after 2^(k + 1) - 2 steps only bit k of the
+    // code is set.
     boost::random::sobol_engine<std::uint32_t, kBits> engine(dimensions);
     for (std::size_t k = 0; k < kBits; ++k) {
         engine.seed(static_cast<std::uint32_t>((std::uint64_t{2} << k) - 2));
@@ -29,7 +29,7 @@ std::uint32_t Sobol::coordinate(std::uint32_t number, std::size_t dimension) con
 }
 
 std::uint32_t owen_scrambled(std::uint32_t coordinate, const Philox& stream) {
-    constexpr unsigned kLevels = 8;  // of the tree in a block, whose 256 bits are its nodes from 1
+    constexpr unsigned kLevels = 8;  // of the tree in a block; its 256 bits are the nodes from 1 on
     std::uint32_t scrambled = 0;
     for (unsigned depth = 0; depth < 32; depth += kLevels) {
         const std::uint64_t above = std::uint64_t{coordinate} >> (32 - depth);

@@ -28,7 +28,7 @@ class Reading {
             Recording recording;
             const std::filesystem::path name = table_.rows[r][*file];
             if (name.empty()) {
-                reject("file", "is empty", "name the recording's file");
+                reject("file", "is empty", "give the file name of the recording");
             }
             recording.file =
                 name.is_absolute()
@@ -38,7 +38,8 @@ class Reading {
             list_.recordings.push_back(std::move(recording));
         }
         if (list_.recordings.empty()) {
-            problems_.push_back({table_.path, 0, "", "names no recording", ""});
+            problems_.push_back(
+                {table_.path, 0, "", "lists no recording", "give one line for each recording"});
         }
         return std::move(list_);
     }
@@ -64,7 +65,8 @@ class Reading {
         if (const std::string* text = field("row")) {
             const auto value = number_of(*text, true);
             if (!value || !(*value >= 0.0) || *value != std::floor(*value) || *value > 1e15) {
-                reject("row", fmt::format("\"{}\" is no row", *text), "rows count from 0");
+                reject("row", fmt::format("\"{}\" is not a row number", *text),
+                       "rows are numbered from 0");
             } else {
                 recording.row = static_cast<std::size_t>(*value);
             }
@@ -81,7 +83,7 @@ class Reading {
         if (field("size") != nullptr) {
             const double size = number("size");
             if (size < 0.0) {
-                reject("size", "is negative", "a healthy gearbox has 0");
+                reject("size", "is negative", "use 0 for a healthy gearbox");
             }
             recording.size = list_.size->unit == "mm" ? 1e-3 * size : size;
             recording.condition = size > 0.0 ? Condition::faulty : Condition::healthy;
@@ -97,14 +99,15 @@ class Reading {
         const bool healthy = *label == "healthy";
         if (!healthy && *label != "faulty") {
             reject("label", fmt::format("\"{}\" is neither healthy nor faulty", *label),
-                   "leave it empty where it is not known");
+                   "leave it empty if it is unknown");
         } else if (recording.size && healthy != (*recording.size == 0.0)) {
-            reject("label", *label + " does not fit the size", "");
+            reject("label", *label + " contradicts the size",
+                   "healthy recordings have size 0, faulty ones a size > 0");
         }
         recording.condition = healthy ? Condition::healthy : Condition::faulty;
     }
 
-    // Of the row that is read; null if there is none, or nothing in it.
+    // Field of the current row; null if the column does not exist or the field is empty.
     const std::string* field(const std::string& name) const {
         const auto column = table_.find(name);
         return column && !table_.rows[row_][*column].empty() ? &table_.rows[row_][*column]
@@ -115,7 +118,7 @@ class Reading {
         const auto value =
             text != nullptr ? number_of(*text, table_.separator != ',') : std::optional<double>();
         if (!value || !std::isfinite(*value)) {
-            reject(name, fmt::format("\"{}\" is no finite number", text != nullptr ? *text : ""),
+            reject(name, fmt::format("\"{}\" is not a finite number", text != nullptr ? *text : ""),
                    "");
         }
         return value.value_or(0.0);
@@ -155,7 +158,7 @@ RecordingList recordings_of(const std::vector<std::string>& files, Problems& pro
         }
         glob_t found{};
         if (::glob(file.c_str(), 0, nullptr, &found) != 0) {
-            problems.push_back({file, 0, "", "no file matches", ""});
+            problems.push_back({file, 0, "", "no file matches this pattern", ""});
         }
         for (std::size_t i = 0; i < found.gl_pathc; ++i) {
             list.recordings.push_back({});

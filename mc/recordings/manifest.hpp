@@ -1,4 +1,4 @@
-// Which recordings there are, and what is known of each.
+// List of recordings with their gearbox, time, condition and operating conditions.
 #pragma once
 
 #include <optional>
@@ -14,34 +14,34 @@ enum class Condition { unknown, healthy, faulty };
 
 struct Recording {
     std::string file;
-    std::optional<std::size_t> row;  // of a file with a record in each row
-    std::string gearbox;             // "" if it is not known
+    std::optional<std::size_t> row;  // row in a file with one record per row
+    std::string gearbox;             // "": unknown
     double time = 0.0;
     Condition condition = Condition::unknown;
-    std::optional<double> size;  // of its fault, in SI if it is a length
-    std::vector<double> inputs;  // as RecordingList::inputs
+    std::optional<double> size;  // fault size, in SI units if it is a length
+    std::vector<double> inputs;  // in the order of RecordingList::inputs
 
     std::string name() const;  // "file", "file row 3"
 };
 
 struct RecordingList {
     std::vector<Recording> recordings;
-    std::vector<TableColumn> inputs;  // other columns of numbers: conditions
+    std::vector<TableColumn> inputs;  // other columns: operating conditions
     std::optional<TableColumn> time, size;
 };
 
-// A table (text_table.hpp) with a line for each recording. Columns:
-//   file      its path, seen from the manifest
-//   row       from 0, of an HDF5 file whose datasets hold a record in each row
-//   gearbox   its name
-//   time      a number, in whatever unit
-//   label     healthy or faulty; empty where it is not known
-//   size      of the fault, 0 of a healthy gearbox; its unit in brackets
-//   all others are conditions and must be numbers
-// Problems name the line. Throws SignalError if the table itself cannot be read.
+// Reads a table (text_table.hpp) with a line for each recording. Columns:
+//   file      path, relative to the manifest
+//   row       row from 0, in an HDF5 file whose datasets have one record per row
+//   gearbox   name of the gearbox
+//   time      a number, in any unit
+//   label     healthy or faulty; empty: unknown
+//   size      fault size, 0 for a healthy gearbox; its unit in brackets
+//   others    operating conditions, must be numbers
+// Problems name the line. Throws SignalError if the table cannot be read.
 RecordingList read_manifest(const std::string& path, Problems& problems);
 
-// Of files alone, and of what a pattern with * and ? matches.
+// Lists files, and the files that match glob patterns (* and ?).
 RecordingList recordings_of(const std::vector<std::string>& files, Problems& problems);
 
 }  // namespace gearpod::mc

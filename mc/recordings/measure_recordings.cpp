@@ -39,7 +39,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
         }
         if (!any) {
             measured.problem =
-                fmt::format("{}: no feature can be had of it: {}", recording.name(), why);
+                fmt::format("{}: no feature can be computed: {}", recording.name(), why);
         }
     } catch (const std::exception& error) {
         measured.problem = exception_text(error);
@@ -48,7 +48,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
     return measured;
 }
 
-// Whatever separates the fields of whoever reads it.
+// Quotes a field that contains any common separator.
 std::string quoted(const std::string& text) {
     return csv_field(text, ",;\t");
 }
@@ -81,12 +81,12 @@ std::string unit_or_one(const TableColumn& column) {
     return column.unit.empty() ? "1" : column.unit;
 }
 
-// What the rows are graded by: the size, or a label.
+// Quantity by which rows are graded: the fault size, or the label.
 struct Grading {
     std::string name, unit;
     bool sized;
 
-    // Graded rows without a size have no place among those with one.
+    // Faulty rows without a size are not graded if other rows have one.
     int group(const Recording& recording) const {
         if (recording.condition == Condition::healthy) {
             return static_cast<int>(Group::threshold);
@@ -111,7 +111,7 @@ Grading grading_of(const RecordingList& list) {
     return {"size", list.size->unit == "mm" ? "m" : unit_or_one(*list.size), true};
 }
 
-// One group for each size, or, of more than twenty, twenty of about as many recordings.
+// Returns one group for each size, or twenty groups with about equal numbers of sizes.
 std::vector<analysis::SizeGroup> groups_of(const std::set<double>& sizes) {
     constexpr std::size_t kMost = 20;
     std::vector<analysis::SizeGroup> groups;
@@ -236,7 +236,7 @@ Results recordings_results(const RecordingList& list,
                        groups_of(sizes),
                        {grading.name, grading.unit}};
     for (const auto& [name, value] : provenance(study, 1, threads)) {
-        // The recordings are of no study: it only says how they were looked at.
+        // The study only defines how the recordings were evaluated; it did not create them.
         results.provenance.emplace_back(name == "study" ? "measured_by_study" : name, value);
     }
     results.provenance.emplace_back("kind", kRecordingsKind);

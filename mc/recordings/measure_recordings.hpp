@@ -1,4 +1,4 @@
-// The features of many recordings, and what becomes of them: a table and a results file.
+// Features of many recordings, and their output as a table and as a results file.
 #pragma once
 
 #include <functional>
@@ -11,32 +11,34 @@
 
 namespace gearpod::mc {
 
-// Of one recording.
+// Features of one recording.
 struct MeasuredRecording {
-    std::string problem;         // why it has none, else empty
-    std::vector<double> values;  // by measurable(); NaN: none
+    std::string problem;         // why there are no features, else empty
+    std::vector<double> values;  // in the order of measurable(); NaN: no value
     std::vector<WorstTooth> teeth;
     int sensor_meshes = 0, planet_turns = 0;
 };
 
-// `baseline`, if there is one, is of the gearbox that all are of. By as many threads; the same
-// numbers whatever they are. A recording that cannot be read has a problem and stops nothing.
-// `done` is called after each, by one thread at a time.
+// Computes the features of all recordings. `baseline` may be null; it is an earlier recording of
+// the gearbox, which all recordings then share. The results do not depend on the number of threads.
+// A recording that cannot be read gets a problem and does not stop the others. `done` is called
+// after each recording, by one thread at a time.
 std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
                                                   const SignalColumns& columns, const Scene& scene,
                                                   const HealthyReference& healthy,
                                                   const MeasuredBaseline* baseline, int threads,
                                                   const std::function<void()>& done);
 
-// A line each, with what is known of it, its features (those that were measurable()) and its
-// problem.
+// Returns a CSV table with a line for each recording: its description, its features (those of
+// measurable()) and its problem.
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
                            std::span<const features::Feature> features);
 
-// As a run's: a row for each recording that has features. Healthy ones set the thresholds, faulty
-// ones are graded, by their size or, where no size is known, as size 1; the others only stand in
-// the file. Features that no recording has are left out. Names are in the provenance.
+// Returns results in the format of a run, with a row for each recording that has features. Healthy
+// recordings set the thresholds. Faulty recordings are graded by their size, or as size 1 if no
+// recording has a size. Recordings of unknown condition are only stored. Features without any value
+// are omitted. The recording names are in the provenance.
 Results recordings_results(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
                            std::span<const features::Feature> features, const Scene& scene,

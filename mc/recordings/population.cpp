@@ -21,7 +21,8 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
     throw std::runtime_error(path + ": " + why);
 }
 
-// Features of other teeth are other numbers.
+// Refuses a file whose tooth numbers differ from the study's, because its features are not
+// comparable.
 void check_teeth(const std::string& path, const Results& results, const Study& study) {
     std::string text = results.provenance_value("study");
     if (text.empty()) {
@@ -35,8 +36,8 @@ void check_teeth(const std::string& path, const Results& results, const Study& s
         const auto own = teeth_of(study, member), other = teeth_of(*theirs, member);
         if (own != other) {
             refuse(path,
-                   fmt::format("is of a gearbox with {} teeth where the study has {}; compare "
-                               "with one of the same gearbox",
+                   fmt::format("has a gear with {} teeth, but the study has {}; use results of "
+                               "the same gearbox",
                                other.value_or(0), own.value_or(0)));
         }
     }
@@ -46,7 +47,7 @@ std::size_t level_of(const std::string& path, const Results& results, double noi
     const auto found =
         std::find(results.noise_levels.begin(), results.noise_levels.end(), noise_level);
     if (found == results.noise_levels.end()) {
-        refuse(path, fmt::format("has no noise level {:g}, but {:g}; choose with --noise-level",
+        refuse(path, fmt::format("has no noise level {:g}; choose --noise-level from {:g}",
                                  noise_level, fmt::join(results.noise_levels, ", ")));
     }
     return static_cast<std::size_t>(found - results.noise_levels.begin());
@@ -105,7 +106,7 @@ Population read_population(const std::string& path, double noise_level, const St
         }
     }
     if (population.features.empty()) {
-        refuse(path, "has no healthy gearboxes to set a threshold by");
+        refuse(path, "has too few healthy gearboxes to set a threshold");
     }
     std::stable_sort(population.features.begin(), population.features.end(),
                      [](const PopulationFeature& a, const PopulationFeature& b) {
@@ -143,8 +144,9 @@ std::vector<Verdict> judge(const Population& population, const std::vector<doubl
     if (named == verdicts.end()) {
         refuse(population.file,
                feature.empty()
-                   ? "has none of the recording's features"
-                   : fmt::format("has no feature {}, or the recording has not", feature));
+                   ? "has no feature in common with the recording"
+                   : fmt::format("the feature {} is missing in this file or in the recording",
+                                 feature));
     }
     std::rotate(verdicts.begin(), named, named + 1);
     return verdicts;
@@ -163,8 +165,8 @@ std::string verdict_sentence(const std::string& recording, const Population& pop
     const PopulationFeature& known = *verdict.population;
     const char* whom = population.recordings ? "healthy recordings" : "simulated healthy gearboxes";
     std::string text = fmt::format(
-        "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} that {} {} set at {:.3g} % "
-        "false alarms, and {} than {} of {} healthy ones ({:.4g} %)",
+        "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} (from {} {} at {:.3g} % false "
+        "alarms), and {} than {} of {} healthy values ({:.4g} %)",
         recording, verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
         100.0 * std::abs(verdict.margin), verdict.alarm ? "beyond" : "short of", known.threshold,
         known.sample, whom, 100.0 * population.false_alarm_rate,
@@ -174,8 +176,8 @@ std::string verdict_sentence(const std::string& recording, const Population& pop
             static_cast<double>(known.healthy.size()));
     for (const WorstTooth& tooth : teeth) {
         text += fmt::format(
-            "{} {} tooth {} of {}, counted from the recording's first mesh, is {:.3g} "
-            "times as loud as the median",
+            "{} {} tooth {} of {}, counted from the first mesh of the recording, has {:.3g} times "
+            "the median vibration",
             &tooth == &teeth.front() ? "; the" : ", the", tooth.gear, tooth.tooth, tooth.teeth,
             tooth.ratio);
     }

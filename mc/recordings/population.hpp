@@ -1,4 +1,4 @@
-// What healthy gearboxes of a results file, simulated or measured, say of one recording.
+// Comparison of one recording with the healthy gearboxes of a results file, simulated or measured.
 #pragma once
 
 #include <string>
@@ -14,41 +14,42 @@ struct PopulationFeature {
     std::string name;
     analysis::Alarm alarm = analysis::Alarm::high;
     double threshold = 0.0;
-    long sample = 0;              // healthy ones that set it
-    std::vector<double> healthy;  // ascending; these, and graded ones without a fault
-    double auc = 0.0;             // NaN without faulty ones
+    long sample = 0;              // number of healthy gearboxes that set the threshold
+    std::vector<double> healthy;  // ascending; values of these and of graded ones without a fault
+    double auc = 0.0;             // NaN without faulty gearboxes
 };
 
 struct Population {
     std::string file;
-    bool recordings = false;  // else simulated
+    bool recordings = false;  // true: measured; false: simulated
     double noise_level = 1.0;
     double false_alarm_rate = 0.0;
-    std::vector<PopulationFeature> features;  // the best first, by area under the ROC
+    std::vector<PopulationFeature> features;  // by descending AUC
 };
 
-// Of a noise level that the file has. Throws std::runtime_error naming the file and why not: no
-// results, other teeth than the study's, no such level, no healthy ones.
+// Reads the population at one of the file's noise levels. Throws std::runtime_error naming the file
+// if it is not a results file, has other tooth numbers than the study, lacks the noise level, or
+// has no healthy gearboxes.
 Population read_population(const std::string& path, double noise_level, const Study& study);
 
-// Of one feature.
+// Comparison of one feature.
 struct Verdict {
     const PopulationFeature* population = nullptr;
     double value = 0.0;
     bool alarm = false;
-    double margin = 0.0;    // beyond the threshold, as a share of it; negative before it
-    long less_extreme = 0;  // healthy ones
+    double margin = 0.0;    // relative distance beyond the threshold; negative: no alarm
+    long less_extreme = 0;  // number of healthy gearboxes with a less extreme value
 };
 
-// `measured`: by measurable(), NaN: none. Of the features that recording and population
-// have, in the population's order; `feature`, if named, is the first. Throws std::runtime_error if
-// there is none, or not that one.
+// Compares the features that both recording and population have, in the population's order. A
+// non-empty `feature` is moved to the front. `measured` is in the order of measurable(), NaN: no
+// value. Throws std::runtime_error if there is no common feature, or not the named one.
 std::vector<Verdict> judge(const Population& population, const std::vector<double>& measured,
                            const std::string& feature);
 
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured);
 
-// One sentence on the first verdict and the tooth that stands out.
+// Returns a sentence on the verdict and on the teeth with the largest vibration.
 std::string verdict_sentence(const std::string& recording, const Population& population,
                              const Verdict& verdict, const std::vector<WorstTooth>& teeth);
 

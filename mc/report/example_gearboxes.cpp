@@ -24,12 +24,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostSamples = 2000;  // of a time signal as drawn
-constexpr std::size_t kMostLines = 500;     // of a spectrum as drawn
+constexpr std::size_t kMostSamples = 2000;  // plotted samples of a time signal
+constexpr std::size_t kMostLines = 500;     // plotted lines of a spectrum
 constexpr double kZoomMeshes = 2.5;         // mesh frequencies to either side of the largest line
 constexpr int kStiffnessPoints = 160;       // in a mesh period
 
-// A row of the results file.
+// Row of the results file.
 struct ExampleRow {
     std::size_t row = 0;
     double size = 0.0;
@@ -71,7 +71,7 @@ Json numbers(std::span<const double> values, std::span<const std::size_t> indice
     return json;
 }
 
-// Mesh phase of each sample that is kept, and the samples.
+// Time signal thinned for plotting: mesh phase and value of each sample.
 Json time_json(std::span<const double> values, int samples_per_mesh) {
     const auto kept = extremes(values, kMostSamples);
     Json json{{"mesh", Json::array()}, {"value", numbers(values, kept)}};
@@ -81,7 +81,7 @@ Json time_json(std::span<const double> values, int samples_per_mesh) {
     return json;
 }
 
-// The largest line of each stretch of lines first to last - 1, `resolution_Hz` apart.
+// Spectral lines first to last - 1, `resolution_Hz` apart, thinned to the largest of each interval.
 Json lines_json(std::span<const double> amplitude, std::size_t first, std::size_t last,
                 double resolution_Hz) {
     const auto lines = amplitude.subspan(first, last - first);
@@ -93,7 +93,7 @@ Json lines_json(std::span<const double> amplitude, std::size_t first, std::size_
     return json;
 }
 
-// One-sided amplitudes over the whole span.
+// One-sided amplitude spectrum over the whole span.
 std::vector<double> amplitudes_of(const std::vector<double>& signal) {
     signals::OrderSpectrum spectrum(static_cast<int>(signal.size()));
     spectrum.load(signal);
@@ -102,7 +102,7 @@ std::vector<double> amplitudes_of(const std::vector<double>& signal) {
     return amplitude;
 }
 
-// Of the whole band, and around the largest line without noise. `meshes`: lines per mesh
+// Spectra over the whole band and around the largest noise-free line. `meshes`: lines per mesh
 // frequency.
 Json spectrum_json(const std::vector<double>& clean, const std::vector<double>& noisy,
                    std::size_t meshes, double period_s) {
@@ -120,14 +120,14 @@ Json spectrum_json(const std::vector<double>& clean, const std::vector<double>& 
     return {{"whole", both(1, without.size())}, {"zoom", both(first, last)}};
 }
 
-// Both are computed from the same numbers, so they agree bit by bit.
+// True if all values are equal bit by bit, as they are for a gearbox computed again.
 bool same_bits(std::span<const double> a, std::span<const double> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
         return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
     });
 }
 
-// The mesh periods of a planet turn in which the faulty tooth is engaged.
+// Intervals of a planet turn, in mesh periods, in which the faulty tooth is engaged.
 Json engagements(const Scene& scene, double size) {
     Json json = Json::array();
     const lockstep::FaultPattern& pattern = scene.pattern();
@@ -146,7 +146,7 @@ Json engagements(const Scene& scene, double size) {
     return json;
 }
 
-// Runs one gearbox at a time.
+// Computes example gearboxes, one at a time.
 class Examples {
   public:
     Examples(const Scene& scene, const Results& frame)
@@ -158,7 +158,7 @@ class Examples {
           features_(scene, &healthy_),
           level_(reference_level(frame.noise_levels)) {}
 
-    // Of a part of an ensemble: its own rows.
+    // Identity of the gearbox in a row. Rows of a part count from the part's own first row.
     GearboxId id_of(std::size_t row) const {
         const BatchPlan plan(scene_.study().ensemble,
                              read_part(frame_.provenance_value("part")).value_or(Part{}));
@@ -273,7 +273,8 @@ Json healthy_curves(const Scene& scene) {
     return pairs;
 }
 
-// From a quarter of a mesh period before the faulty tooth engages to a quarter after.
+// Mesh stiffness from a quarter mesh period before the faulty tooth engages to a quarter after it
+// disengages.
 Json passage_json(const Scene& scene, int curve, int pair, std::vector<double> sizes) {
     Json json{{"pair", scene.drive().pair_name(pair)},
               {"mesh", Json::array()},
@@ -321,7 +322,7 @@ Json refused(const std::string& why) {
             {"stiffness", {{"refusal", why}}}};
 }
 
-// What `make` gives, or why it gives nothing.
+// Returns the result of `make`, or the reason why it failed.
 template <typename Make>
 Json or_refusal(Make make) {
     try {
@@ -344,12 +345,12 @@ std::size_t reference_level(const std::vector<double>& noise_levels) {
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     const std::string text = frame.provenance_value("study");
     if (text.empty()) {
-        return refused("the file holds no study");
+        return refused("the file contains no study");
     }
     const std::string name = "study of the results";
     const StudyScene made = make_scene(name, read_study_text(text, name));
     if (!made) {
-        return refused("this program cannot build the file's study: " + format(made.problems));
+        return refused("this version cannot build the study in the file: " + format(made.problems));
     }
     return {{"examples", or_refusal([&] { return gearboxes_json(*made.scene, frame, rows); })},
             {"stiffness", or_refusal([&] { return stiffness_json(*made.scene); })}};

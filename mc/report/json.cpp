@@ -26,7 +26,8 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostNamedRows = 20;
 
-// Rows without values by reason, and features without a value in gearboxes that worked.
+// Failed gearboxes by reason, and for each feature the gearboxes that have no value of it although
+// they did not fail.
 Json failures_json(const Results& frame, const RowSource& rows) {
     const RowShape shape = row_shape(frame);
     std::vector<long> no_value(shape.features * shape.levels, 0);
@@ -66,7 +67,7 @@ Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-// The numerical error beside the statistical one; null if it was not verified.
+// Numerical error compared with the statistical one; null if it was not verified.
 Json numerical_json(const Results& frame, const std::vector<NumericalShare>& shares) {
     if (!frame.numerical) {
         return nullptr;
@@ -89,8 +90,8 @@ Json numerical_json(const Results& frame, const std::vector<NumericalShare>& sha
     return json;
 }
 
-// Share of time out of contact, mesh by mesh; null where teeth cannot part or an earlier version
-// wrote the file.
+// Contact loss ratio of each mesh; null if teeth cannot separate or an earlier version wrote the
+// file.
 Json contact_loss_json(const Results& frame, const RowSource& rows) {
     Json json = Json::array();
     for (const ContactLossSummary& mesh : summarise_contact_loss(frame, rows)) {
@@ -131,7 +132,7 @@ Json features_json(const Results& frame) {
     return json;
 }
 
-// What the noise levels are factors on, as far as the study can still be read.
+// Noise levels, and the noise that they multiply, if the study can be read.
 Json noise_json(const Results& frame, const std::optional<Study>& study) {
     Json json{{"levels", frame.noise_levels},
               {"reference", reference_level(frame.noise_levels)},

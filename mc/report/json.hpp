@@ -1,4 +1,4 @@
-// Everything that a report says, as JSON: for other programs, and for the page (analysis/report).
+// Complete report of a run as JSON, for other programs and for the page (analysis/report).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,9 +9,9 @@
 
 namespace gearpod::mc {
 
-// `frame.detection` must be up to date (detect_all). No reliability: the ensemble is too large.
-// The keys are in mc/README.md. Two gearboxes are computed again for their signals
-// (example_gearboxes.hpp).
+// Returns the report; mc/README.md lists the keys. `frame.detection` must be up to date
+// (detect_all). `reliability` is empty if the ensemble is too large. Computes two gearboxes again
+// for their signals (example_gearboxes.hpp).
 nlohmann::json report_json(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/json_values.hpp"
@@ -17,7 +16,13 @@ namespace {
 
 using LifeJson = nlohmann::json;
 
-// "2.31", "> 4" where that many are not found before the last depth.
+// Adds the text in lines of at most 80 columns.
+void add_text(std::string& out, const std::string& text) {
+    constexpr std::size_t kWidth = 80;
+    analysis::add_wrapped(out, text, 2, kWidth);
+}
+
+// Formats a depth in mm: "2.31", or "> 4" if the probability is not reached at the last depth.
 std::string depth_text(double depth_m, const Study& study) {
     return std::isnan(depth_m)   ? "-"
            : std::isinf(depth_m) ? fmt::format("> {:g}", 1e3 * *study.life.last_depth_m)
@@ -76,23 +81,23 @@ LifeJson interval_json(const analysis::Interval& interval) {
 std::string costs_text(const Campaign& campaign) {
     const LifeCosts& costs = campaign.costs;
     if (costs.gearbox_count == 0) {
-        return "";  // all had been computed before
+        return "";  // an earlier run had computed all gearboxes
     }
     return fmt::format(
-        "processor time: {:.3g} s a gearbox, {:.3g} ms a record ({} gearboxes, {} records)\n",
+        "processor time: {:.3g} s per gearbox, {:.3g} ms per record ({} gearboxes, {} records)",
         costs.gearboxes / static_cast<double>(std::max(1L, costs.gearbox_count)),
         1e3 * costs.records / static_cast<double>(std::max(1L, costs.record_count)),
         costs.gearbox_count, costs.record_count);
 }
 
-// "27/32 [0.68, 0.93]"; "-" where no tooth goes, or there is no threshold.
+// Formats the share found: "27/32 [0.68, 0.93]"; "-" if no tooth fails or there is no threshold.
 std::string share_text(const analysis::LifeAnswers& a) {
     return std::isnan(a.share) ? "-"
                                : fmt::format("{}/{} [{:.2f}, {:.2f}]", a.found, a.ended,
                                              a.share_bounds.lower, a.share_bounds.upper);
 }
 
-// Cells of lines below each other, two columns to the left and the others to the right.
+// Aligns cells in columns; the first two columns are left-aligned, the others right-aligned.
 std::string table_text(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths(lines.front().size(), 0);
     for (const auto& line : lines) {
@@ -114,30 +119,28 @@ std::string table_text(const std::vector<std::vector<std::string>>& lines) {
 std::string interpolation_text(const Campaign& campaign, const Life& life) {
     const InterpolationErrors& off = campaign.interpolation;
     if (std::isnan(off.first)) {
-        return "";  // none of those that are looked at was marched
+        return "";  // none of the gearboxes used for the error estimate was integrated
     }
     std::string text = fmt::format(
-        "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
+        "interpolation error of the signals (rms): {:.2g} of the crack's effect at {:.3g} mm, "
         "{:.2g} of it at {:.3g} mm",
         off.first, 1e3 * first_interpolated_m(life), off.last, 1e3 * last_interpolated_m(life));
     if (off.load > 0.0) {
-        text += fmt::format(
-            "; between the torques and speeds that are marched by {:.2g} of the signal", off.load);
+        text += fmt::format("; {:.2g} of the signal between the integrated torques and speeds",
+                            off.load);
     }
     return text;
 }
 
-// Why there are dashes; "" where there are none.
+// Explains the dashes in the table; "" if there are none.
 std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
     std::string out;
     const Study& study = monitor.study();
     const double rate = study.monitoring.false_alarms_per_1000_h;
     if (ended == 0) {
-        analysis::add_wrapped(out,
-                              fmt::format("no tooth goes within {} records of {:g} h: nothing can "
-                                          "be found before the end; raise life.records",
-                                          study.life.records, *study.life.interval_h),
-                              2);
+        add_text(out, fmt::format("no tooth fails within {} records, one every {:g} h: no crack "
+                                  "can be found before failure; raise life.records",
+                                  study.life.records, *study.life.interval_h));
     }
     for (const MonitoredFeature& one : monitor.answers()) {
         const analysis::MonitorThreshold& threshold = one.answers.threshold;
@@ -145,30 +148,56 @@ std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
             continue;
         }
         const bool few = threshold.least_per_1000_h > rate;
-        analysis::add_wrapped(
+        add_text(
             out,
             few ? fmt::format("no threshold: {:.0f} h of healthy lives are too few for {:g} false "
                               "alarms in 1000 h{}",
                               threshold.hours, rate,
                               threshold.hours > 0.0
-                                  ? fmt::format("; {:.3g} is the least that they can set",
+                                  ? fmt::format("; the smallest number possible is {:.3g}",
                                                 threshold.least_per_1000_h)
                                   : "")
-                : fmt::format("no threshold: {} says nothing of {} records behind the baseline",
-                              one.detector, study.life.records - study.monitoring.baseline_records),
-            2);
+                : fmt::format("no threshold: {} needs more than {} records after the baseline",
+                              one.detector,
+                              study.life.records - study.monitoring.baseline_records));
         break;
     }
     return out;
 }
 
+// A column of a table: its head, and the index of its cell in answer_cells().
+struct ShownCell {
+    const char* head;
+    std::size_t cell;
+};
+
+// Title and table of some results of every feature with every detector.
+std::string results_table(const LifeMonitor& monitor, const std::string& title,
+                          const std::vector<ShownCell>& shown) {
+    std::vector<std::vector<std::string>> lines{{"feature", "detector"}};
+    for (const ShownCell& column : shown) {
+        lines.front().emplace_back(column.head);
+    }
+    for (const MonitoredFeature& one : monitor.answers()) {
+        const std::vector<std::string> cells = answer_cells(one.answers, monitor.study());
+        lines.push_back({one.feature, one.detector});
+        for (const ShownCell& column : shown) {
+            lines.back().push_back(cells[column.cell]);
+        }
+    }
+    std::string text = "\n";
+    add_text(text, title);
+    return text + table_text(lines);
+}
+
 }  // namespace
 
 std::vector<std::string> answer_columns(const Study& study) {
-    return {"threshold",        "false alarms/1000 h",
-            "found before end", "by chance",
-            "mm 50 %",          fmt::format("90 % (at {:g} %)", 100.0 * study.detection.confidence),
-            "warn h",           "9 in 10"};
+    return {
+        "threshold",        "false alarms/1000 h",
+        "found before end", "by chance",
+        "a50, mm",          fmt::format("a90 ({:g} % bound)", 100.0 * study.detection.confidence),
+        "w50, h",           "w90, h"};
 }
 
 std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Study& study) {
@@ -194,31 +223,49 @@ std::string lives_text(const LifeMonitor& monitor) {
     const auto ended = std::ranges::count_if(campaign.cracked, [](const GearboxLife& one) {
         return one.status == Status::ok && one.history.end_hours.has_value();
     });
-    std::string out = fmt::format(
-        "{} cracks grow from {:g} to {:g} mm, a record each {:g} h: {} teeth go within {} records\n"
-        "thresholds: {} healthy lives, {:g} false alarms in 1000 h; false alarms: {} other healthy "
-        "lives\n",
-        campaign.cracked.size(), 1e3 * crack_begin_m(study.life), 1e3 * *study.life.last_depth_m,
-        *study.life.interval_h, ended, study.life.records, campaign.setting.size(),
-        study.monitoring.false_alarms_per_1000_h, campaign.healthy.size());
+    const double confidence = 100.0 * study.detection.confidence;
+    std::string out;
+    add_text(out, fmt::format("{} cracks grow from {:g} to {:g} mm, with a record every {:g} h; {} "
+                              "teeth fail within {} records",
+                              campaign.cracked.size(), 1e3 * crack_begin_m(study.life),
+                              1e3 * *study.life.last_depth_m, *study.life.interval_h, ended,
+                              study.life.records));
+    add_text(out, fmt::format("thresholds: {:g} false alarms in 1000 h, from {} healthy lives; "
+                              "false alarms: counted on {} other healthy lives",
+                              study.monitoring.false_alarms_per_1000_h, campaign.setting.size(),
+                              campaign.healthy.size()));
     if (const std::string holds = assumptions(study, true); !holds.empty()) {
-        analysis::add_wrapped(out, holds, 2);
+        add_text(out, holds);
     }
-    out += "a record: " + printable(campaign.record) + "\n";
+    add_text(out, "record: " + printable(campaign.record));
     if (campaign.failed > 0) {
-        out += fmt::format("{} gearboxes failed and are left out\n", campaign.failed);
+        out += fmt::format("{} gearboxes failed and are ignored\n", campaign.failed);
     }
-    if (const std::string off = interpolation_text(campaign, study.life); !off.empty()) {
-        analysis::add_wrapped(out, off, 2);
+    for (const std::string& line :
+         {interpolation_text(campaign, study.life), costs_text(campaign)}) {
+        if (!line.empty()) {
+            add_text(out, line);
+        }
     }
-    out += costs_text(campaign) + "\n";
-    std::vector<std::vector<std::string>> lines{{"feature", "detector"}};
-    std::ranges::copy(answer_columns(study), std::back_inserter(lines.front()));
-    for (const MonitoredFeature& one : monitor.answers()) {
-        lines.push_back({one.feature, one.detector});
-        std::ranges::copy(answer_cells(one.answers, study), std::back_inserter(lines.back()));
-    }
-    return out + table_text(lines) + unanswered_text(monitor, ended);
+    out += results_table(
+        monitor,
+        fmt::format("Threshold, and false alarms in 1000 h with their {:g} % interval:",
+                    confidence),
+        {{"threshold", 0}, {"false alarms", 1}});
+    out += results_table(
+        monitor,
+        fmt::format("Cracks found before the tooth fails, with the {:g} % interval of the share; "
+                    "by chance: the share that false alarms alone would find:",
+                    confidence),
+        {{"found", 2}, {"by chance", 3}});
+    out += results_table(
+        monitor,
+        fmt::format("Crack depth in mm at which 50 % (a50) and 90 % of the cracks are found (a90, "
+                    "with its bound at {:g} % confidence). Time in h from the alarm to failure: "
+                    "median (w50), and time that 90 % of the cracks found exceed (w90):",
+                    confidence),
+        {{"a50", 4}, {"a90 (bound)", 5}, {"w50", 6}, {"w90", 7}});
+    return out + unanswered_text(monitor, ended);
 }
 
 nlohmann::json answers_json(const MonitoredFeature& one) {

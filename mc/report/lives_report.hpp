@@ -1,4 +1,5 @@
-// What `lives` says: cracks found before the tooth goes, how deep, how long before, at which cost.
+// Report of `lives`: cracks found before tooth failure, their depth, the warning time, and the
+// false alarms.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,22 +10,23 @@
 
 namespace gearpod::mc {
 
-// What a feature and detector come to, a cell a column of answer_columns(): threshold, false alarms
-// with their interval, share found and what false alarms alone would find of lives as long, depths
-// at 50 and at 90 % with its bound, hours before for 50 % and for nine in ten.
+// Headings and cells of the table of results. Columns: threshold, false alarms with their interval,
+// share found, share that false alarms alone would find in lives of the same length, crack depth
+// found with 50 % and with 90 % probability (with its bound), warning time of 50 % and of 90 %.
 std::vector<std::string> answer_columns(const Study& study);
 std::vector<std::string> answer_cells(const analysis::LifeAnswers& answers, const Study& study);
 
 // Ends with a newline.
 std::string lives_text(const LifeMonitor& monitor);
 
-// Of one feature by one detector: {"feature", "detector", "threshold", "threshold_hours",
-// "false_alarms": {"count", "hours", "per_1000_h", "bounds", "dispersion", "expected"}, "ended",
-// "found", "share", "share_bounds", "share_by_chance", "depth_50_m", "depth_50_bound_m",
-// "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as below.
+// Returns the results of one feature and detector: {"feature", "detector", "threshold",
+// "threshold_hours", "false_alarms": {"count", "hours", "per_1000_h", "bounds", "dispersion",
+// "expected"}, "ended", "found", "share", "share_bounds", "share_by_chance", "depth_50_m",
+// "depth_50_bound_m", "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as
+// below.
 nlohmann::json answers_json(const MonitoredFeature& monitored);
 
-// {"kind": "lives", "title", "assumptions", "interval_h", "record", "baseline_records",
+// Returns {"kind": "lives", "title", "assumptions", "interval_h", "record", "baseline_records",
 // "first_depth_m", "last_depth_m", "healthy_lives": {"setting", "counting"},
 // "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m", "first",
 // "last_depth_m", "last", "load"}, "costs":
@@ -32,8 +34,8 @@ nlohmann::json answers_json(const MonitoredFeature& monitored);
 // (by life that did not fail)], "trade_offs": [{"feature", "detector", "points":
 // [{"stated_per_1000_h", "per_1000_h", "share", "depth_50_m", "depth_90_m"}]}], "fans":
 // [{"feature", "healthy_05", "healthy_50", "healthy_95" (by record), "lives": [deviations]}],
-// "lives": [{"status", "end_h", "hours", "depth_m"}]}; null where that many are not found, or there
-// is nothing to say.
+// "lives": [{"status", "end_h", "hours", "depth_m"}]}. A value is null if it does not exist, for
+// example if fewer than 90 % of the cracks are found.
 nlohmann::json lives_json(const LifeMonitor& monitor);
 
 }  // namespace gearpod::mc

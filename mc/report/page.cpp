@@ -18,7 +18,7 @@ namespace gearpod::mc {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error("the page cannot be made: " + what);
+    throw std::runtime_error("the page cannot be created: " + what);
 }
 
 std::string from_environment(const char* name, const std::string& otherwise) {
@@ -26,8 +26,8 @@ std::string from_environment(const char* name, const std::string& otherwise) {
     return value != nullptr && *value != '\0' ? value : otherwise;
 }
 
-// Of the scripts, seen from the running program, wherever it was installed or moved to; a program
-// in its build's folder has them beside it.
+// Folder of the Python scripts, relative to the running program. In a build folder the scripts are
+// next to the program.
 std::filesystem::path report_folder() {
     std::error_code none;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
@@ -37,7 +37,7 @@ std::filesystem::path report_folder() {
                : (program / GEARPOD_REPORT_FROM_PROGRAM).lexically_normal();
 }
 
-// A file without a name, which goes when it is closed.
+// Unnamed temporary file, deleted when it is closed.
 using TemporaryFile = std::unique_ptr<FILE, int (*)(FILE*)>;
 
 TemporaryFile temporary_file(const std::string& text) {
@@ -59,7 +59,7 @@ std::string content(FILE* file) {
     return text;
 }
 
-// The exit code, or 128 and the signal that ended the program.
+// Runs a program. Returns its exit code, or 128 plus the number of the signal that ended it.
 int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
     std::vector<char*> arguments;
     for (const std::string& word : words) {
@@ -87,7 +87,7 @@ int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// What build_page.py makes of the JSON with further arguments.
+// Output of build_page.py for the JSON and further arguments.
 std::string made_of(const std::string& json, const std::vector<std::string>& arguments) {
     const std::string python = from_environment("GEARPOD_PYTHON", "/usr/bin/python3");
     const std::filesystem::path folder =
@@ -99,7 +99,7 @@ std::string made_of(const std::string& json, const std::vector<std::string>& arg
              "sources");
     }
     const TemporaryFile input = temporary_file(json), output = temporary_file("");
-    // -B: no compiled files beside the sources; -s: no packages of the user's own.
+    // -B: write no compiled files next to the sources; -s: ignore the user's own packages.
     std::vector<std::string> words{python, "-Bs", program, "-"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const int code = run(words, input.get(), output.get());

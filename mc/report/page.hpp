@@ -1,21 +1,20 @@
-// The HTML page of a report, and its summary on one sheet, made by the Python program in
-// analysis/report.
+// HTML page and one-page PDF summary of a report, made by the Python program in analysis/report.
 #pragma once
 
 #include <string>
 
 namespace gearpod::mc {
 
-// The page for a report's JSON. Python is GEARPOD_PYTHON, by default /usr/bin/python3; the
-// program's folder is GEARPOD_REPORT_DIR, by default the one that this program was built from.
-// Throws std::runtime_error with what is missing; what the Python program itself finds wrong it
-// says on standard error.
+// Returns the HTML page for a report's JSON. GEARPOD_PYTHON names the interpreter (default
+// /usr/bin/python3). GEARPOD_REPORT_DIR names the folder of the Python program; the default is the
+// installed one. Throws std::runtime_error naming what is missing. The Python program prints its
+// own errors to standard error.
 //
-// Into the folder `figures`, unless it is "", go its figures too, each as SVG and PNG.
+// Also writes the figures as SVG and PNG into the folder `figures`, unless it is "".
 std::string report_page(const std::string& json, const std::string& figures = "");
 
-// PDF of one sheet: the answer, how it depends on noise, what limits it. Only of report_json().
-// Throws as report_page() does.
+// Returns a one-page PDF: the result, its dependence on noise, its limits. `json` must come from
+// report_json(). Throws like report_page().
 std::string report_summary(const std::string& json);
 
 }  // namespace gearpod::mc

@@ -24,7 +24,7 @@ std::string field(const TableJson& value) {
 
 class Tables {
   public:
-    // Starts a table; fields of the rows that follow are in the order of the columns.
+    // Starts a table. Fields of the following rows have the order of the columns.
     void begin(const char* name, std::vector<std::string> columns) {
         tables_.push_back({name, std::move(columns), {}});
     }
@@ -44,7 +44,8 @@ class Tables {
     std::vector<CsvTable> tables_;
 };
 
-// "fault_depth_m": as the results file names sizes; one that is no length has no unit.
+// Name of a size column with its unit as in the results file, "fault_depth_m". A size that is not a
+// length has no unit.
 std::string size_column(const TableJson& report, const std::string& what) {
     const TableJson& size = report["detection"]["size"];
     return what + (size["unit"] == "1" ? "" : "_" + size["unit"].get<std::string>());
@@ -73,7 +74,7 @@ void add_detection(Tables& tables, const TableJson& report) {
     }
 }
 
-// Calls with every feature and level of the reliability part.
+// Calls `use` with every feature and noise level of the reliability part.
 template <typename Use>
 void each_level(const TableJson& report, Use use) {
     for (const TableJson& feature : report["reliability"]["features"]) {

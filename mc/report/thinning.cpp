@@ -13,7 +13,7 @@ std::vector<std::size_t> all_of(std::size_t count) {
     return indices;
 }
 
-// Calls use(first, last) for `count` stretches of about equal length.
+// Calls use(first, last) for `count` intervals of about equal length.
 template <typename Use>
 void for_each_stretch(std::span<const double> values, std::size_t count, Use use) {
     for (std::size_t s = 0; s < count; ++s) {

@@ -1,4 +1,4 @@
-// Fewer points of a long curve, for drawing it.
+// Thinning of long curves for plots.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace gearpod::mc {
 
-// Ascending indices: all of them, or the smallest and the largest value of each of most / 2 equal
-// stretches, so that no peak is lost. `most` at least 2.
+// Returns ascending indices: all of them, or the smallest and the largest value of each of most / 2
+// equal intervals, so that no peak is lost. `most` must be at least 2.
 std::vector<std::size_t> extremes(std::span<const double> values, std::size_t most);
 
-// Ascending indices: all of them, or the largest value of each of `most` equal stretches.
+// Returns ascending indices: all of them, or the largest value of each of `most` equal intervals.
 std::vector<std::size_t> maxima(std::span<const double> values, std::size_t most);
 
 }  // namespace gearpod::mc

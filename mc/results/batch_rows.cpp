@@ -49,7 +49,7 @@ Batch BatchPlan::batch(std::size_t index) const {
 }
 
 std::size_t BatchPlan::batch_of_row(std::size_t row) const {
-    // All batches are full before the threshold group's last.
+    // All batches before the last one of the threshold group are full.
     const std::size_t thresholds = threshold_batches(), before = threshold_rows();
     return row < before ? row / (kBatchRows * records_) : thresholds + (row - before) / kBatchRows;
 }
@@ -57,7 +57,7 @@ std::size_t BatchPlan::batch_of_row(std::size_t row) const {
 std::size_t BatchPlan::gearboxes_before(std::size_t batches) const {
     const std::size_t until = std::min(batches, this->batches());
     std::size_t gearboxes = until * kBatchRows;
-    // All are full but the last of either group.
+    // Only the last batch of each group may be incomplete.
     const auto short_of = [&](std::size_t last, std::size_t instances) {
         const bool own = last % part_.count == part_.index && last / part_.count < until;
         return own ? (kBatchRows - instances % kBatchRows) % kBatchRows : 0;

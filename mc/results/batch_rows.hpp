@@ -1,4 +1,4 @@
-// The rows of an ensemble and the batches that are computed, stored and exchanged as one.
+// Rows of an ensemble, and batches: the rows that are computed, stored and exchanged together.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,21 @@
 
 namespace gearpod::mc {
 
-// Gearboxes of a batch, whatever the lanes: the unit of work must not depend on who does it. A
-// gearbox has a row a record, one but in the threshold group (ensemble.threshold_records).
+// Number of gearboxes in a batch. It does not depend on the number of lanes, because the unit of
+// work must be the same on every machine. A gearbox has one row per record: one, or
+// ensemble.threshold_records in the threshold group.
 inline constexpr int kBatchRows = 16;
 
-// Numbers in a row: the parameters, of which the last is the fault's size, then features x noise
-// levels, then the contact loss ratio of each mesh.
+// Numbers in a row: the parameters (the last is the fault size), then features x noise levels, then
+// the contact loss ratio of each mesh.
 struct RowShape {
     std::size_t parameters = 0;
     std::size_t features = 0;
     std::size_t levels = 0;
-    std::size_t meshes = 0;  // 0 where teeth cannot part
+    std::size_t meshes = 0;  // 0 if teeth cannot lose contact
 
     std::size_t values() const { return contact_loss() + meshes; }
-    // The place of the first contact loss ratio.
+    // Index of the first contact loss ratio.
     std::size_t contact_loss() const { return parameters + features * levels; }
     std::size_t value_of(std::size_t feature, std::size_t level) const {
         return parameters + feature * levels + level;
@@ -33,41 +34,42 @@ struct RowShape {
     bool operator==(const RowShape&) const = default;
 };
 
-// Those of up to kBatchRows gearboxes.
+// Rows of up to kBatchRows gearboxes.
 struct BatchRows {
-    std::vector<int> status;     // Status by row
+    std::vector<int> status;     // Status of each row
     std::vector<double> values;  // rows x RowShape::values()
 
     std::size_t count() const { return status.size(); }
 };
 
-// Consecutive gearboxes of one group, and of each its records in a row.
+// Consecutive gearboxes of one group. The records of a gearbox follow one another.
 struct Batch {
     Group group = Group::graded;
-    std::uint64_t first_index = 0;  // in the group
-    std::size_t first_row = 0;      // in the results
+    std::uint64_t first_index = 0;  // within the group
+    std::size_t first_row = 0;      // within the results
     std::size_t gearboxes = 0;
     std::size_t records = 1;
 
     std::size_t rows() const { return gearboxes * records; }
 };
 
-// A share of an ensemble that a run of its own computes: of every `count` batches one, so that all
-// parts have about as many of either group.
+// Part of an ensemble that is computed by a separate run: every count-th batch. All parts have
+// about the same number of gearboxes of either group.
 struct Part {
-    std::size_t index = 0;  // below count
+    std::size_t index = 0;  // less than count
     std::size_t count = 1;
 
     bool whole() const { return count == 1; }
-    std::string text() const;  // "2/4" of index 1, "" of a whole
+    std::string text() const;  // "2/4" for index 1 of 4; "" for the whole ensemble
     bool operator==(const Part&) const = default;
 };
-// Of "2/4", or "" for a whole.
+// Parses "2/4"; "" is the whole ensemble. Empty if the text is invalid.
 std::optional<Part> read_part(const std::string& text);
 
-// All batches of an ensemble: first the threshold group's, then the graded group's. A larger graded
-// group begins with the batches of a smaller one, but for the last, which may be filled up. Of a
-// part its own batches and rows, numbered from 0 in the same order.
+// All batches of an ensemble: first those of the threshold group, then those of the graded group. A
+// larger graded group begins with the batches of a smaller one, except for the last, which may be
+// incomplete. For a part of an ensemble, its own batches and rows are numbered from 0 in the same
+// order.
 class BatchPlan {
   public:
     BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part = {},
@@ -80,47 +82,48 @@ class BatchPlan {
     std::size_t threshold_rows() const { return rows_before(threshold_batches()); }
     std::size_t graded_rows() const { return rows() - threshold_rows(); }
     std::size_t threshold_gearboxes() const { return threshold_rows() / records_; }
-    // Of a gearbox of the threshold group.
+    // Records per gearbox of the threshold group.
     std::size_t threshold_records() const { return records_; }
-    // What a row is: gearboxes have one each, but for those with several records.
+    // Name of a row: "gearboxes", or "records" if some gearboxes have several.
     const char* counted() const { return records_ > 1 ? "records" : "gearboxes"; }
-    // Of the whole ensemble.
+    // Graded gearboxes of the whole ensemble.
     std::size_t graded_instances() const { return graded_; }
     std::size_t batches() const { return own_of(all_threshold_batches() + batches_of(graded_)); }
     std::size_t threshold_batches() const { return own_of(all_threshold_batches()); }
     Batch batch(std::size_t index) const;
-    // Its number in the whole ensemble.
+    // Number of a batch in the whole ensemble.
     std::size_t number(std::size_t index) const { return part_.index + index * part_.count; }
     std::size_t batch_of_row(std::size_t row) const;
-    // Rows of the first `batches` batches.
+    // Number of rows in the first `batches` batches.
     std::size_t rows_before(std::size_t batches) const;
 
   private:
     static std::size_t batches_of(std::size_t rows) { return (rows + kBatchRows - 1) / kBatchRows; }
     std::size_t all_threshold_batches() const { return batches_of(thresholds_); }
-    // How many of the ensemble's first batches are the part's.
+    // Number of this part's batches among the first `first` batches of the ensemble.
     std::size_t own_of(std::size_t first) const {
         return (first + part_.count - 1 - part_.index) / part_.count;
     }
 
     std::size_t gearboxes_before(std::size_t batches) const;
 
-    std::size_t thresholds_, graded_, records_;  // gearboxes, and records of the former
+    // gearboxes in each group, and records per threshold gearbox
+    std::size_t thresholds_, graded_, records_;
     Part part_;
 };
 
-// Finished batches by their number.
+// Storage of finished batches by their number.
 class RowStore {
   public:
     virtual ~RowStore() = default;
     virtual bool has(std::size_t batch) const = 0;
     virtual BatchRows read(std::size_t batch) const = 0;
     virtual void write(std::size_t batch, const BatchRows& rows) = 0;
-    // What was written is safe from now on.
+    // Makes everything written so far permanent.
     virtual void sync() {}
 };
 
-// In memory.
+// Batches in memory.
 class MemoryRows final : public RowStore {
   public:
     explicit MemoryRows(std::size_t batches) : batches_(batches) {}

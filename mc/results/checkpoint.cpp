@@ -19,14 +19,15 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::string_view kMagic = "gearpod tiles 2\n";
-constexpr std::uint64_t kBatchMark = 0x454c495444504721u;  // in front of a written batch
-constexpr std::size_t kBlock = 4096;                       // batches begin at a multiple of it
-constexpr std::size_t kMostText = 1u << 24;                // longer is damage
+constexpr std::uint64_t kBatchMark = 0x454c495444504721u;  // first number of a written batch
+constexpr std::size_t kBlock = 4096;                       // alignment of the first batch
+constexpr std::size_t kMostText = 1u << 24;                // longer texts count as damage
 
 constexpr std::size_t kCounterBytes = 24, kWorkerBytes = 256;
-constexpr int kOpenExisting = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;  // no link, no waiting at a pipe
+// does not follow links and does not wait for a pipe
+constexpr int kOpenExisting = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
 
-// A record's numbers, 8 bytes each.
+// Index of the first status in a stored batch, in units of 8 bytes.
 constexpr std::size_t kStatusAt = 2;
 
 std::string bytes_of(std::uint64_t number) {
@@ -125,7 +126,7 @@ bool Checkpoint::exists(const std::string& path) {
 
 namespace {
 
-// Whoever works on it, as text, in a file with the lock held by another process.
+// Description of the process that holds the lock on a file.
 std::string worker_of(int fd) {
     std::vector<std::byte> head(kMagic.size() + 8), worker(kWorkerBytes);
     if (read_at(fd, head, 0) < static_cast<ssize_t>(head.size())) {
@@ -148,8 +149,8 @@ struct flock whole_file() {
     return lock;
 }
 
-// The lock goes with the process that holds it, however it ends. "" or who has it. What cannot be
-// locked (some network file systems) counts as free.
+// Takes the lock. It ends with the process that holds it. Returns "", or a description of the
+// process that has it. Files that cannot be locked (on some network file systems) count as free.
 std::string lock(int fd) {
     struct flock own = whole_file();
     const bool taken = ::fcntl(fd, F_SETLK, &own) != 0 && (errno == EACCES || errno == EAGAIN);
@@ -157,10 +158,11 @@ std::string lock(int fd) {
 }
 
 std::string busy_text(const std::string& worker) {
-    return worker + " is working on it; wait for its end, or name another file with --out";
+    return worker + " is using it; wait until it ends, or name another file with --out";
 }
 
-// Who works on an existing one; "" if nobody does, or it cannot be known.
+// Description of the process that uses an existing checkpoint; "" if there is none or it cannot be
+// determined.
 std::string worker_on(const std::string& path) {
     const Descriptor file(::open(path.c_str(), kOpenExisting | O_RDONLY));
     struct flock asked = whole_file();
@@ -181,7 +183,7 @@ std::string worker_text() {
 
 }  // namespace
 
-// Says in the file who works on it.
+// Stores a description of this process in the file.
 void Checkpoint::sign() {
     std::string text = worker_text().substr(0, kWorkerBytes - 1);
     text.resize(kWorkerBytes, '\0');
@@ -194,15 +196,15 @@ void Checkpoint::sign() {
 std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const RunIdentity& identity,
                                                const BatchPlan& plan) {
     const std::string header = header_of(identity);
-    // Locked before it has its name: a second starter sees no checkpoint, or one in use.
+    // The file is locked before it has its name: a second run sees no checkpoint, or one in use.
     const int fd = create_exclusively(path, std::as_bytes(std::span(header)),
                                       [](int file) { static_cast<void>(lock(file)); });
     if (fd < 0 && errno == EEXIST) {
         const std::string worker = worker_on(path);
         throw std::runtime_error(
             path + ": " +
-            (worker.empty() ? "holds what an interrupted run has finished; continue it with "
-                              "--resume, or delete this file to start again"
+            (worker.empty() ? "contains the finished batches of an interrupted run; continue it "
+                              "with --resume, or delete this file to start again"
                             : busy_text(worker)));
     }
     std::unique_ptr<Checkpoint> checkpoint(new Checkpoint(path, Descriptor(fd), identity, plan));
@@ -218,7 +220,7 @@ std::unique_ptr<Checkpoint> Checkpoint::resume(const std::string& path, const Ru
     struct stat status {};
     if (::fstat(checkpoint->file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
         checkpoint->fail(
-            "is no regular file, as a checkpoint is; remove it, or name another file "
+            "is not a regular file and cannot be a checkpoint; remove it, or name another file "
             "with --out");
     }
     if (const std::string worker = lock(checkpoint->file_.get()); !worker.empty()) {
@@ -236,7 +238,7 @@ void Checkpoint::check_header() {
     std::vector<std::byte> head(kMagic.size() + 8);
     const ssize_t got = read_at(file_.get(), head, 0);
     if (got < static_cast<ssize_t>(head.size()) || !view(head).starts_with(kMagic)) {
-        fail("is not a checkpoint of this program, or damaged; delete it to start again");
+        fail("is not a checkpoint of this program, or is damaged; delete it to start again");
     }
     const std::uint64_t length = number_at(view(head), kMagic.size());
     if (length > kMostText) {
@@ -255,7 +257,7 @@ void Checkpoint::check_header() {
     }
 }
 
-// Batches that the last sync counted; 0 if the counter was never written.
+// Number of batches at the last sync; 0 if the counter was never written.
 std::uint64_t Checkpoint::synced_before() {
     std::vector<std::byte> counter(24);
     const auto at = static_cast<off_t>(header_.size());
@@ -271,14 +273,14 @@ std::uint64_t Checkpoint::synced_before() {
     }
     if (number_at(bytes, 0) > plan_.graded_instances()) {
         fail(
-            fmt::format("is of a run with {} graded gearboxes, more than the {} asked for; raise "
-                        "--instances, or delete it to start again",
+            fmt::format("belongs to a run with {} graded gearboxes, more than the {} requested; "
+                        "raise --instances, or delete it to start again",
                         number_at(bytes, 0), plan_.graded_instances()));
     }
     return number_at(bytes, 8);
 }
 
-// One pass over all batches: which are whole.
+// Reads all batches once and marks those that are complete.
 void Checkpoint::scan() {
     const std::uint64_t synced = synced_before();
     std::size_t damaged = 0, partial = 0;
@@ -297,7 +299,7 @@ void Checkpoint::scan() {
         if (!whole || rows > plan_.batch(batch).rows()) {
             ++damaged;
         } else if (rows < plan_.batch(batch).rows()) {
-            ++partial;  // the last one of a smaller ensemble: filling it up costs no more
+            ++partial;  // last batch of a smaller ensemble; it is computed again as a whole
         } else {
             done_[batch] = true;
             ++count_;
@@ -305,14 +307,13 @@ void Checkpoint::scan() {
     }
     if (damaged > 0) {
         findings_.push_back(
-            fmt::format("{}: {} tile{} damaged or incomplete (the checksum does not fit); computed "
-                        "again",
-                        path_, damaged, damaged == 1 ? " is" : "s are"));
+            fmt::format("{}: {} batch{} damaged or incomplete (wrong checksum); computed again",
+                        path_, damaged, damaged == 1 ? " is" : "es are"));
     }
     if (count_ + damaged + partial < synced) {
         findings_.push_back(
-            fmt::format("{}: {} of {} tiles that it had at its last checkpoint are gone (was it "
-                        "truncated?); computed again",
+            fmt::format("{}: {} of {} batches that it had at its last checkpoint are missing (was "
+                        "it truncated?); computed again",
                         path_, synced - count_ - damaged - partial, synced));
     }
 }
@@ -323,7 +324,7 @@ BatchRows Checkpoint::read(std::size_t batch) const {
     const std::string_view record = view(buffer);
     if (got < static_cast<ssize_t>(buffer.size()) ||
         number_at(record, record.size() - 8) != record_sum(batch, record)) {
-        fail(fmt::format("tile {} was damaged after it had been written", batch));
+        fail(fmt::format("batch {} was damaged after it had been written", batch));
     }
     BatchRows rows;
     const std::size_t count = plan_.batch(batch).rows();
@@ -376,7 +377,7 @@ long Checkpoint::rows_done() const {
     return static_cast<long>(rows);
 }
 
-// The batches first: the counter never promises what is not there.
+// Syncs the batches before the counter, so that the counter never includes missing batches.
 void Checkpoint::sync() {
     if (::fsync(file_.get()) != 0) {
         fail(fmt::format("cannot be written ({})", std::strerror(errno)));

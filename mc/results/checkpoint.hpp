@@ -1,16 +1,17 @@
-// The checkpoint of a run: a file beside the results that holds every finished batch at its place,
-// so that a run killed at any moment continues where it was.
+// Checkpoint of a run: a file in the folder of the results with all finished batches. A run that is
+// killed can be resumed from it.
 //
-//   header      "gearpod tiles 2\n", length of the text (u64), text that says what the run is,
+//   header      "gearpod tiles 2\n", length of the text (u64), text with the run's identity,
 //               FNV-1a of all that
-//   counter     graded gearboxes asked for (u64), batches safe at the last sync (u64), FNV-1a of
+//   counter     graded gearboxes requested (u64), batches safe at the last sync (u64), FNV-1a of
 //               both
-//   worker      256 bytes: who works on it, and since when, as text; counts while a lock is held
-//   batch b     from the next multiple of 4096 on, all of one size: mark, rows (u64), 16 status
-//               (i64), 16 x RowShape::values() doubles, FNV-1a of b and of all that
+//   worker      256 bytes: process that uses the file, and since when, as text; valid while locked
+//   batch b     from the next multiple of 4096 on; one size per group: mark, rows (u64), status
+//               of each row (i64), RowShape::values() doubles per row, FNV-1a of b and of all that
 //
-// Little-endian. A batch that was never written is a hole (zeros). Every batch carries its
-// checksum: one that is torn, damaged or at another place counts as not computed and is reported.
+// Numbers are little-endian. A batch that was never written is a hole (zeros). Every batch has its
+// own checksum. A batch that is incomplete, damaged or misplaced counts as not computed and is
+// reported.
 #pragma once
 
 #include <memory>
@@ -25,13 +26,14 @@ namespace gearpod::mc {
 
 class Checkpoint final : public RowStore {
   public:
-    // A new, empty one. Throws std::runtime_error naming the path and the reason, also where one
-    // exists, and then whether a run works on it: what an interrupted run computed is not thrown
-    // away.
+    // Creates an empty checkpoint. Throws std::runtime_error naming the path and the reason. An
+    // existing checkpoint is an error, so that its batches are not lost; the message tells whether
+    // a run uses it.
     static std::unique_ptr<Checkpoint> create(const std::string& path, const RunIdentity& identity,
                                               const BatchPlan& plan);
-    // Continues one. Throws std::runtime_error naming the path and the reason: damaged header,
-    // another study, seed or version, more gearboxes than the plan has, in use by another run.
+    // Opens an existing checkpoint. Throws std::runtime_error naming the path and the reason:
+    // damaged header, other study, seed or version, more gearboxes than in the plan, in use by
+    // another run.
     static std::unique_ptr<Checkpoint> resume(const std::string& path, const RunIdentity& identity,
                                               const BatchPlan& plan);
     static bool exists(const std::string& path);
@@ -41,13 +43,13 @@ class Checkpoint final : public RowStore {
     // Throws std::runtime_error naming the path and the reason (disk full).
     void write(std::size_t batch, const BatchRows& rows) override;
     void sync() override;
-    // Deletes the file: the results are safe elsewhere.
+    // Deletes the file after the results have been written.
     void remove();
 
     std::size_t batches_done() const { return count_; }
     long rows_done() const;
     const std::string& path() const { return path_; }
-    // What resume() found amiss, one line each; those batches are computed again.
+    // Problems that resume() found, one per line; the batches concerned are computed again.
     const std::vector<std::string>& findings() const { return findings_; }
 
   private:
@@ -70,7 +72,7 @@ class Checkpoint final : public RowStore {
     BatchPlan plan_;
     std::string header_;
     off_t begin_ = 0;
-    std::vector<bool> done_;  // by batch
+    std::vector<bool> done_;  // indexed by batch
     std::size_t count_ = 0;
     std::vector<std::string> findings_;
     std::vector<std::byte> scratch_;

@@ -1,11 +1,11 @@
-// What a gearbox's status says, in words.
+// Explains the status of a gearbox in words.
 #pragma once
 
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
 
-// One sentence on a gearbox of that status, without its subject: "is unstable ...".
+// Predicate of a sentence about a gearbox with this status, for example "is unstable ...".
 const char* failure_text(Status status);
 
 }  // namespace gearpod::mc

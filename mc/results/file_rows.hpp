@@ -1,4 +1,4 @@
-// The rows of a results file, read some at a time.
+// Reads the rows of a results file in blocks.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace gearpod::mc {
 
 class FileRows final : public RowSource {
   public:
-    // `frame` is read_frame(path). Throws std::runtime_error as read_results() does.
+    // `frame` must come from read_frame(path). Throws std::runtime_error as read_results() does.
     FileRows(const std::string& path, const Results& frame);
     std::size_t rows() const override { return rows_; }
     void visit(const std::function<void(const RowBlock&)>& use) const override;

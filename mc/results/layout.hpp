@@ -1,4 +1,4 @@
-// Names in the results file that both its writer and its reader use.
+// Names in the results file, common to its writer and its reader.
 #pragma once
 
 #include "mc/results/results_file.hpp"
@@ -7,8 +7,8 @@ namespace gearpod::mc {
 
 inline constexpr const char* kResultsFormat = "gearpod results";
 inline constexpr const char* kStatusMeanings =
-    "0 ok, 1 diverged, 2 not settled, 3 unstable above a critical speed of the carrier, "
-    "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
+    "0 ok, 1 diverged, 2 not converged, 3 unstable above a critical speed of the carrier, 4 "
+    "unstable by parametric resonance, 5 step too long, 6 no equilibrium";
 inline constexpr const char* kContactLoss = "contact_loss";
 inline constexpr const char* kContactLossMeaning =
     "contact loss ratio: the share of its engagement, within the nominal path of contact, in which "
@@ -16,7 +16,7 @@ inline constexpr const char* kContactLossMeaning =
     "tooth pair carries no load, averaged over the tooth pairs of the mesh";
 inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded, 2 neither";
 
-// The attributes of /step_error: double and int members in turn.
+// Attributes of /step_error: first the double members, then the int members.
 struct StepErrorNumber {
     const char* name;
     double StepError::*member;
@@ -32,12 +32,12 @@ inline constexpr StepErrorCount kStepErrorCounts[] = {{"steps", &StepError::step
                                                       {"gearboxes", &StepError::gearboxes},
                                                       {"meshes", &StepError::meshes}};
 
-// The dataset that says what a feature's columns are.
+// Name of the dataset with the values that belong to the columns of a feature.
 inline const char* columns_name(const Results& frame) {
     return frame.provenance_value("kind") == kLivesKind ? "hours" : "noise_levels";
 }
 
-// The numbers of one cell and of one level, by dataset name: long and double members in turn.
+// Numbers of one cell and of one level by dataset name: long and double members of each.
 struct CellCount {
     const char* name;
     long analysis::DetectionCell::*member;

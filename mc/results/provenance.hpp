@@ -1,4 +1,4 @@
-// What made a result: code, compiler, machine, study.
+// Provenance of a result: code, compiler, machine and study.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace gearpod::mc {
 
-// "gearpod 0.3.0 (git 0123abc)".
+// For example "gearpod 0.3.0 (git 0123abc)".
 std::string version_text();
 
-// The same of a results file's attributes code_version and git_hash.
+// The same for the attributes code_version and git_hash of a results file.
 std::string version_text(const std::string& code_version, const std::string& git_hash);
 
-// version_text(), and below it a line each: compiler, what the kernels were built for, HDF5.
+// version_text(), then one line each for the compiler, the kernels and HDF5.
 std::string build_text();
 
-// Root attributes of a results file, in order. `threads` are those of all ranks.
+// Root attributes of a results file, in order. `threads`: number of threads of all ranks.
 std::vector<std::pair<std::string, std::string>> provenance(const Study& study, int ranks,
                                                             int threads);
 
-// This machine's name.
+// Name of this machine.
 std::string host_name();
 
 }  // namespace gearpod::mc

@@ -1,4 +1,4 @@
-// read_results().
+// Implements read_results() and read_frame().
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -33,7 +33,7 @@ void require_count(std::size_t count, std::size_t expected, const std::string& n
 
 class Reader {
   public:
-    // No dataset holds more values than the file has bytes.
+    // A dataset with more values than the file has bytes counts as damaged.
     Reader(hid_t root, std::size_t file_size, bool with_columns)
         : root_(root), most_(file_size), with_columns_(with_columns) {}
 
@@ -282,7 +282,8 @@ void check_format(const std::string& path, hid_t root) {
     std::from_chars(version.data(), version.data() + version.size(), number);
     if (number != kResultsFormatVersion) {
         refuse(path, "has results format version " + version + ", but this program reads version " +
-                         std::to_string(kResultsFormatVersion) + "; use a gearpod that fits it");
+                         std::to_string(kResultsFormatVersion) +
+                         "; use a matching version of gearpod");
     }
 }
 
@@ -291,7 +292,7 @@ Results read(const std::string& path, bool with_columns) {
     check_readable(path);
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) {
-        refuse(path, "is damaged (its checksum does not fit)");
+        refuse(path, "is damaged (wrong checksum)");
     }
     try {
         const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,

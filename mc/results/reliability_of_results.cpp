@@ -10,7 +10,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The columns of one group of gearboxes.
+// Columns of one group of gearboxes.
 struct Columns {
     std::vector<std::vector<double>> parameters;
     std::vector<std::vector<double>> features;  // gearboxes x noise levels
@@ -43,7 +43,8 @@ void check_condition(const Results& frame, const std::string& condition) {
         names += (names.empty() ? "" : ", ") + parameter.name;
     }
     if (!condition.empty()) {
-        throw std::runtime_error("\"" + condition + "\" is no random input of this file; it has " +
+        throw std::runtime_error("\"" + condition +
+                                 "\" is not a random input of this file; it has " +
                                  (names.empty() ? "none" : names));
     }
 }
@@ -56,12 +57,12 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
                                                     std::optional<analysis::Costs> costs) {
     check_condition(frame, condition);
     const RowShape shape = row_shape(frame);
-    // Areas and curves rest on gearboxes: of each its first record.
+    // Areas and curves use one record per gearbox, the first.
     const std::size_t records = frame.request.threshold_records;
     if (rows.rows() / records * shape.features * shape.levels > most_values) {
         return std::nullopt;
     }
-    // Thresholds on all of them, so long as there is room for these.
+    // Thresholds use all records if they fit into memory.
     const bool repeated = records > 1 && rows.rows() * shape.features * shape.levels <= most_values;
     Columns healthy(shape), graded(shape), repeats(shape);
     std::vector<std::size_t> repeated_rows, healthy_rows;
@@ -134,8 +135,8 @@ std::string reliability_text(const std::optional<analysis::Reliability>& reliabi
     const std::size_t each =
         std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
     return fmt::format(
-        "no POD curves, areas and ranking: they need the values of all {} at "
-        "once, at most {} of them\nwith these features and noise levels\n",
+        "no POD curves, areas and ranking: they need all values at once, and the number of {}\nis "
+        "limited to {} with these features and noise levels\n",
         analysis::many(subject_of(frame)), kMostAssessedValues / each);
 }
 

@@ -1,4 +1,4 @@
-// The features of an ensemble, assessed as detectors.
+// Assesses the features of an ensemble as detectors.
 #pragma once
 
 #include <optional>
@@ -10,22 +10,24 @@
 
 namespace gearpod::mc {
 
-// POD curves, areas and ranking need all values at once: gearboxes x features x noise levels, some
-// 130 MB of them and about as much again at work. Larger ensembles have detection rates only.
+// Largest number of values (gearboxes x features x noise levels) for POD curves, areas and ranking,
+// which need all values at once. These take 130 MB, and about as much again during the computation.
+// Larger ensembles have detection rates only.
 inline constexpr std::size_t kMostAssessedValues = std::size_t{1} << 24;
 
-// `frame.detection` must be up to date (detect_all). `condition`: name of a parameter whose values
-// get thresholds of their own, "" for none; std::runtime_error names the parameters if it is
-// unknown. None beyond `most_values`. With `costs` also the threshold of least expected cost.
+// Assesses all features. `frame.detection` must be up to date (detect_all). `condition`: name of a
+// parameter with separate thresholds for its values, "" for none. Throws std::runtime_error with
+// the names of the parameters if it is unknown. Empty if there are more than `most_values` values.
+// With `costs`, the threshold of least expected cost is included.
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
                                                     const std::string& condition, int threads,
                                                     std::size_t most_values = kMostAssessedValues,
                                                     std::optional<analysis::Costs> costs = {});
 
-// What a results file's rows are.
+// Kind of object that a row of the results file describes.
 analysis::Subject subject_of(const Results& frame);
 
-// As the terminal shows it, or why there is none.
+// Report text for the terminal, or the reason why there is none.
 std::string reliability_text(const std::optional<analysis::Reliability>& reliability,
                              const Results& frame);
 

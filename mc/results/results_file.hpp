@@ -1,29 +1,29 @@
-// The results file: HDF5, self-describing, versioned.
+// Results file: HDF5, self-describing, with a format version.
 //
 //   /                      attributes: format, format_version and the provenance
-//   /instances/<parameter> one value a gearbox, attribute `unit`
+//   /instances/<parameter> one value per row, attribute `unit`
 //   /instances/group       0 threshold sample, 1 graded, 2 neither (recordings of unknown state)
-//   /features/<feature>    gearboxes x noise levels, attributes `unit` and `alarm`
-//   /contact_loss/<mesh>   one value a gearbox, attributes `unit` ("1") and `description`: the
-//   share
-//                          of time out of contact; absent where teeth cannot part, and from files
+//   /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
+//   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
+//                          contact loss ratio. Absent if teeth cannot lose contact, and in files
 //                          of versions before 0.3
 //   /noise_levels          factors on the sensor and encoder noise
-//   /status                one value a gearbox, attribute `meanings`
+//   /status                one value per row, attribute `meanings`
 //   /detection             attributes false_alarm_rate, confidence, size_name (the parameter that
-//                          holds a gearbox's fault size), size_unit; threshold_records where a
-//                          gearbox of the threshold sample has several rows, one after another
+//                          holds a gearbox's fault size), size_unit; threshold_records if each
+//                          gearbox of the threshold sample has several consecutive rows
 //   /detection/<feature>/  size_low, size_high (sizes), noise_level, threshold, threshold_sample,
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
-//   /numerical/<feature>/  if it was verified: rms, largest (levels), what finer steps change in
-//                          some gearboxes; attributes of /numerical: rung, finer, gearboxes
-//   /step_error            where teeth lose contact and the run is long enough: attributes sensor,
+//   /numerical/<feature>/  after verification: rms, largest (levels), the changes of the feature in
+//                          some gearboxes with finer steps; attributes of /numerical: rung, finer,
+//                          gearboxes
+//   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)
-//   /timing/<name>         seconds
-//   /signals/<row>/<name>  one value a sample, attribute `unit`: of the gearboxes asked for
+//   /timing/<name>         seconds, or a count (attribute `unit`)
+//   /signals/<row>/<name>  one value per sample, attribute `unit`: signals of the requested rows
 //
-// A checksum follows the HDF5 part (mc/results/seal.hpp); other programs do not see it.
+// A checksum follows the HDF5 part (mc/results/seal.hpp); other programs ignore it.
 #pragma once
 
 #include <optional>
@@ -32,16 +32,17 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "mc/files/atomic_file.hpp"  // why_not_writable(path), to ask before a long run
+#include "mc/files/atomic_file.hpp"  // why_not_writable(path), to check before a long run
 
 namespace gearpod::mc {
 
-// Raised when a reader of the current version would misread the file.
+// To be increased when a reader of the current version would misread the file.
 inline constexpr int kResultsFormatVersion = 2;
 
-// diverged: for no reason that is known. supercritical, parametric, step_too_long: for a known one,
-// whether it diverged or just did not settle (lockstep/steps/instability.hpp). no_equilibrium:
-// without inertia, and no tooth carries the load.
+// Result of the integration. diverged: the reason is unknown. supercritical, parametric,
+// step_too_long: the reason is known, whether the solution diverged or did not converge
+// (lockstep/steps/instability.hpp). no_equilibrium: quasi-static solution in which no tooth carries
+// the load.
 enum class Status {
     ok = 0,
     diverged = 1,
@@ -53,20 +54,22 @@ enum class Status {
 };
 inline constexpr int kStatuses = 7;
 
-// Beside the groups of random numbers (Group): a row that neither sets thresholds nor is graded.
+// Third value of a row's group, in addition to those of Group: the row neither sets thresholds nor
+// is graded.
 inline constexpr int kUngraded = 2;
 
-// The provenance's `kind` where the rows are measured recordings; a run's results have none.
+// Value of the provenance's `kind` if the rows are measured recordings. Results of a run have no
+// `kind`.
 inline constexpr const char* kRecordingsKind = "recordings";
 
-// The same where the rows are lives: then a feature has one value a record in place of one a noise
-// level, and the file the records' /hours in place of /noise_levels. A feature's values end with
-// the life (/instances/records), NaN behind it; crack_depth, record_torque, record_speed,
-// record_gain and record_noise stand among the features. /instances/end_h is NaN of a tooth that
-// holds.
+// Value of `kind` if the rows are lives. A feature then has one value per record instead of one per
+// noise level, and the file has /hours (of the records) instead of /noise_levels. After the end of
+// a life (/instances/records) the values are NaN. crack_depth, record_torque, record_speed,
+// record_gain and record_noise are among the features. /instances/end_h is NaN if the tooth
+// survives.
 inline constexpr const char* kLivesKind = "lives";
 
-// The parameter that holds the weights of tilted records (signals/windowing/noise_tilt.hpp).
+// Parameter that holds the importance weights of tilted records (signals/windowing/noise_tilt.hpp).
 inline constexpr const char* kNoiseWeight = "noise_weight";
 
 struct ParameterResult {
@@ -82,85 +85,86 @@ struct FeatureResult {
     std::vector<double> values;  // rows x noise levels, row-major; NaN: no value
 };
 
-// The contact loss ratio of one mesh.
+// Contact loss ratio of one mesh.
 struct MeshResult {
     std::string name;            // "sun-planet", "ring-planet" or "pinion-gear"
-    std::vector<double> values;  // one per row; NaN of a gearbox that failed
+    std::vector<double> values;  // one per row; NaN for a gearbox that failed
 };
 
 struct Timing {
     std::string name;
     double seconds = 0.0;
-    const char* unit = "s";  // or "1" of a count
+    const char* unit = "s";  // or "1" for a count
 };
 
-// One value a sample.
+// Signal with one value per sample.
 struct SignalColumn {
     std::string name;
     std::string unit;
     std::vector<double> values;
 };
 
-// The signals of one gearbox.
+// Signals of one row.
 struct RowSignals {
     std::size_t row = 0;
     std::vector<SignalColumn> columns;
 };
 
-// What marching some gearboxes again, by finer steps, changes in their features.
+// Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
-    std::string rung, finer;  // how they were marched
+    std::string rung, finer;  // solver settings of both integrations
     int gearboxes = 0;
-    // By feature and noise level, [feature * noise levels + level], in the feature's unit.
+    // [feature * noise levels + level], in the feature's unit.
     std::vector<double> rms, largest;
 };
 
-// Error that the run's time steps leave in signals where teeth lose contact, found by finer steps.
+// Error due to the time step in signals of gearboxes whose teeth lose contact, estimated with finer
+// steps.
 struct StepError {
     double sensor = 0.0, te = 0.0;   // root mean square, relative
-    int steps = 0, finer_steps = 0;  // a mesh period
-    int gearboxes = 0, meshes = 0;   // of the pilot: gearboxes, and mesh periods of each
+    int steps = 0, finer_steps = 0;  // per mesh period
+    int gearboxes = 0, meshes = 0;   // size of the pilot run: gearboxes, and mesh periods of each
 };
 
-// A row is a gearbox, or in the threshold group a record of one: that group in order of instance,
-// then the graded group.
+// Results of an ensemble. A row is a gearbox, or in the threshold group a record of one. The
+// threshold group comes first, then the graded group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
-    // The file's format and format_version are written and checked by this module.
+    // Writer and reader handle the format and format_version themselves.
     std::vector<std::pair<std::string, std::string>> provenance;
     std::vector<ParameterResult> parameters;
-    std::vector<int> group;            // Group per row
-    std::vector<int> status;           // Status per row
-    std::vector<double> noise_levels;  // of lives: hours of the records
+    std::vector<int> group;            // Group of each row
+    std::vector<int> status;           // Status of each row
+    std::vector<double> noise_levels;  // for lives: hours of the records
     std::vector<FeatureResult> features;
-    std::vector<MeshResult> contact_loss;  // empty where teeth cannot part
+    std::vector<MeshResult> contact_loss;  // empty if teeth cannot lose contact
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;
     std::optional<NumericalError> numerical;
     std::optional<StepError> step_error;
     std::vector<Timing> timing;
-    std::vector<RowSignals> signals;  // of chosen gearboxes; not read back
+    std::vector<RowSignals> signals;  // of chosen rows; not read back
 
-    // The value of a provenance entry, "" if absent.
+    // Value of a provenance entry, "" if absent.
     std::string provenance_value(const std::string& name) const;
 };
 
 class RowSource;  // row_source.hpp
 
-// Writes to F.h5.new in the same folder, flushes, fsyncs and renames: the file at `path` is either
-// the old or the complete new one. Takes the rows from `rows` and everything else from `frame`,
-// whose columns are not looked at; memory does not grow with the rows. Throws std::runtime_error
-// naming the path and the reason (not writable, disk full).
+// Writes a results file to F.h5.new in the same folder, flushes, syncs and renames it: the file at
+// `path` is either the old or the complete new one. The rows come from `rows` and everything else
+// from `frame`, whose columns are ignored. Memory does not grow with the number of rows. Throws
+// std::runtime_error naming the path and the reason (not writable, disk full).
 void write_results(const std::string& path, const Results& frame, const RowSource& rows);
 
-// The same with the columns in `results`. Throws std::invalid_argument if their shapes disagree.
+// The same with the columns of `results`. Throws std::invalid_argument if their shapes disagree.
 void write_results(const std::string& path, const Results& results);
 
-// Throws std::runtime_error naming the path and the reason: missing, not HDF5, not a gearpod
-// results file, damaged or truncated, written by a newer version.
+// Reads a results file. Throws std::runtime_error naming the path and the reason: missing, not
+// HDF5, not a gearpod results file, damaged or truncated, or written by a newer version.
 Results read_results(const std::string& path);
 
-// The same without the columns, whose rows FileRows (mc/results/file_rows.hpp) reads.
+// The same without the columns; FileRows (mc/results/file_rows.hpp) reads the rows.
 Results read_frame(const std::string& path);
 
 }  // namespace gearpod::mc

@@ -12,17 +12,15 @@ namespace {
 
 constexpr std::size_t kBlockRows = 512;
 
-// The values of some features and the fault sizes, apart for the two groups.
+// Fault sizes and the values of several features, for one of the two groups.
 struct Sample {
     std::vector<double> size;
     std::vector<std::vector<double>> values;  // by feature: rows x levels
     std::vector<std::size_t> row;
-    std::vector<double> weight;  // of tilted records, else empty
+    std::vector<double> weight;  // importance weights; empty without tilted records
 };
 
-// Whose records the rows are, by number: as many as a run's gearbox has, one after another, or the
-// recordings of one name; those without a name are each of a gearbox of its own.
-// Where a row has a parameter, or nowhere.
+// Index of a parameter; the number of parameters if there is none of this name.
 std::size_t column_of(const Results& frame, const std::string& name) {
     const auto found = std::find_if(frame.parameters.begin(), frame.parameters.end(),
                                     [&](const auto& p) { return p.name == name; });
@@ -85,7 +83,7 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
 }
 
 std::vector<std::size_t> gearboxes_of(const Results& frame, const std::vector<std::size_t>& rows) {
-    std::vector<std::size_t> first;  // by row: the first row of the same one
+    std::vector<std::size_t> first;  // for each row: first row of the same gearbox
     std::istringstream names(frame.provenance_value("recorded_gearboxes"));
     std::map<std::string, std::size_t> numbers;
     for (std::string name; std::getline(names, name);) {

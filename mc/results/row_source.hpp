@@ -1,4 +1,4 @@
-// The rows of an ensemble one after another, wherever they are kept.
+// Sequential access to the rows of an ensemble, wherever they are stored.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@ namespace gearpod::mc {
 // Rows first, first + 1, ...; columns as in RowShape.
 struct RowBlock {
     std::size_t first = 0;
-    std::vector<int> group;   // Group by row
-    std::vector<int> status;  // Status by row
+    std::vector<int> group;   // Group of each row
+    std::vector<int> status;  // Status of each row
     std::vector<double> values;
 
     std::size_t count() const { return status.size(); }
@@ -22,11 +22,11 @@ class RowSource {
   public:
     virtual ~RowSource() = default;
     virtual std::size_t rows() const = 0;
-    // Calls `use` with all rows in order, some at a time.
+    // Calls `use` with all rows in order, in blocks.
     virtual void visit(const std::function<void(const RowBlock&)>& use) const = 0;
 };
 
-// The first batches of a plan, from a store that has them.
+// First batches of a plan, in a store that has them.
 class StoredRows final : public RowSource {
   public:
     StoredRows(const RowStore& store, const BatchPlan& plan, std::size_t batches)
@@ -40,7 +40,7 @@ class StoredRows final : public RowSource {
     std::size_t batches_;
 };
 
-// The columns of results in memory.
+// Columns of results in memory.
 class ColumnRows final : public RowSource {
   public:
     explicit ColumnRows(const Results& results) : results_(results) {}
@@ -53,19 +53,20 @@ class ColumnRows final : public RowSource {
 
 RowShape row_shape(const Results& results);
 
-// A number for the gearbox of each row: rows are records of each of the ensemble, or recordings, of
-// which those without a gearbox's name are each of one of its own.
+// Gearbox number of each given row. In an ensemble, a gearbox has threshold_records consecutive
+// rows. Recordings belong to the gearbox that they name; without a name, each has a gearbox of its
+// own.
 std::vector<std::size_t> gearboxes_of(const Results& frame, const std::vector<std::size_t>& rows);
 
-// Whether a feature looks at the noise that tilted records tilt, so that their weights are for it:
-// for others all records are plain.
+// True if tilted noise affects a feature, so that the importance weights apply to it. For other
+// features all records are plain.
 bool sees_tilt(const std::string& feature);
 
-// Fills a frame's columns (results_frame()).
+// Appends the rows to the columns of a frame (results_frame()).
 void fill_columns(Results& results, const RowSource& rows);
 
-// Detection of every feature of a frame. Holds one feature's values at a time, or as many features'
-// as fit in 64 MB.
+// Detection results of every feature of a frame. Holds the values of one feature at a time, or of
+// as many features as fit into 64 MB.
 std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const RowSource& rows);
 
 }  // namespace gearpod::mc

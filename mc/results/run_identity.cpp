@@ -55,7 +55,7 @@ std::string difference(const RunIdentity& there, const RunIdentity& here) {
         };
         return fmt::format("has {}, this is {}", named(there.part), named(here.part));
     }
-    return there.shape == here.shape ? "" : "has rows of another shape";
+    return there.shape == here.shape ? "" : "has rows with other columns";
 }
 
 }  // namespace gearpod::mc

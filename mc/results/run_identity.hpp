@@ -1,4 +1,4 @@
-// What must agree for two runs to give the same gearboxes, row by row.
+// Properties that must agree for two runs to produce the same gearboxes, row by row.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@ namespace gearpod::mc {
 struct RunIdentity {
     std::string version;  // version_text()
     std::string seed;
-    std::string study;  // resolved, without what leaves the rows as they are
+    std::string study;  // resolved, without settings that do not affect the rows
     RowShape shape;
-    std::string part = {};  // Part::text(): whose rows there are
+    std::string part = {};  // Part::text()
 };
 
-// Left out are the title, the number of graded gearboxes, when to stop, and everything about
-// threads, lanes, instruction set and checkpoints.
+// Omits the title, the number of graded gearboxes, the stopping rule, and all settings of threads,
+// lanes, instruction set and checkpoints.
 RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part = {});
 
-// Why `there`, found in a file, cannot continue as `here`, or "". One line, to follow the file's
-// name.
+// Reason why a file of the run `there` cannot be continued as `here`, or "". One line, to follow
+// the file's name.
 std::string difference(const RunIdentity& there, const RunIdentity& here);
 
-// The first line in which two texts differ, as `"a" there, "b" here`; "" if none.
+// First line in which two texts differ, as `"a" there, "b" here`; "" if there is none.
 std::string line_difference(const std::string& there, const std::string& here,
                             const std::string& where_there = "there");
 

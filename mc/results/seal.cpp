@@ -30,7 +30,7 @@ std::optional<off_t> size_of(int fd) {
     return ::fstat(fd, &status) == 0 ? std::optional(status.st_size) : std::nullopt;
 }
 
-// Of the first `size` bytes, read in pieces.
+// Checksum of the first `size` bytes; empty if reading fails.
 std::optional<std::uint64_t> sum_of(int fd, off_t size) {
     std::vector<std::byte> piece(std::size_t{1} << 20);
     std::uint64_t sum = kFnvStart;

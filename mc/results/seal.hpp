@@ -1,5 +1,5 @@
-// A checksum behind the HDF5 part of a results file, where HDF5 does not look. The HDF5 library may
-// crash or hang on a damaged file (its heap of strings has no checksum), so ours are checked first.
+// Checksum of a results file, stored after the HDF5 part. It is checked before HDF5 opens the file,
+// because the library may crash or hang on a damaged one: its string heap has no checksum.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@ namespace gearpod::mc {
 
 enum class Seal { intact, broken, missing };
 
-// Appends the seal to an open file: a mark of 8 bytes and FNV-1a (64 bits, little-endian) of all
-// bytes before it. False with errno if reading or writing fails.
+// Appends the checksum to an open file: a mark of 8 bytes and FNV-1a (64 bits, little-endian) of
+// all bytes before it. Returns false and sets errno if reading or writing fails.
 bool append_seal(int fd);
 
-// Of the file at `path`; missing if it cannot be read.
+// Checks the file at `path`; missing if it cannot be read.
 Seal check_seal(const std::string& path);
 
 }  // namespace gearpod::mc

@@ -1,4 +1,4 @@
-// write_results().
+// Implements write_results().
 #include <fcntl.h>
 #include <fmt/format.h>
 
@@ -37,19 +37,19 @@ void check_shapes(const Results& results) {
     for (const analysis::FeatureDetection& detection : results.detection) {
         for (const analysis::LevelDetection& level : detection.levels) {
             require(level.cells.size() == results.request.groups.size(),
-                    detection.feature + " has another number of sizes than asked for");
+                    detection.feature + " has another number of sizes than requested");
         }
     }
 }
 
-// Where a column's values go in the file.
+// Position of a column's values in the file.
 struct Place {
     std::uint64_t begin;  // byte of its first row
-    std::size_t at;       // its first value in a row's values
-    std::size_t width;    // values a row
+    std::size_t at;       // index of its first value in a row
+    std::size_t width;    // values per row
 };
 
-// The places of all that grows with the rows.
+// Positions of all columns.
 struct Places {
     std::vector<Place> numbers;
     std::uint64_t group = 0, status = 0;
@@ -108,7 +108,7 @@ void write_sizes(hid_t group, const std::vector<analysis::SizeGroup>& sizes) {
     write_numbers(group, "size_high", {sizes.size()}, high);
 }
 
-// One member of every cell (levels x sizes) or of every level.
+// One member of every cell (levels x sizes), or of every level.
 template <class Value, class Member>
 std::vector<Value> cell_values(const analysis::FeatureDetection& detection, Member member) {
     std::vector<Value> values;
@@ -230,7 +230,7 @@ void write_all_signals(hid_t root, const Results& frame) {
     }
 }
 
-// Everything but the rows, which have their places reserved.
+// Writes everything except the rows and reserves space for these.
 Places write_frame(const std::string& path, const Results& frame, std::size_t rows) {
     Hdf5Handle file = create_file(path);
     Places places;
@@ -258,7 +258,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
     return places;
 }
 
-// Writes rows to their places, some thousand at a time.
+// Writes rows to their positions in the file, in blocks of several thousand.
 class RowWriter {
   public:
     RowWriter(const PendingFile& file, int fd, const Places& places, const RowShape& shape)
@@ -310,7 +310,8 @@ class RowWriter {
     RowBlock pending_;
 };
 
-// HDF5 does not take a full disk well, so ask for the room first. Some file systems cannot say.
+// Reserves disk space first, because HDF5 handles a full disk badly. Some file systems do not
+// support this.
 void require_room(const PendingFile& file, const RowShape& shape, std::size_t rows) {
     constexpr std::size_t kFrame = std::size_t{1} << 20;
     const Descriptor trial(

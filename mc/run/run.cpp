@@ -30,7 +30,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
+// Signals of the requested rows over a planet turn. A gearbox that failed has none.
 std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
     std::vector<RowSignals> all;
     for (const long row : std::set<long>(options.signals.begin(), options.signals.end())) {
@@ -45,7 +45,7 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
     return all;
 }
 
-// Rank 0's run: everything that is not computing batches.
+// Work of rank 0 other than computing batches.
 class Run {
   public:
     Run(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
@@ -94,7 +94,7 @@ class Run {
   private:
     bool says_results() const { return !options_.quiet && options_.says_results; }
 
-    // What the file says about its rows.
+    // Results without rows.
     Results frame(const RowSource& rows, const std::string& state) const {
         Results results = results_frame(study_);
         results.detection = detect_all(results, rows);
@@ -112,8 +112,8 @@ class Run {
         return results;
     }
 
-    // The results so far, for whoever looks while the run goes on; left out where it would take
-    // more than a fiftieth of the time.
+    // Writes the results so far, for users who look at them during the run. Skipped if it would
+    // take more than 2 % of the time.
     void snapshot() {
         constexpr double kShare = 0.02;
         if (snapshot_s_ > kShare * seconds_since(last_snapshot_)) {
@@ -129,12 +129,13 @@ class Run {
         snapshot_s_ = seconds_since(start);
     }
 
-    // What is computed of single gearboxes once all are there; left out of an interrupted run.
+    // Computes signals and numerical errors of single gearboxes after all batches; skipped if the
+    // run is interrupted.
     void add_examples(Results& all, const Interruption& interruption,
                       EnsembleOutcome& outcome) const {
         try {
             all.signals = chosen_signals(options_, scene_);
-            if (part_.empty()) {  // of a part, what merges it finds
+            if (part_.empty()) {  // for a part, `merge` computes them
                 all.numerical = find_numerical_error(scene_);
                 all.step_error = find_step_error_of_run(
                     scene_, plan_.threshold_gearboxes() + plan_.graded_rows());
@@ -146,12 +147,12 @@ class Run {
         }
     }
 
-    // Of a run that is on the disk already.
+    // Report text of results that have been written.
     std::string text_of(const Results& all, const RowSource& rows) const {
         try {
             return results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
         } catch (const machine::Stopped&) {
-            return "the time is over; `gearpod report` shows the results";
+            return "the time limit is reached; `gearpod report` shows the results";
         }
     }
 
@@ -206,7 +207,7 @@ class Run {
         return counts.failed() == 0 ? kDone : kSomeFailed;
     }
 
-    // Of all ranks on this machine, which have nothing more to compute.
+    // Number of threads of all ranks on this machine, which are idle now.
     int idle_threads() const {
         const int ranks = ranks_.on_this_machine();
         return std::min(machine::processors(), ranks * thread_count(study_, ranks));
@@ -229,13 +230,14 @@ class Run {
         fmt::print("results: {}\n", path);
         if (part_.empty()) {
             const auto page = std::filesystem::path(path).replace_extension(".html").string();
-            fmt::print("next, its page: gearpod report {} --html {}\n", path, page);
+            fmt::print("to create its page: gearpod report {} --html {}\n", path, page);
         } else {
-            fmt::print("next, with all parts: gearpod merge {} ... --out WHOLE.h5\n", path);
+            fmt::print("to merge it with all other parts: gearpod merge {} ... --out WHOLE.h5\n",
+                       path);
         }
     }
 
-    // With a checkpoint left to go on from.
+    // Ends the run early; the checkpoint remains.
     int stop_short(const EnsembleOutcome& outcome, bool saved) {
         if (!options_.quiet || !saved) {
             print_kept(outcome, plan_, *checkpoint_);
@@ -248,7 +250,7 @@ class Run {
     const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
     const Study& study_;
-    const std::string part_;  // "" of the whole ensemble
+    const std::string part_;  // "" for the whole ensemble
     const BatchPlan plan_;
     std::unique_ptr<Checkpoint> checkpoint_;
     PdWatch watch_;
@@ -259,7 +261,7 @@ class Run {
     WallClock::time_point last_snapshot_ = WallClock::now();
 };
 
-// The other ranks' run: computing batches.
+// Work of the other ranks: computing batches.
 void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
           const Interruption& interruption) {
     const BatchPlan plan = plan_of(options, scene.study());
@@ -274,9 +276,9 @@ void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
 
 void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,
                 const Checkpoint& checkpoint) {
-    fmt::print(stderr, "{}{} of {} gearboxes are finished and kept in {}; continue with --resume\n",
+    fmt::print(stderr, "{}{} of {} {} are finished and kept in {}; continue with --resume\n",
                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
-               checkpoint.rows_done(), plan.rows(), checkpoint.path());
+               checkpoint.rows_done(), plan.rows(), plan.counted(), checkpoint.path());
 }
 
 int run_to_end(const RunOptions& options, const StudyScene& made, const Ranks& ranks,

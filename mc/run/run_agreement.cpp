@@ -15,7 +15,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the running program's file: a rebuild between two ranks' starts shows in it.
+// Checksum of the program's file, which reveals a rebuild between the starts of two ranks.
 std::string program_sum() {
     std::ifstream stream("/proc/self/exe", std::ios::binary);
     std::uint64_t sum = kFnvStart;
@@ -27,13 +27,14 @@ std::string program_sum() {
     return fmt::format("{:016x}", sum);
 }
 
-// Why a rank that is not the first cannot take part, or "".
+// Reason why a rank other than 0 cannot take part, or "".
 std::string misfit(const std::string& name, const std::string& program,
                    const std::string& first_program, const std::string& study,
                    const std::string& first_study) {
     if (program != first_program) {
-        return fmt::format("{} runs another program ({}; rank 0: {}); start the same on all", name,
-                           program, first_program);
+        return fmt::format(
+            "{} runs another program ({}; rank 0: {}); start the same program on all ranks", name,
+            program, first_program);
     }
     const std::string line = line_difference(first_study, study, "in rank 0");
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
@@ -50,7 +51,7 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
         none.problems = {{options.path, 0, "",
                           fmt::format("{}{} before its first gearbox", kLeftOff,
                                       reason.empty() ? "the time limit" : reason),
-                          "there is nothing to continue; start it again"}};
+                          "nothing has been computed yet; start it again"}};
         return none;
     }
 }

@@ -1,4 +1,4 @@
-// All ranks of a run must compute the same: the same program, study and seed.
+// Ensures that all ranks of a run have the same program, study and seed.
 #pragma once
 
 #include "mc/ensemble/interruption.hpp"
@@ -8,13 +8,13 @@
 
 namespace gearpod::mc {
 
-// The scene in every rank, or nothing in any of them after rank 0 said why: a problem of the study,
-// or the rank that cannot read it, has another one or runs another program. All call it together.
-// An interruption is such a reason as well.
+// Loads the scene in every rank. If one rank fails, no rank gets a scene, and rank 0 prints the
+// reason: a problem of the study, an interruption, or a rank that cannot read the study, has
+// another study or runs another program. All ranks must call it together.
 StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
                                const Interruption& interruption);
 
-// Whether that interruption is the problem, of this rank.
+// True if an interruption of this rank was the problem.
 bool left_off(const Problems& problems);
 
 }  // namespace gearpod::mc

@@ -42,7 +42,7 @@ bool check_progress(const RunOptions& options) {
     if (options.progress.empty() || options.progress == "json") {
         return true;
     }
-    fmt::print(stderr, "--progress {}: is no way to show progress; the only one is json\n",
+    fmt::print(stderr, "--progress {}: is not a form of progress; the only one is json\n",
                printable(options.progress));
     return false;
 }
@@ -50,7 +50,7 @@ bool check_progress(const RunOptions& options) {
 bool check_part(const RunOptions& options, const Study& study) {
     const std::optional<Part> part = read_part(options.part);
     if (!part) {
-        fmt::print(stderr, "--part {}: is no part; the second of four is 2/4\n",
+        fmt::print(stderr, "--part {}: is not a part; the second of four is 2/4\n",
                    printable(options.part));
         return false;
     }
@@ -59,15 +59,15 @@ bool check_part(const RunOptions& options, const Study& study) {
     }
     if (study.ensemble.until.half_width) {
         fmt::print(stderr,
-                   "--part {}: ensemble.until ends a run by what all gearboxes say, which a part "
-                   "does not know; leave one of both out\n",
+                   "--part {}: ensemble.until needs the results of all gearboxes, which a part "
+                   "does not have; remove one of the two\n",
                    options.part);
         return false;
     }
     if (plan_of(options, study).batches() == 0) {
         fmt::print(stderr,
-                   "--part {}: the study's gearboxes make {} tiles of {}, this part has none; take "
-                   "fewer parts\n",
+                   "--part {}: the study's gearboxes form {} batches of {}, of which this part has "
+                   "none; use fewer parts\n",
                    options.part, BatchPlan(study.ensemble).batches(), kBatchRows);
         return false;
     }
@@ -85,9 +85,9 @@ bool check_watch(const RunOptions& options, const Study& study) {
 
 bool check_signals(const RunOptions& options, const Study& study) {
     if (!options.part.empty() && !options.signals.empty()) {
-        fmt::print(stderr,
-                   "--signals: a part has rows of its own; ask merge's results, or "
-                   "`simulate --instance`\n");
+        fmt::print(
+            stderr,
+            "--signals: a part numbers its rows differently; use `gearpod simulate --instance`\n");
         return false;
     }
     const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
@@ -96,7 +96,7 @@ bool check_signals(const RunOptions& options, const Study& study) {
     if (outside == options.signals.end()) {
         return true;
     }
-    fmt::print(stderr, "--signals {}: is no row of the results, 0 to {}\n", *outside, rows - 1);
+    fmt::print(stderr, "--signals {}: is not a row of the results, 0 to {}\n", *outside, rows - 1);
     return false;
 }
 
@@ -132,8 +132,8 @@ bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ra
     }
     fmt::print(
         stderr,
-        "{}: numerics.threads: the run needs {:.2g} GB of memory at least, and {:.2g} GB are "
-        "at hand; take fewer threads or lower sensor.sampling_Hz, or try it with --force\n",
+        "{}: numerics.threads: the run needs at least {:.2g} GB of memory, but only {:.2g} GB are "
+        "available; use fewer threads or a lower sensor.sampling_Hz, or try it with --force\n",
         options.study.path, 1e-9 * needed, 1e-9 * at_hand);
     return false;
 }

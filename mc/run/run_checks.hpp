@@ -1,4 +1,4 @@
-// What `run` and `merge` ask of their options before anything is computed. All say what is wrong on
+// Checks the options of `run` and `merge` before the computation. All functions print problems to
 // stderr.
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 
 std::string results_path(const RunOptions& options);
-// Of the gearboxes that this run computes.
+// Batches that this run computes.
 BatchPlan plan_of(const RunOptions& options, const Study& study);
 
 bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit);
@@ -22,9 +22,9 @@ bool check_progress(const RunOptions& options);
 bool check_part(const RunOptions& options, const Study& study);
 bool check_watch(const RunOptions& options, const Study& study);
 bool check_signals(const RunOptions& options, const Study& study);
-// The results are written under another name first, and batches go into the checkpoint.
+// Checks the path of the results, of the temporary file and of the checkpoint.
 bool check_output(const RunOptions& options);
-// What the run holds at least, on this machine.
+// Checks the memory of this machine against the lower limit of the run's memory.
 bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks);
 
 }  // namespace gearpod::mc

@@ -1,5 +1,5 @@
-// What a run is asked for on the command line, and the program's exit codes: 0 done, 2 bad input,
-// 3 some gearboxes failed, 4 stopped before its end with a checkpoint to resume from.
+// Command-line options of a run, and exit codes of the program: 0 done, 2 bad input, 3 some
+// gearboxes failed, 4 stopped early with a checkpoint to resume from.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ inline constexpr int kBadInput = 2;
 inline constexpr int kSomeFailed = 3;
 inline constexpr int kResumable = 4;
 
-// A study file and what the command line changes in it.
+// Study file and overrides from the command line.
 struct StudyOptions {
     std::string path;
     std::vector<std::string> overrides;  // "section.key=value"
@@ -20,16 +20,16 @@ struct StudyOptions {
 
 struct RunOptions {
     StudyOptions study;
-    std::string out;  // "": the study's name with .h5, in the working folder
+    std::string out;  // "": the study's name with .h5, in the working directory
     bool resume = false;
-    bool force = false;         // overwrite what a run with other numbers has written
-    std::string time_limit;     // "hh:mm:ss", "": none
-    std::string watch;          // feature whose Pd the progress shows, "": the study's first
-    std::vector<long> signals;  // rows whose signals the results hold as well
-    std::string part;           // "2/4": every fourth tile, the second; "": all
-    std::string progress;       // "json": one object a line; "": for people
+    bool force = false;         // overwrite results of another study
+    std::string time_limit;     // "hh:mm:ss"; "": none
+    std::string watch;          // feature whose Pd is shown as progress; "": the study's first
+    std::vector<long> signals;  // rows whose signals are added to the results
+    std::string part;           // "2/4": every fourth batch, starting with the second; "": all
+    std::string progress;       // "json": one object per line; "": text
     bool quiet = false;
-    bool says_results = true;  // at the end, on the terminal
+    bool says_results = true;  // prints the results at the end
 };
 int run_command(const RunOptions& options);
 

@@ -1,4 +1,5 @@
-// A run once its checkpoint is open: what `run` does, and `merge` with a checkpoint that has all.
+// Completes a run whose checkpoint is open; used by `run`, and by `merge` with a complete
+// checkpoint.
 #pragma once
 
 #include <memory>
@@ -12,15 +13,15 @@
 
 namespace gearpod::mc {
 
-// `run` itself, by ranks that are there already. All of them call it.
+// Implements `run` on existing ranks. All ranks must call it.
 int run_study(const RunOptions& options, const Ranks& ranks);
 
-// That a run which ends before its time goes on from its checkpoint, on stderr.
+// Prints to stderr how to resume an interrupted run from its checkpoint.
 void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,
                 const Checkpoint& checkpoint);
 
-// Of rank 0. Computes what the checkpoint lacks, writes the results, says what they are and returns
-// the exit code.
+// Computes the missing batches, writes and prints the results, and returns the exit code. Called by
+// rank 0.
 int run_to_end(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
                std::unique_ptr<Checkpoint> checkpoint, double setup_s,
                const Interruption& interruption);

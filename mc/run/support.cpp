@@ -41,8 +41,7 @@ bool can_write(const FileRole& output, const std::vector<FileRole>& others) {
     }
     for (const auto& [role, path] : others) {
         if (path != "-" && same_file(output.path, path)) {
-            fmt::print(stderr,
-                       "{} {}: is {} as well, which it would overwrite; name another file\n",
+            fmt::print(stderr, "{} {}: is also {} and would overwrite it; name another file\n",
                        output.role, output.path, role);
             return false;
         }

@@ -1,4 +1,4 @@
-// What several commands share: reading a study, printing problems, writing text.
+// Functions for several commands: reading a study, printing problems, writing text.
 #pragma once
 
 #include <optional>
@@ -10,32 +10,34 @@
 
 namespace gearpod::mc {
 
-// Prints every problem on stderr, one a line.
+// Prints every problem on a line of stderr.
 void print_problems(const Problems& problems);
 
-// The study, or nothing after its problems were printed.
+// Reads a study. Empty after its problems were printed.
 std::optional<Study> load_study(const StudyOptions& options);
 
-// The scene of a study, or why there is none.
+// Creates the scene of a study; without one, the result contains the problems.
 StudyScene make_scene(const StudyOptions& options);
 
 // The same; prints the problems.
 StudyScene load_scene(const StudyOptions& options);
 
-// A file that a command reads or writes, and as what: "the study", "--json".
+// File that a command reads or writes, and its role, for example "the study" or "--json".
 struct FileRole {
     std::string role, path;
 };
 
-// Prints why an output cannot be written, if so: for the file itself, or because it is a file, by
-// whatever name, that the command has another use for. "-" and "" are no files.
+// Returns false and prints the reason if an output cannot be written, or if it is the same file as
+// one of the others, by any name. "-" and "" are not files.
 bool can_write(const FileRole& output, const std::vector<FileRole>& others);
 
-// Why results, which are HDF5, should not have that name: it is another kind of file's. With the
-// right name, and what makes that other kind. "" if nothing is wrong.
+// Reason why a results file (HDF5) should not have this name: its extension belongs to another
+// format. The text suggests a name and a command that creates the other format. "" if the name is
+// acceptable.
 std::string why_no_results_name(const std::string& path);
 
-// Writes to a file, or to standard output for "-". False after a message if the file fails.
+// Writes to a file, or to standard output for "-". Returns false after printing a message if this
+// fails.
 bool write_text_to(const std::string& path, const std::string& text);
 
 }  // namespace gearpod::mc

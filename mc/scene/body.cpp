@@ -83,7 +83,7 @@ dynamics::FixedShaftInputs fixed_shaft_inputs(const InstanceInputs& in) {
     return out;
 }
 
-// What the inputs of both kinds have.
+// Sets the inputs that both kinds of gearbox have.
 template <class Inputs>
 dynamics::GearboxInputs with_mesh(const Study& study, const InstanceInputs& instance,
                                   Inputs inputs) {

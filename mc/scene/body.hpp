@@ -1,5 +1,5 @@
-// The dynamic model of a study's gearbox at rest: its degrees of freedom, masses, springs and
-// dampers. Speed and load come with the drive (drive.hpp).
+// Dynamic model of a study's gearbox at rest: degrees of freedom, masses, springs and dampers.
+// Speed and load are set by Drive (drive.hpp).
 #pragma once
 
 #include "dynamics/gearbox.hpp"
@@ -8,10 +8,11 @@
 
 namespace gearpod::mc {
 
-// The model's choices; also for planetary gearboxes without teeth, of which modes are defined.
+// Model options of a study. Also valid for planetary gearboxes without teeth, for which only
+// vibration modes are defined.
 dynamics::GearboxLayout gearbox_layout(const Study& study);
 
-// One gearbox of that layout; speed and load are left at zero.
+// Inputs of one gearbox of that layout; speed and load are left at zero.
 dynamics::GearboxInputs body_inputs(const Study& study, const InstanceInputs& instance);
 
 }  // namespace gearpod::mc

@@ -1,5 +1,5 @@
-// What turns and loads the gears of a study, one class for each kind of gearbox: speeds, mesh
-// phases, torques, transmission error, and the meshes after which all this repeats.
+// Operating state of a study's gears, one class for each kind of gearbox: speeds, mesh phases,
+// torques, transmission error, and the number of mesh periods after which all this repeats.
 #pragma once
 
 #include <memory>
@@ -19,40 +19,42 @@ class Drive {
   public:
     virtual ~Drive() = default;
 
-    // Radians of mesh phase a second, at the speed of Sampler::speed_member().
+    // Mesh frequency, rad of mesh phase per second, for a speed of Sampler::speed_member().
     virtual double mesh_frequency_rad_s(double speed_rad_s) const = 0;
-    // Turns in a mesh period: of the driven member, and of the frame that x and y turn with, which
-    // may be backwards.
+    // Turns per mesh period of the input member, and of the frame in which x and y are defined; the
+    // latter may be negative.
     virtual double input_turns_per_mesh() const = 0;
     virtual double frame_turns_per_mesh() const = 0;
-    // The train's turning: the degree of freedom that drives it, and its speed along
-    // dynamics::rigid_rotation.
+    // Rigid rotation of the train: index of the input's degree of freedom, and speed along
+    // dynamics::rigid_rotation, m/s.
     virtual int driving_degree(const dynamics::GearboxLayout& layout) const = 0;
     virtual double turning_m_s(const InstanceInputs& instance) const = 0;
-    // Sets the speed, mesh period and load of one gearbox.
+    // Sets speed, mesh period and load of one gearbox.
     virtual void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const = 0;
-    // Mean force along the line of action of one pair of mesh `mesh` of meshes_of(kind), N.
+    // Mean force along the line of action of one gear pair of mesh number `mesh` of
+    // meshes_of(kind), N.
     virtual double mesh_force_N(const InstanceInputs& instance) const = 0;
 
-    // Pairs in the dynamic model's order: each mesh of meshes_of(kind) so often.
+    // Number of gear pairs of each mesh of meshes_of(kind), in the order of the dynamic model.
     virtual int pairs_per_mesh() const = 0;
     virtual std::string pair_name(int pair) const = 0;
-    // Mesh phase at which a pair's contact is at the pitch point.
+    // Mesh phase at which a gear pair's contact is at the pitch point.
     virtual double pitch_phase(int pair) const = 0;
-    // Contact runs the line of action from its end to its start.
+    // True if contact moves along the line of action from its end to its start.
     virtual bool reversed() const = 0;
 
-    // Park et al. (2016), Eq. 8: output rotation less input rotation times their ratio, as weights
-    // of the model's motions, rad/m.
+    // Weights of the model's displacements, rad/m, that give the transmission error: output
+    // rotation minus input rotation times their ratio. Park et al. (2016), Eq. 8.
     virtual std::vector<double> te_weight(const dynamics::GearboxLayout& layout) const = 0;
-    // The monitored gear's teeth, its turns in the span, and the meshes of a carrier turn.
+    // Layout of the signal span: teeth of the monitored gear, its turns in the span, and mesh
+    // periods of a carrier turn.
     virtual signals::SpanLayout span() const = 0;
 };
 
-// The study must have gears.
+// Precondition: has_gears(study).
 std::unique_ptr<const Drive> make_drive(const Study& study);
 
-// A planetary train as the study gives it, and what drives it.
+// Planetary train of a study, and conversions of its members' enumerators.
 gears::PlanetaryTrain planetary_train(const Study& study);
 gears::FixedMember fixed_member(Member member);
 gears::Member central_member(Member member);
@@ -77,7 +79,7 @@ class PlanetaryDrive : public Drive {
 
     const gears::PlanetaryTrain& train() const { return train_; }
     gears::PlanetSense sense() const { return sense_; }
-    // How much later than its sun mesh a planet's ring mesh is at its pitch point.
+    // Mesh phase by which a planet's ring mesh reaches its pitch point later than its sun mesh.
     double ring_to_sun_phase() const { return ring_to_sun_phase_; }
     bool carrier_turns_backwards() const;
 
@@ -91,7 +93,7 @@ class PlanetaryDrive : public Drive {
     gears::Member speed_of_, torque_on_;
     gears::PlanetSense sense_;
     double ring_to_sun_phase_;
-    gears::Members radius_m_;  // of the base circles; of the carrier the centre distance
+    gears::Members radius_m_;  // base circle radii; for the carrier the centre distance
 };
 
 class FixedShaftDrive : public Drive {
@@ -114,7 +116,7 @@ class FixedShaftDrive : public Drive {
 
   private:
     int pinion_teeth_, gear_teeth_;
-    double pinion_radius_m_, gear_radius_m_;  // of the base circles
+    double pinion_radius_m_, gear_radius_m_;  // base circle radii
     bool gear_monitored_;
 };
 

@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-// In periods a mesh.
+// Highest fluctuation frequency of a gearbox (sine or noise band), in cycles per mesh period.
 double fastest(const Study& study, const Drive& drive, const InstanceInputs& in) {
     const FluctuationInstance& f = in.fluctuations;
     const double period_s = dynamics::mesh_period_s(gearbox_inputs(study, drive, in));
@@ -34,7 +34,7 @@ double fastest(const Study& study, const Drive& drive, const InstanceInputs& in)
     return result;
 }
 
-// Of the nominal gearbox and a pilot of the ensemble.
+// The same, the maximum over the nominal gearbox and a pilot sample of the ensemble.
 double fastest(const Study& study, const Drive& drive) {
     const Sampler sampler(study);
     double result = fastest(study, drive, sampler.nominal());
@@ -57,34 +57,34 @@ void check_kernels(const Study& study, const lockstep::MarchPlan& plan) {
                              : torque_fluctuates(study) ? "a fluctuating torque"
                                                         : "gravity";
     if (plan.precision != lockstep::Precision::double_precision) {
-        throw SceneError("numerics.precision", what + " is marched in doubles",
+        throw SceneError("numerics.precision", what + " needs double precision",
                          "use precision = \"double\"");
     }
     const auto able = excitation.speed ? &lockstep::IntegratorFacts::marches_paced
                                        : &lockstep::IntegratorFacts::marches_forced;
     if (lockstep::facts(plan.integrator).*able) {
-        throw SceneError("numerics.grid", what + " is marched by steps that end on every sample",
+        throw SceneError("numerics.grid", what + " needs steps that end on every sample",
                          "use grid = \"uniform\"");
     }
     throw SceneError(
         "numerics.integrator",
-        fmt::format("{} is marched by {}{}, not by {}", what, lockstep::names_of(able),
-                    excitation.speed ? ", since time does not run evenly along the phase" : "",
+        fmt::format("{} is supported by {}{}, not by {}", what, lockstep::names_of(able),
+                    excitation.speed ? " (time is then not proportional to the mesh phase)" : "",
                     lockstep::name(plan.integrator)),
         excitation.speed
             ? "use integrator = \"rk4\"; a gearbox that is too stiff for it needs a steady speed"
             : "use integrator = \"auto\"");
 }
 
-// Without inertia there are no steps, only the encoders' samples.
+// A quasi-static gearbox has no time steps, only the encoders' samples.
 void check_samples(const Study& study, const Drive& drive, int samples) {
     const double rate = fastest(study, drive);
     if (samples < 2.0 * rate) {
         throw SceneError("sensor.encoder_sampling_Hz",
-                         fmt::format("{} samples a mesh period cannot show what fluctuates fastest "
-                                     "({:.3g} periods or band periods a mesh)",
+                         fmt::format("{} samples per mesh period are too few for the fastest "
+                                     "fluctuation ({:.3g} cycles per mesh period)",
                                      samples, rate),
-                         "raise the rate, or have a slower fluctuation");
+                         "raise the rate, or use a slower fluctuation");
     }
 }
 
@@ -105,10 +105,10 @@ void check_driving(const Study& study, const Drive& drive, const lockstep::March
     if (steps < needed) {
         throw SceneError(
             "numerics.steps_per_mesh",
-            fmt::format("{} steps a mesh period are too few to follow what fluctuates fastest "
-                        "({:.3g} periods or band periods a mesh)",
+            fmt::format("{} steps per mesh period are too few for the fastest fluctuation ({:.3g} "
+                        "cycles per mesh period)",
                         steps, needed / kStepsPerPeriod),
-            fmt::format("at least {:.0f}, or a slower fluctuation", std::ceil(needed)));
+            fmt::format("use at least {:.0f}, or a slower fluctuation", std::ceil(needed)));
     }
 }
 

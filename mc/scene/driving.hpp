@@ -1,4 +1,4 @@
-// Whether a scene's plan can march what drives its gearboxes unevenly.
+// Checks that a scene's integration plan can resolve the variable excitation of its gearboxes.
 #pragma once
 
 #include "lockstep/plan/march.hpp"
@@ -6,7 +6,8 @@
 
 namespace gearpod::mc {
 
-// Throws SceneError where kernels are missing, or where steps are too long to follow a fluctuation.
+// Throws SceneError if kernels are missing, or if steps or samples are too coarse for a
+// fluctuation.
 void check_driving(const Study& study, const Drive& drive, const lockstep::MarchPlan& plan);
 
 }  // namespace gearpod::mc

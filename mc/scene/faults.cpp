@@ -119,7 +119,7 @@ std::vector<double> SceneFault::jumps(const lockstep::PairSet& pairs) const {
     for (const lockstep::FaultPassage& passage : pattern_.passages) {
         const Law& law = laws_[static_cast<std::size_t>(passage.curve)];
         for (const double tau : law.family->jumps()) {
-            // Reversed, the engagement runs from its end to its start.
+            // Reversed contact runs from the end of the engagement to its start.
             const double at = law.mesh->path_begin() + tau;
             const double since = pairs.reversed ? law.mesh->contact_ratio() - at : at;
             phases.push_back(lockstep::phase_in_period(passage.start + since));

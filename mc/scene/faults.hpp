@@ -1,4 +1,4 @@
-// The fault of a study: which pairs the faulty tooth weakens, when, and by how much.
+// Fault of a study: which gear pairs the faulty tooth weakens, when, and by how much.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// A faulty tooth's side: the mesh of meshes_of(kind) in which it acts, and its gear there, 1 or 2.
+// Mesh of meshes_of(kind) in which the faulty tooth acts, and its gear in that mesh, 1 or 2.
 struct FaultPlace {
     std::size_t mesh;
     int gear;
@@ -18,19 +18,19 @@ std::vector<FaultPlace> fault_places(const Fault& fault);
 
 class SceneFault {
   public:
-    // The meshes must outlive the fault. Throws SceneError.
+    // Precondition: the meshes outlive the fault. Throws SceneError.
     SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                const lockstep::PairSet& pairs);
 
-    // Empty without a fault.
+    // Passages of the faulty tooth; empty without a fault.
     const lockstep::FaultPattern& pattern() const { return pattern_; }
-    // One for each mesh that the tooth weakens.
+    // Number of meshes that the tooth weakens, each with its own stiffness curve.
     int curves() const { return static_cast<int>(laws_.size()); }
-    // A mesh with the faulty tooth of that size; null if it is 0 or there is no fault.
+    // Mesh with the faulty tooth of that size; null if the size is 0 or there is no fault.
     std::shared_ptr<const stiffness::FaultyMesh> mesh(int curve, double size) const;
-    // The size at which the tooth carries nothing, or beyond which it has no meaning.
+    // Size at which the tooth transmits no load, or above which the fault model is undefined.
     double largest_size() const;
-    // Phases at which a law jumps whatever the size.
+    // Mesh phases at which a fault's stiffness jumps, whatever its size.
     std::vector<double> jumps(const lockstep::PairSet& pairs) const;
 
   private:

@@ -1,4 +1,4 @@
-// The features of a study, and how much of a gearbox's signals they look at.
+// Features of a study and the length of the signals that they need.
 #pragma once
 
 #include <span>
@@ -11,22 +11,24 @@
 
 namespace gearpod::mc {
 
-// The features that a study uses, in its order; all their needs (features::Need).
+// used_features(): features that a study uses, in its order. needs_of(): union of their needs
+// (features::Need).
 std::vector<const features::Feature*> used_features(const Study& study);
 unsigned needs_of(std::span<const features::Feature* const> features);
 
-// Needs by the signals that they are of.
+// Needs by the signal that they refer to: the test record, the baseline record, and the change
+// between them.
 struct ComparedNeeds {
     unsigned record = 0, baseline = 0, change = 0;
 };
 ComparedNeeds compared_needs(std::span<const features::Feature* const> features);
 
-// Whether features with these needs look at the sensor's samples.
+// True if features with these needs use the sensor's samples.
 bool needs_samples(unsigned needs);
-// Mesh periods of sensor signal that features with these needs look at.
+// Number of mesh periods of sensor signal that features with these needs use.
 int meshes_needed(const Study& study, const signals::SpanLayout& span, unsigned needs);
 
-// A central gear's turns in the span, or the fewest that do.
+// Number of a central gear's turns that fit into the span, or the smallest number that is enough.
 signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth);
 
 }  // namespace gearpod::mc

@@ -7,7 +7,7 @@ namespace gearpod::mc {
 
 using std::numbers::pi;
 
-// The gear with the fault is monitored, else the pinion.
+// The monitored gear is the one with the fault, else the pinion.
 FixedShaftDrive::FixedShaftDrive(const Study& study)
     : pinion_teeth_(teeth_of(study, Member::pinion).value()),
       gear_teeth_(teeth_of(study, Member::gear).value()),
@@ -30,8 +30,8 @@ void FixedShaftDrive::set(const InstanceInputs& instance, dynamics::GearboxInput
     out.load_torque_N_m = instance.fixed_shaft.load_torque_N_m;
 }
 
-// Torques out of balance speed the train up as one body; the mesh carries the motor's force less
-// what its side takes for that.
+// Unbalanced torques accelerate the whole train as one rigid body. The mesh carries the motor's
+// force minus the part that accelerates the motor's side.
 double FixedShaftDrive::mesh_force_N(const InstanceInputs& instance) const {
     const FixedShaftInstance& f = instance.fixed_shaft;
     const double motor_N = instance.torque_N_m / pinion_radius_m_;
@@ -45,8 +45,8 @@ double FixedShaftDrive::mesh_force_N(const InstanceInputs& instance) const {
     return all_kg > 0.0 ? motor_N - surplus_N * driving_kg / all_kg : motor_N;
 }
 
-// u counts the gear's rotation against the pinion's, so that the pair turns without error while
-// u_1 = u_2.
+// The gear's rotation is counted opposite to the pinion's, so that the pair turns without error
+// while u_1 = u_2.
 std::vector<double> FixedShaftDrive::te_weight(const dynamics::GearboxLayout& layout) const {
     std::vector<double> weight(static_cast<std::size_t>(dynamics::degrees_of_freedom(layout)), 0.0);
     weight[dynamics::u_1] = -1.0 / gear_radius_m_;
@@ -54,7 +54,7 @@ std::vector<double> FixedShaftDrive::te_weight(const dynamics::GearboxLayout& la
     return weight;
 }
 
-// After Z_1 Z_2 meshes every tooth of the monitored gear has met every tooth of its mate.
+// After Z_1 Z_2 mesh periods every tooth of the monitored gear has met every tooth of its mate.
 signals::SpanLayout FixedShaftDrive::span() const {
     return gear_monitored_ ? signals::SpanLayout{gear_teeth_, pinion_teeth_, 1}
                            : signals::SpanLayout{pinion_teeth_, gear_teeth_, 1};

@@ -19,7 +19,7 @@ std::span<const analysis::DrawExchange> exchanges_of(const GearboxId& id) {
     return id.exchanged.value_or(std::span<const analysis::DrawExchange>{});
 }
 
-// Whether another gearbox gives all its numbers for a purpose.
+// True if the exchange replaces all random numbers of this purpose by those of the other gearbox.
 bool takes(const Study& study, Group group, const analysis::DrawExchange& exchange,
            std::string_view purpose) {
     Philox engine =
@@ -40,7 +40,7 @@ std::string noise_purpose(const GearboxId& id, std::string_view purpose) {
 }  // namespace
 
 std::uint64_t drawn_from(const Study& study, const GearboxId& id, std::string_view purpose) {
-    // The last one that takes them.
+    // The last exchange that replaces them determines the gearbox.
     const std::span<const analysis::DrawExchange> exchanges = exchanges_of(id);
     const auto taken = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& one) {
         return takes(study, id.group, one, purpose);

@@ -1,4 +1,4 @@
-// Which gearbox and which record of it, and the random numbers that these have for a purpose.
+// Identifies a gearbox and one of its records, and provides their random numbers for each purpose.
 #pragma once
 
 #include <boost/random/normal_distribution.hpp>
@@ -14,44 +14,45 @@
 
 namespace gearpod::mc {
 
-// Of a gearbox: the one that is judged, and the one from before its fault that it is compared with.
+// Records of a gearbox: the test record, and the baseline record from before its fault.
 enum class Record { judged, baseline };
 
-// How a record's noise is drawn: as it is, or as one of several kinds in turn, most of them tilted
-// (signals/windowing/noise_tilt.hpp).
+// Distribution of a record's noise: plain, or cycling through several kinds, most of them
+// exponentially tilted (signals/windowing/noise_tilt.hpp).
 enum class NoiseDraws { plain, towards_alarms, towards_misses };
 
-// Which gearbox: row `index` of its group; and which record of it.
+// Row `index` of a group of gearboxes, and one record of that gearbox.
 struct GearboxId {
     Group group = Group::graded;
     std::uint64_t index = 0;
     Record record = Record::judged;
-    std::uint64_t repeat = 0;  // of the record, with other noise
+    std::uint64_t repeat = 0;  // repetition of the record with other noise
     NoiseDraws draws = NoiseDraws::plain;
-    // Of gearboxes that are split (analysis/detection/splitting.hpp): what it has exchanged with
-    // others of the group, in this order; perhaps nothing yet. The maker's memory. All random
-    // inputs that have a quantile are made of normal numbers then.
+    // Exchanges of random numbers with other gearboxes of the group in multilevel splitting
+    // (analysis/detection/splitting.hpp), in order. May be empty; the caller owns the memory. If
+    // set, all random inputs that have a quantile are computed from normal variates.
     std::optional<std::span<const analysis::DrawExchange>> exchanged = {};
 };
 
-// Whose random numbers for a purpose the gearbox has, where all of them are exchanged as one: its
-// own index, or that of the last of `exchanged` that they were taken from.
+// Index of the gearbox whose random numbers for a purpose are used, where all of them are exchanged
+// together: its own, or that of the last exchange in `exchanged` that replaced them.
 std::uint64_t drawn_from(const Study& study, const GearboxId& id, std::string_view purpose);
 
-// The random numbers for a purpose that belong to the gearbox, the same in all its records.
+// Random numbers for a purpose that belong to the gearbox, the same in all its records.
 Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);
-// Those that every record has of its own.
+// Random numbers that belong to one record.
 Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
-// Those of its noise: every repeat has its own, the first that of the record.
+// Random numbers of a record's noise: different in every repetition; the first repetition uses
+// record_stream().
 Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 
-// Standard normal numbers for a purpose, each exchanged by itself. Of an object either one by one
-// or many at once.
+// Standard normal variates for a purpose, each exchanged separately. Use an object either for
+// single variates or for blocks, not for both.
 class Normals {
   public:
-    // That belong to the gearbox, as gearbox_stream().
+    // Variates of the gearbox, as gearbox_stream().
     Normals(const Study& study, const GearboxId& id, std::string_view purpose);
-    // Of a record and of its noise, as record_stream() and noise_stream().
+    // Variates of a record and of its noise, as record_stream() and noise_stream().
     static Normals of_record(const Study& study, const GearboxId& id, std::string_view purpose);
     static Normals of_noise(const Study& study, const GearboxId& id, std::string_view purpose);
 

@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr int kMostPilotSteps = 50'000;  // in a mesh period that a pilot marches many times
+constexpr int kMostPilotSteps = 50'000;  // per mesh period; a pilot integrates many of them
 
 lockstep::PhaseGrid with_nodes(lockstep::PhaseGrid grid, lockstep::Integrator integrator) {
     grid.stage_nodes = lockstep::stage_nodes(integrator);
@@ -23,15 +23,16 @@ lockstep::PhaseGrid with_nodes(lockstep::PhaseGrid grid, lockstep::Integrator in
                      "allow a larger one, or use grid = \"uniform\" and numerics.steps_per_mesh");
 }
 
-// Steps of bs3 by its own estimate: as long as it allows in each cell between samples and
-// transitions, or everywhere as short as its worst place asks for.
+// Steps of bs3 from its own error estimate. Graded: in each cell between samples and transitions as
+// long as the estimate allows. Uniform: everywhere as short as the worst cell requires.
 SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int samples,
                          const std::vector<double>& transitions, const lockstep::Pilot& pilot) {
-    // Twice as many steps as stability asks for: just there, the method damps what it should tell.
+    // Twice as many steps as stability requires: at the stability limit the method damps the motion
+    // whose error is to be estimated.
     lockstep::PhaseGrid marched =
         lockstep::make_phase_grid(samples, 2 * stepping.steps, transitions);
     marched.stage_nodes = lockstep::stage_nodes(lockstep::Integrator::bs3);
-    marched.stage_nodes.push_back(1.0);  // asks for the estimate
+    marched.stage_nodes.push_back(1.0);  // requests the error estimate
     const lockstep::StepProfile profile =
         lockstep::estimated_profile(pilot, marched, study.numerics.step_tolerance);
     const auto longest = [&](double start, double end) {
@@ -40,8 +41,7 @@ SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int sampl
     const double steps = std::ceil(1.0 / longest(0.0, 1.0));
     if (!(steps <= kMostSteps)) {
         refuse_tolerance("numerics.step_tolerance", study.numerics.step_tolerance,
-                         fmt::format("{:.3g} steps a mesh period would be needed (at most "
-                                     "{})",
+                         fmt::format("{:.3g} steps per mesh period would be needed (at most {})",
                                      steps, kMostSteps));
     }
     lockstep::PhaseGrid grid =
@@ -53,7 +53,7 @@ SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int sampl
     return {with_nodes(std::move(grid), stepping.integrator), calibration};
 }
 
-// Explicit steps must stay stable and keep a node on every sample; implicit ones may be of any
+// Explicit steps must stay stable and have a node on every sample; implicit ones may have any
 // length.
 SceneGrid graded_grid(const Study& study, const Stepping& stepping, int samples,
                       const std::vector<double>& transitions, const lockstep::Pilot& pilot) {
@@ -73,10 +73,10 @@ SceneGrid graded_grid(const Study& study, const Stepping& stepping, int samples,
     lockstep::GradedChoice choice =
         lockstep::choose_grading(pilot, 1.0 / stepping.steps, tolerance, grid_of);
     if (!choice.reached) {
-        refuse_tolerance("numerics.grid_tolerance", tolerance,
-                         fmt::format("with {} steps a mesh period the pilot's signals are "
-                                     "off by {:.2g}",
-                                     choice.grid.steps.size(), choice.error));
+        refuse_tolerance(
+            "numerics.grid_tolerance", tolerance,
+            fmt::format("with {} steps per mesh period the pilot's signals have an error of {:.2g}",
+                        choice.grid.steps.size(), choice.error));
     }
     Calibration calibration;
     calibration.signal_error = choice.error;
@@ -97,7 +97,7 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
     if ((graded || estimated) && stepping.steps > kMostPilotSteps) {
         throw SceneError(
             graded ? "numerics.grid" : "numerics.steps_per_mesh",
-            fmt::format("a pilot of {} steps a mesh period takes too long (at most {})",
+            fmt::format("a pilot with {} steps per mesh period takes too long (at most {})",
                         stepping.steps, kMostPilotSteps),
             graded ? "use grid = \"uniform\"" : "give steps_per_mesh, or use another integrator");
     }

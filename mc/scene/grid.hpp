@@ -1,4 +1,4 @@
-// The phase grid of a study: uniform steps, or steps that a pilot of its gearboxes calibrates.
+// Phase grid of a study: uniform steps, or steps calibrated on a pilot sample of its gearboxes.
 #pragma once
 
 #include <functional>
@@ -10,21 +10,21 @@
 
 namespace gearpod::mc {
 
-// How a pilot came to the steps.
+// Result of calibrating the steps on a pilot sample.
 struct Calibration {
-    // Graded by the signals' error (all integrators but bs3): that error and the grading.
+    // For graded grids of all integrators but bs3: error of the signals and the grading.
     double signal_error = 0.0;
     lockstep::Grading grading;
-    bool estimated = false;  // by the error that bs3 estimates of its own steps
+    bool estimated = false;  // true: calibrated by the error estimate of bs3
 };
 
 struct SceneGrid {
     lockstep::PhaseGrid grid;
-    std::optional<Calibration> calibration;  // none for steps without a pilot
+    std::optional<Calibration> calibration;  // empty for steps without a pilot
 };
 
-// `transitions`: where steps must end. `pilot` is made only if the study asks for calibrated steps.
-// Throws SceneError.
+// Chooses the phase grid. `transitions`: phases at which steps must end. `pilot` is called only if
+// the study requests calibrated steps. Throws SceneError.
 SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
                       const std::vector<double>& transitions,
                       const std::function<lockstep::Pilot()>& pilot);

@@ -15,7 +15,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Stiffness levels as the study gives them, along the teeth's normal.
+// Stiffness levels as given in the study, along the teeth's normal.
 struct Levels {
     double low_N_m, high_N_m, contact_ratio;
 };
@@ -29,7 +29,8 @@ Levels levels_of(const Study& study, MeshKind mesh) {
     return {given.stiffness_N_m.value(), given.stiffness_N_m.value(), 1.0};
 }
 
-// In the transverse plane, in which the gears move.
+// Ratio of the stiffness in the transverse plane, in which the gears move, to that along the
+// normal.
 double transverse_factor(const Gearbox& g) {
     return g.helix_angle_rad == 0.0
                ? 1.0
@@ -64,7 +65,7 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     }
 }
 
-// A key's largest value, or that which one draw in a thousand exceeds; in SI units.
+// Largest value of a key in SI units; for a continuous distribution the 0.999 quantile.
 double upper_value(const Study& study, const char* key, double given) {
     const RandomInput* const random = study.find_random(key);
     if (random == nullptr) {
@@ -78,8 +79,8 @@ double upper_value(const Study& study, const char* key, double given) {
     return value * random->to_si;
 }
 
-// Single pitch errors that the teeth of a member may have, m: the tolerance of their grade, three
-// times a given rms, the largest measured deviation.
+// Upper estimate of the single pitch errors of a member's teeth, m: the tolerance of their grade
+// plus three times a given rms, and at least the largest measured deviation.
 double pitch_error_m(const Study& study, Member member) {
     const MemberValues& body = study.gearbox.bodies[member];
     double error = 3.0 * upper_value(study, "gearbox.pitch_error_um", study.errors.pitch_error_m);
@@ -99,16 +100,16 @@ double pitch_error_m(const Study& study, Member member) {
     return error;
 }
 
-// Corner gaps that an extended contact follows: three times the nominal approach, and four times
-// the pitch errors of both gears, so that teeth with errors start and end their contact smoothly
-// too.
+// Largest corner gap that extended contact resolves, m: three times the nominal approach plus four
+// times the pitch errors of both gears. Contact then starts and ends smoothly also for teeth with
+// errors.
 double corner_reach_m(const Study& study, double force_N, const SceneMesh& mesh) {
     return 3.0 * force_N / mean_total(*mesh.stiffness) +
            4.0 * (pitch_error_m(study, mesh.members.driver) +
                   pitch_error_m(study, mesh.members.driven));
 }
 
-// Relief, crowning and extended contact. The slices of helical teeth get their gaps one by one.
+// Adds relief, crowning and extended contact. The slices of helical teeth have individual gaps.
 void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
     constexpr int kSlices = 8;
     stiffness::FlankGaps gaps{*mesh.geometry, relief_of(study, mesh.members.driver),
@@ -163,7 +164,7 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
 
 lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drive& drive) {
     lockstep::PairSet pairs;
-    // A tooth pair that is touched in the reverse order begins where it used to end.
+    // In reversed contact a tooth pair starts where it otherwise ends.
     pairs.reversed = drive.reversed();
     for (const SceneMesh& mesh : meshes) {
         const stiffness::MeshStiffness& curve = *mesh.stiffness;

@@ -15,22 +15,22 @@
 
 namespace gearpod::mc {
 
-// One kind of gear pair. Without tooth shapes (given stiffness) it has no geometry.
+// One kind of gear pair. It has no geometry if the stiffness is given instead of tooth shapes.
 struct SceneMesh {
     MeshMembers members;
     std::optional<gears::MeshGeometry> geometry;
     std::unique_ptr<const stiffness::MeshStiffness> stiffness;
-    // Quasi-static contact under the mean force of a pair, with the flanks' gaps.
+    // Quasi-static contact under the mean force of a pair, including the flanks' gaps.
     std::unique_ptr<const stiffness::LoadedMesh> loaded;
-    // Elastic body of either gear, if the mesh has one.
+    // Elastic bodies of the two gears, if modelled.
     const stiffness::FilletFoundation* body[2] = {nullptr, nullptr};
 };
 
-// Radius of the circle on which a gear's body is held; 0 if the study gives none.
+// Radius of the circle on which a gear's body is held, m; 0 if the study gives none.
 double body_radius_m(const Study& study, Member member);
 
-// One mesh for each of meshes_of(kind). force_N: mean force of a pair, for contacts that stiffen
-// with it and for the flanks' gaps. Throws SceneError.
+// Makes one mesh for each of meshes_of(kind). force_N: mean force of a pair, for load-dependent
+// contact and for the flanks' gaps. Throws SceneError.
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N);
 
 // All gear pairs of the gearbox and their phases.

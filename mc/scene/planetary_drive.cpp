@@ -94,7 +94,7 @@ int PlanetaryDrive::driving_degree(const dynamics::GearboxLayout& layout) const 
     return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(body);
 }
 
-// Along rigid_rotation the carrier moves by 1, or the sun where the carrier is held.
+// Along rigid_rotation the carrier's displacement is 1, or the sun's if the carrier is fixed.
 double PlanetaryDrive::turning_m_s(const InstanceInputs& instance) const {
     const gears::Speeds turning = speeds(instance.speed_rad_s);
     return flow_.fixed == gears::FixedMember::carrier ? radius_m_.sun * turning.sun
@@ -110,7 +110,7 @@ void PlanetaryDrive::set(const InstanceInputs& instance, dynamics::GearboxInputs
     out.force_N[dynamics::sun] = torque.sun / radius_m_.sun;
     out.force_N[dynamics::ring] = torque.ring / radius_m_.ring;
     out.force_N[dynamics::carrier] = torque.carrier / radius_m_.carrier;
-    // The held member's share is its support's reaction.
+    // The support's reaction balances the fixed member.
     out.force_N[dynamics::held_body(flow_.fixed)] = 0.0;
 }
 
@@ -143,8 +143,8 @@ std::vector<double> PlanetaryDrive::te_weight(const dynamics::GearboxLayout& lay
     return weight;
 }
 
-// Windowing looks at the planets' teeth: Z_p Z_r meshes, after which every planet tooth has met
-// every ring tooth. A standing carrier repeats the path every mesh.
+// The planets' teeth are monitored: after Z_p Z_r mesh periods every planet tooth has met every
+// ring tooth. With a fixed carrier the path repeats every mesh period.
 signals::SpanLayout PlanetaryDrive::span() const {
     return {train_.planet_teeth, train_.ring_teeth,
             gears::meshes_per_carrier_turn(train_, flow_.fixed).value_or(1)};

@@ -1,4 +1,4 @@
-// How the planets of one gearbox differ.
+// Differences between the planets of one gearbox.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@
 
 namespace gearpod::mc {
 
-// See dynamics::PlanetOwn.
+// Deviations of one planet; see dynamics::PlanetOwn.
 struct PlanetInstance {
     double bearing_stiffness, bearing_damping, mass;
     double pin_x_m, pin_y_m;
 };
 using Planets = std::array<PlanetInstance, dynamics::kMaxPlanets>;
 
-// As the study gives them; all alike without.
+// Planets as given in the study; identical if nothing is given.
 Planets given_planets(const Study& study);
 
-// Adds what is drawn: five standard normal numbers a planet, whatever the study asks for. The
-// study's scatters are those of this gearbox.
+// Adds the random deviations. Uses five standard normal variates per planet, whatever the study
+// contains. The study's scatters must be those of this gearbox.
 void draw_planets(const Study& study, std::function<double()> normal, Planets& planets);
 
 }  // namespace gearpod::mc

@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of a fault only the size may be random.
+// The size is the only key of a fault that may be random.
 bool is_fault_size(const RandomInput& input) {
     return input.key.starts_with("fault.");
 }
@@ -26,7 +26,7 @@ const Key& key_of(const RandomInput& input) {
     return key_of(input.key);
 }
 
-// J / r^2 from whichever of J / r^2, J and the mass of a solid disc is given. For a disc on the
+// J / r^2 from the given J / r^2 or J, else from the mass of a solid disc. For a disc with the
 // pitch radius r_p, J = m r_p^2 / 2, and r_p = r_b / cos a.
 double over_r2(const std::optional<double>& inertia_over_r2, const std::optional<double>& inertia,
                double radius_m, double disc_over_r2) {
@@ -51,14 +51,15 @@ void resolve_inertias(const Study& study, EachMember<BodyInstance>& bodies) {
     resolve(Member::carrier, gears ? centre_distance_m(study) : 0.0, 0.5);
 }
 
-// sqrt(2) times as much with each grade.
+// Tooth deviations relative to grade 5: a factor of sqrt(2) for each grade.
 double tooth_scale(const Study& study, Member member) {
     const std::optional<double>& own = study.gearbox.bodies[member].quality;
     const std::optional<double>& grade = own ? own : study.errors.tooth_quality;
     return grade ? std::pow(2.0, 0.5 * (*grade - 5.0)) : 0.0;
 }
 
-// A disc of the pitch radius: I = m R_p^2 / 2 (Tian, Table 4.1).
+// Moment of inertia, by default that of a disc with the pitch radius: I = m R_p^2 / 2 (Tian, Table
+// 4.1).
 double inertia_or_disc(const std::optional<double>& inertia, double mass_kg, double radius_m) {
     return inertia.value_or(0.5 * mass_kg * radius_m * radius_m);
 }
@@ -119,7 +120,7 @@ std::uint64_t product_or_most(std::uint64_t a, std::uint64_t b) {
     return a > kMost / b ? kMost : a * b;
 }
 
-// How many combinations of values in turn there are, and of how many fault sizes.
+// Number of combinations of the values of `levels` and `grid` inputs, or of the fault sizes only.
 std::uint64_t turns(const std::vector<RandomInput>& inputs, bool sizes_only) {
     std::uint64_t all = 1;
     for (const RandomInput& input : inputs) {
@@ -131,7 +132,8 @@ std::uint64_t turns(const std::vector<RandomInput>& inputs, bool sizes_only) {
     return all;
 }
 
-// The value of each random input's digit: the product of the numbers of values before it.
+// Place value of each random input's digit in the mixed radix: the product of the numbers of values
+// of the inputs before it.
 std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) {
     std::vector<std::uint64_t> lengths(inputs.size(), 1);
     std::uint64_t length = 1;
@@ -147,7 +149,7 @@ std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) 
     return lengths;
 }
 
-// That a share of them is not above.
+// Standard normal quantile at probability `share`.
 double standard_normal(double share) {
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
 }
@@ -159,7 +161,7 @@ InstanceInputs resolve_inputs(const Study& study) {
     InstanceInputs inputs{};
     for (const Member member : kAllMembers) {
         const MemberValues& given = g.bodies[member];
-        // A quasi-static gearbox may leave the masses out, a torsional one the bearings.
+        // Masses are optional for a quasi-static gearbox, bearings for a torsional one.
         inputs.bodies[member] = {given.mass_kg.value_or(0.0),
                                  0.0,
                                  0.0,
@@ -184,7 +186,7 @@ InstanceInputs resolve_inputs(const Study& study) {
     inputs.torque_N_m = study.operation.torque_N_m;
     inputs.speed_rad_s = speed(study.operation);
     inputs.fluctuations = fluctuations(study.fluctuations);
-    // No path weighs the sensor of a fixed-shaft gearbox.
+    // A fixed-shaft gearbox has no transmission path weighting.
     inputs.path_exponent = g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
     inputs.gain = study.sensor.gain;
     inputs.tone_level = study.sensor.tone_level;

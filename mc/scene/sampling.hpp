@@ -1,4 +1,4 @@
-// The gearboxes of an ensemble: which values instance k of a group has.
+// Samples the gearboxes of an ensemble: the input values of instance k of a group.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,28 @@
 
 namespace gearpod::mc {
 
-// Of one body; all 0 of one that the gearbox has not.
+// Inputs of one body; all 0 if the gearbox does not have it.
 struct BodyInstance {
     double mass_kg;
-    // Resolved whichever way the study gives them: of a planetary gearbox J / r^2 (r: base radius,
-    // carrier: centre distance), of a fixed-shaft one J.
+    // Resolved from the study's values: J / r^2 for a planetary gearbox (r: base radius, for the
+    // carrier the centre distance), J for a fixed-shaft one.
     double inertia_over_r2_kg, inertia_kg_m2;
-    double bearing_stiffness_N_m;  // 0 where a torsional study leaves it out
+    double bearing_stiffness_N_m;  // 0 if a torsional study gives none
     double bearing_damping_N_s_m;
-    // What its teeth deviate over those of ISO 1328 grade 5; 0 without a quality.
+    // Tooth deviations relative to ISO 1328 grade 5; 0 without a quality.
     double tooth_scale;
 };
 
-// Of a fixed-shaft gearbox; all 0 in a planetary one.
+// Inputs of a fixed-shaft gearbox; all 0 in a planetary one.
 struct FixedShaftInstance {
     double motor_inertia_kg_m2, load_inertia_kg_m2;
     double motor_coupling_stiffness_N_m_rad, load_coupling_stiffness_N_m_rad;
     double motor_coupling_damping_N_m_s_rad, load_coupling_damping_N_m_s_rad;
-    double load_torque_N_m;  // resolved
+    double load_torque_N_m;  // given, or in balance with the motor's torque
 };
 
-// As in Fluctuations, with 0 for what is not given. Orders and frequencies are turns of the sine.
+// Fluctuation inputs of Fluctuations, with 0 for values that are not given. Orders are cycles per
+// turn of the input, frequencies cycles per second.
 struct FluctuationInstance {
     double torque, torque_order, torque_Hz, torque_phase_rad;
     double torque_noise, torque_noise_Hz;
@@ -47,28 +48,29 @@ struct FluctuationInstance {
 struct InstanceInputs {
     EachMember<BodyInstance> bodies;
     double support_stiffness_N_m, support_damping_N_s_m;
-    double mesh_damping;  // ratio (1), time (s) or constant (N s/m), as effects.mesh_damping says
+    double mesh_damping;  // ratio (1), time (s) or constant (N s/m), by effects.mesh_damping
     FixedShaftInstance fixed_shaft;
-    double backlash_m;                                                    // 2b
-    double pitch_error_m, index_wave_m, eccentricity_m, profile_slope_m;  // rms, beside a quality's
+    double backlash_m;  // 2b
+    // Deviations, rms, in addition to those of a quality.
+    double pitch_error_m, index_wave_m, eccentricity_m, profile_slope_m;
     Planets planets;
     double torque_N_m;
     double speed_rad_s;  // of Sampler::speed_member()
     FluctuationInstance fluctuations;
     double path_exponent;
-    double gain;               // of the sensor on the gearbox's vibration
-    double tone_level;         // on the amplitudes of its tones
+    double gain;               // sensor's factor on the gearbox's vibration
+    double tone_level;         // factor on the amplitudes of its tones
     double noise_m_s2;         // rms
     double encoder_noise_rad;  // rms
     double fault_size;         // 0 in the threshold group and without a fault
-    // Of the law by which its crack grows, as in Life; 0 without one.
+    // Parameters of crack growth as in Life; 0 without one.
     double paris_factor, paris_exponent, curve_pace;
 };
 
-// How the records that set thresholds are drawn.
+// Noise distribution of the records that set the thresholds.
 NoiseDraws threshold_draws(const Study& study);
 
-// A random input that is given rather than drawn.
+// Random input with a given value, which replaces the random one.
 struct GivenInput {
     std::string key;   // "gearbox.tooth_quality"
     double value = 0;  // SI
@@ -79,34 +81,35 @@ struct ParameterColumn {
     std::string unit;  // SI, e.g. "N/m"; "1" for a pure number
 };
 
-// Instances of both groups of one study. Immutable; safe to share between threads. How continuous
-// inputs are drawn, sampling_plan.hpp says.
-//
-// `levels` and `grid` inputs take their values in turn, all combinations of them: instance i has
-// the digits of i in a mixed radix whose bases are the numbers of values. The lowest digit is
-// the fault's size, so that each size gets equally many gearboxes, then come the others in the
-// order of the schema. n gearboxes hold all combinations alike if n is a multiple of their number.
+// Samples the instances of both groups of one study. Immutable and safe to share between threads.
+// sampling_plan.hpp defines how continuous inputs are sampled.
+// Inputs with `levels` or `grid` take their values in turn, in all combinations. The level indices
+// of instance i are the digits of i in a mixed radix with the numbers of values as bases. The
+// lowest digit is the fault's size, so that each size gets equally many gearboxes; the others
+// follow in the order of the schema. n gearboxes contain all combinations equally often if n is a
+// multiple of their number.
 class Sampler {
   public:
     explicit Sampler(const Study& study);
 
-    // Instance `index` (0, 1, ...) of a group; the same whatever was sampled before.
+    // Instance `index` (0, 1, ...) of a group, independent of what was sampled before.
     InstanceInputs sample(Group group, std::uint64_t index) const;
-    // Of a record: the baseline has no fault yet, draws of its own of what belongs to records, and
-    // another torque by features.baseline_torque_scatter.
+    // Instance of a record. The baseline record has no fault, its own values of the inputs that
+    // vary from record to record, and a torque that differs by features.baseline_torque_scatter.
     InstanceInputs sample(const GearboxId& id) const;
-    // Of the judged record, with what is given; all other draws are as they were.
+    // Instance of the test record with some given inputs; all other random numbers are unchanged.
     InstanceInputs sample(const GearboxId& id, std::span<const GivenInput> given) const;
     // Nominal values; fault_size is the nominal size.
     InstanceInputs nominal() const;
 
-    // The member whose speed InstanceInputs::speed_rad_s is: sun, ring or carrier, or the pinion.
+    // Member that InstanceInputs::speed_rad_s refers to: sun, ring or carrier, or the pinion.
     Member speed_member() const;
 
-    // Every random input, the weight of tilted records, and the fault's size last: what /instances
-    // holds.
+    // Columns of /instances: every random input, the weight of exponentially tilted records, and
+    // the fault's size last.
     std::vector<ParameterColumn> columns() const;
-    // The values of one instance in that order, SI; the weight of a plain record, 1.
+    // Values of one instance in the order of columns(), SI; the weight is that of a plain record,
+    // 1.
     std::vector<double> row(const GearboxId& id) const;
 
   private:
@@ -114,13 +117,13 @@ class Sampler {
     InstanceInputs resolve(const Study& drawn, const GearboxId& id) const;
     Study study_;
     Copula copula_;
-    // By random input: how many instances have the same turn in succession.
+    // By random input: number of successive instances with the same level index.
     std::vector<std::uint64_t> turn_lengths_;
     SamplingPlan plan_;
 };
 
-// J / r^2 and the rest of one gearbox, from the nominal values of a study. Planets differ as they
-// are given.
+// Inputs of one gearbox from the nominal values of a study, including J / r^2 and the given
+// differences between planets.
 InstanceInputs resolve_inputs(const Study& study);
 
 }  // namespace gearpod::mc

@@ -44,7 +44,8 @@ SamplingPlan::Place SamplingPlan::place(Group group, std::uint64_t index) const 
     if (group == Group::graded) {
         return {index % combinations_, round};
     }
-    // Healthy gearboxes have no size: those that would differ in it alone go together.
+    // Healthy gearboxes have no fault size: those that would differ only in it belong to one
+    // sequence.
     return {index % combinations_ / sizes_, round * sizes_ + index % sizes_};
 }
 
@@ -55,7 +56,8 @@ double SamplingPlan::share(std::size_t input, Group group, std::uint64_t index) 
     const std::uint32_t point =
         owen_scrambled(sobol_.coordinate(static_cast<std::uint32_t>(number), dimension),
                        Philox(seed_, group, sequence, purpose));
-    // What 32 bits leave open is the gearbox's own: of a stream whose first block no tree has.
+    // The bits below the 32 of the Sobol point are independent for each gearbox, from a stream
+    // whose first block no scrambling tree uses.
     const std::uint64_t own = Philox(seed_, group, index, purpose)();
     constexpr double kLeast = 0x1p-53;
     return std::clamp((point + static_cast<double>(own >> 11) * 0x1p-53) * 0x1p-32, kLeast,

@@ -1,5 +1,5 @@
-// How the gearboxes of an ensemble share out the ranges of their random inputs
-// (ensemble.sampling): each by itself, or as points that fill them evenly.
+// Sampling plan of the random inputs (ensemble.sampling): independent, or a randomized quasi-Monte
+// Carlo sequence that fills their ranges evenly.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace gearpod::mc {
 
-// A dimension for every input that is drawn by a distribution's quantile, in the order of the
-// study's random inputs. Gearboxes of one group and of the same values in turn (levels, grid) are
-// the points of a sequence of their own, scrambled by the seed; those of a larger ensemble go on
-// with it.
+// Assigns a dimension to every input that is sampled by a distribution's quantile, in the order of
+// the study's random inputs. Gearboxes of one group with the same `levels` and `grid` values are
+// the points of one sequence, scrambled by the seed. A larger ensemble continues the sequences.
 class SamplingPlan {
   public:
-    // `combinations`: of the values in turn, of which the fault's sizes come first.
+    // `combinations`: number of combinations of `levels` and `grid` values; `sizes`: number of
+    // fault sizes, which vary fastest.
     SamplingPlan(const Study& study, std::uint64_t sizes, std::uint64_t combinations);
 
-    // Of the study's random input at a place: whether it is drawn by share().
+    // True if the study's random input at this index is sampled by share().
     bool has(std::size_t input) const {
         return input < dimension_.size() && dimension_[input] >= 0;
     }
-    // Where the input of a gearbox lies in its distribution, 0 < share < 1.
+    // Uniform variate in (0, 1) of an input of a gearbox.
     double share(std::size_t input, Group group, std::uint64_t index) const;
 
   private:
@@ -36,7 +36,7 @@ class SamplingPlan {
 
     std::uint64_t seed_;
     std::uint64_t sizes_, combinations_;
-    std::vector<int> dimension_;           // by input; -1: none
+    std::vector<int> dimension_;           // by input; -1: not sampled by the plan
     std::vector<std::uint64_t> purposes_;  // by dimension
     Sobol sobol_;
 };

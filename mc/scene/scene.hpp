@@ -1,5 +1,5 @@
-// What all gearboxes of a study share, made once: drive, stiffness curves, fault pattern, phase
-// grid.
+// Data that all gearboxes of a study have in common, computed once: drive, stiffness curves, fault
+// pattern, phase grid.
 #pragma once
 
 #include <algorithm>
@@ -17,21 +17,21 @@
 
 namespace gearpod::mc {
 
-// Never changes. A copy, and another scene made from it, shares with it what both have alike.
+// Immutable. Copies, and scenes derived from it, share the parts that are equal.
 class Scene {
   public:
-    // The study must have gears (has_gears). Its numerics are taken as they stand: what
-    // numerics.tolerance asks for is chosen before (resolve_numerics). Throws SceneError.
+    // Precondition: has_gears(study). The study's numerics are used as they are; numerics.tolerance
+    // must be resolved before (resolve_numerics). Throws SceneError.
     explicit Scene(const Study& study);
     Scene(const Scene&) = default;
     Scene& operator=(const Scene&) = delete;
 
-    // The same gearboxes marched another way. Makes the stiffness anew for another
-    // stiffness_tolerance only, and no plan where the settle_tolerance alone is another. Throws
-    // SceneError.
+    // Scene of the same gearboxes with other numerics. The stiffness is recomputed only for another
+    // stiffness_tolerance or face_slices; the plan is shared if only settle_tolerance differs.
+    // Throws SceneError.
     Scene with(const Numerics& numerics) const;
-    // The same, of whose signal no more than so many meshes are recorded one by one; the signal
-    // repeats them. For measuring what a march costs.
+    // The same scene with at most this many recorded mesh periods, which the signal repeats. Used
+    // to measure the cost of time integration.
     Scene recording_at_most(int meshes) const;
 
     const Study& study() const { return study_; }
@@ -41,9 +41,9 @@ class Scene {
     const SceneFault& fault() const { return stiffness_->fault(); }
     const lockstep::MarchPlan& plan() const { return plan_->march; }
     const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
-    // The pair that the first passage of the faulty tooth weakens, or -1.
+    // Gear pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
-    // That pair with the faulty tooth of that size; null if it is 0.
+    // Gear pair faulty_pair() with the faulty tooth of that size; null if the size is 0.
     std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
         return fault().mesh(0, size);
     }
@@ -53,27 +53,28 @@ class Scene {
     }
 
     const signals::SpanLayout& span() const { return span_; }
-    // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
+    // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
+    // its mate.
     int span_meshes() const { return span_.meshes(); }
-    // Meshes of sensor signal that the study's features look at: the span, or more if the teeth of
-    // the sun or the ring need it.
+    // Number of mesh periods of sensor signal that the study's features need: the span, or more for
+    // the teeth of the sun or the ring.
     int signal_meshes() const { return signal_meshes_; }
-    // Meshes that are recorded one by one where every mesh is marched: those of the signal, but for
-    // recording_at_most().
+    // Number of mesh periods that are recorded individually where every mesh period is integrated:
+    // those of the signal, limited by recording_at_most().
     int recorded_meshes() const { return std::min(signal_meshes_, most_recorded_); }
-    // Meshes after which the path to the sensor repeats; 1 if none turns.
+    // Number of mesh periods after which the transmission path repeats; 1 if the carrier is fixed.
     int path_meshes() const { return span_.carrier_meshes; }
-    // Samples of the sensor, and of the encoders, in one mesh period.
+    // Number of samples per mesh period of the sensor and of the encoders.
     int samples_per_mesh() const { return plan().grid.samples; }
     int te_samples_per_mesh() const { return plan_->te_samples; }
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
     int least_steps() const { return plan_->stepping.least; }
     double explicit_steps() const { return plan_->stepping.explicit_steps; }
-    // How a pilot calibrated the steps, if one did.
+    // Calibration of the steps on a pilot sample; empty if there was none.
     const std::optional<Calibration>& calibration() const { return plan_->calibration; }
     double decay_meshes() const { return plan_->stepping.decay_meshes; }
-    // Mesh periods in which a gearbox must settle.
+    // Largest number of mesh periods within which a gearbox must converge.
     int max_meshes() const { return max_meshes_; }
     // See SceneStiffness.
     std::vector<double> transitions() const { return stiffness_->transitions(); }
@@ -87,7 +88,7 @@ class Scene {
   private:
     using SharedStiffness = std::shared_ptr<const SceneStiffness>;
     using SharedPlan = std::shared_ptr<const ScenePlan>;
-    // Stiffness and plan are made where they are null.
+    // Null stiffness and plan are computed.
     Scene(Study study, std::shared_ptr<const Drive> drive, SharedStiffness stiffness,
           SharedPlan plan, int most_recorded);
 

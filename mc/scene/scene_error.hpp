@@ -1,5 +1,5 @@
-// What is wrong with a study that only building its scene shows: numbers of steps or samples,
-// bodies that no model covers.
+// Error in a study that is found only when its scene is built: numbers of steps or samples, bodies
+// that no model covers.
 #pragma once
 
 #include <stdexcept>

@@ -38,11 +38,11 @@ class Planner {
     }
 
   private:
-    // All of the march but its grid.
+    // Sets everything in the integration plan but the grid.
     void begin_march(int samples) {
         lockstep::MarchPlan& march = plan_.march;
         march.layout = gearbox_layout(study_);
-        // Without inertia the samples are all there is to compute.
+        // A quasi-static gearbox is computed at the samples only.
         plan_.stepping.steps = samples;
         if (!study_.effects.quasi_static()) {
             plan_.stepping =
@@ -55,7 +55,8 @@ class Planner {
         march.mesh_law = mesh_law(study_);
     }
 
-    // With its steps: stiffness and transmission errors at their nodes.
+    // Complete integration plan with this grid: stiffness and transmission errors tabulated at its
+    // nodes.
     lockstep::MarchPlan march_on(lockstep::PhaseGrid grid) const {
         const lockstep::PairSet& pairs = stiffness_.pairs();
         lockstep::MarchPlan march = plan_.march;
@@ -77,13 +78,12 @@ class Planner {
         try {
             lockstep::add_tooth_pairs(stiffness_.pairs(), march.grid, march.nodes);
         } catch (const std::invalid_argument& error) {
-            throw SceneError(
-                "gearbox.addendum_coefficient", error.what(),
-                "use teeth of which fewer are in contact at a time, or fewer face_slices");
+            throw SceneError("gearbox.addendum_coefficient", error.what(),
+                             "use teeth with a lower contact ratio, or fewer face_slices");
         }
     }
 
-    // Static transmission errors of one kind of mesh are alike for all planets, shifted with their
+    // Static transmission errors of one kind of mesh are the same for all planets, shifted by their
     // mesh phases.
     lockstep::MeshError first_errors() const {
         const MeshErrors& e = study_.errors;
@@ -95,8 +95,8 @@ class Planner {
         return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
     }
 
-    // The nominal gearbox and the first graded ones, all with the largest fault. The same for every
-    // run of the study.
+    // Pilot sample: the nominal gearbox and the first graded ones, all with the largest fault. The
+    // same for every run of the study.
     lockstep::Pilot pilot() const {
         const Sampler sampler(study_);
         const SceneFault& fault = stiffness_.fault();
@@ -114,7 +114,8 @@ class Planner {
                     fault.mesh(curve, sizes.empty() ? 0.0 : sizes.back()));
             }
         }
-        // The orbit to a thousandth; what is left of the approach is alike on all grids.
+        // Converges to a thousandth of the periodic orbit; the remaining transient is the same on
+        // all grids.
         constexpr double kDecays = 7.0, kMostMeshes = 100.0;
         const double decays = std::ceil(1.0 + kDecays * plan_.stepping.decay_meshes);
         pilot.settle_meshes = static_cast<int>(std::min(kMostMeshes, decays));

@@ -1,5 +1,6 @@
-// How a study's gearboxes are marched: integrator, steps and samples, and the stiffness at their
-// nodes. How closely orbits settle has no part in it: scenes that differ in that alone share one.
+// Integration plan of a study's gearboxes: integrator, steps and samples, and the stiffness at
+// their nodes. It does not depend on the convergence tolerance, so scenes that differ only in that
+// share one plan.
 #pragma once
 
 #include <memory>
@@ -15,9 +16,9 @@ namespace gearpod::mc {
 struct ScenePlan {
     lockstep::MarchPlan march;
     Stepping stepping;
-    // How a pilot calibrated the steps, if one did.
+    // Calibration of the steps on a pilot sample; empty if there was none.
     std::optional<Calibration> calibration;
-    int te_samples = 0;  // of the encoders in a mesh period
+    int te_samples = 0;  // number of encoder samples per mesh period
 };
 
 // Throws SceneError.

@@ -14,7 +14,7 @@ gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) 
         gear.pressure_angle_rad);
 }
 
-// All tooth pairs that may touch at a position do.
+// Stiffness with all tooth pairs in contact that can touch at a position.
 double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
     std::vector<stiffness::ContactSpring> springs;
     add_springs(mesh, tau, tau, springs);
@@ -54,7 +54,7 @@ std::vector<double> SceneStiffness::stiffest_pairs() const {
     return k;
 }
 
-// Steps end on the jumps of the fault's own law, too.
+// Steps also end on the jumps of the fault's stiffness.
 std::vector<double> SceneStiffness::transitions() const {
     std::vector<double> all = lockstep::contact_transitions(pairs_);
     const std::vector<double> jumps = fault_.jumps(pairs_);

@@ -1,5 +1,6 @@
 // Stiffness of a study's gear pairs, healthy and with the fault, and the scales of their tooth
-// errors. Scenes share it unless they differ in numerics.stiffness_tolerance or face_slices.
+// errors. Scenes share it unless they differ in numerics.stiffness_tolerance or
+// numerics.face_slices.
 #pragma once
 
 #include <memory>
@@ -24,12 +25,12 @@ class SceneStiffness {
     const SceneFault& fault() const { return fault_; }
     // Mean stiffness of every pair over the mesh period, N/m.
     const std::vector<double>& mean_pairs() const { return mean_pairs_; }
-    // Tooth error scales of gears of ISO 1328 grade 5; all 0 without a quality.
+    // Scales of the tooth errors of ISO 1328 grade 5; all 0 without a quality.
     const EachMember<gears::DeviationScales>& tooth_scales() const { return tooth_scales_; }
-    // Largest stiffness of every pair, with all tooth pairs in contact that may touch: it bounds the
-    // integrator's step.
+    // Largest stiffness of every gear pair, with all tooth pairs in contact that can touch, N/m. It
+    // bounds the integrator's step.
     std::vector<double> stiffest_pairs() const;
-    // Phases in [0, 1) on which steps must end.
+    // Phases in [0, 1) at which steps must end.
     std::vector<double> transitions() const;
 
   private:

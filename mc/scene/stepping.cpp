@@ -18,10 +18,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kMostSamples = 20'000;  // likewise: a span of thousands of them fits the memory
+constexpr int kMostSamples = 20'000;  // per mesh period; a span of thousands of them fits in memory
 constexpr int kFewestSamples = 4;
 
-// The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
+// Smallest number >= least whose only prime factors are 2, 3 and 5, so that Fourier transforms of a
 // whole planet turn stay fast.
 int round_up_to_smooth(int least) {
     for (int n = std::max(least, 1);; ++n) {
@@ -37,19 +37,19 @@ int round_up_to_smooth(int least) {
     }
 }
 
-// Samples a mesh period at least, for a rate of `key`.
+// Smallest number of samples per mesh period for a rate given by `key`.
 int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) {
     const double samples = std::ceil(rate_Hz / mesh_frequency_Hz - 1e-9);
     if (samples > kMostSamples) {
         throw SceneError(key,
-                         fmt::format("{:.3g} samples a mesh period are too many (at most {})",
+                         fmt::format("{:.3g} samples per mesh period are too many (at most {})",
                                      samples, kMostSamples),
                          "lower the rate or raise the speed");
     }
     return std::max(1, static_cast<int>(samples));
 }
 
-// What the steps of a mesh period have to follow.
+// Requirements on the number of steps per mesh period.
 class StepNeeds {
   public:
     StepNeeds(const Study& study, const Drive& drive, const dynamics::GearboxLayout& layout,
@@ -61,7 +61,8 @@ class StepNeeds {
           sampler_(study),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
         gearboxes_.push_back(gearbox_inputs(study, drive, sampler_.nominal()));
-        // A pilot of the ensemble, the same for every run of the study, stands for the rest.
+        // A pilot sample of the ensemble, the same for every run of the study, represents the other
+        // gearboxes.
         constexpr std::uint64_t kPilot = 32;
         for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
             gearboxes_.push_back(graded(i));
@@ -73,20 +74,20 @@ class StepNeeds {
     }
 
     double decay_meshes() const { return decay_meshes_; }
-    // Steps with which an explicit method is stable for all of them.
+    // Number of steps with which an explicit method is stable for all gearboxes of the pilot.
     double stable(lockstep::Integrator integrator) const {
         return integrator == lockstep::Integrator::rk4 ? runge_kutta_ : stable_steps(integrator);
     }
-    // Steps with which it is stable for gearboxes that the pilot misses, too.
+    // The same with a margin for gearboxes outside the pilot.
     double ample(lockstep::Integrator integrator) const {
         constexpr double kMargin = 1.2, kLeastMargin = 1.04;
-        // Runge-Kutta methods damp what is near their limit, and have to be further from it.
+        // Runge-Kutta methods damp motion near their stability limit and need a larger margin.
         if (lockstep::facts(integrator).growth != nullptr) {
             return kMargin * stable(integrator);
         }
-        // Half as far again beyond the worst of a larger pilot as that is beyond the upper tenth,
-        // in logarithms: of ends of a range a little, of normal tails as far as 1e5 gearboxes
-        // reach.
+        // Extrapolates beyond the largest value of a larger pilot by half its distance from the
+        // upper decile, in logarithms. That is little for bounded distributions; for normal tails
+        // it covers the maximum of 1e5 gearboxes.
         constexpr std::uint64_t kPilot = 256;
         std::vector<double> needs{needed_steps(gearboxes_[0], integrator)};
         for (std::uint64_t i = 0; i < (study_.random.empty() ? 0 : kPilot); ++i) {
@@ -98,7 +99,7 @@ class StepNeeds {
         return worst * std::clamp(beyond, kLeastMargin, kMargin);
     }
     double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(gearboxes_[0]); }
-    // Steps with which an implicit method is accurate for all of them.
+    // Number of steps with which an implicit method is accurate for all gearboxes of the pilot.
     double implicit(lockstep::Integrator integrator) const {
         double steps = 1.0;
         for (const dynamics::GearboxInputs& gearbox : gearboxes_) {
@@ -139,21 +140,21 @@ class StepNeeds {
     const std::vector<double>& stiffest_;
     const Sampler sampler_;
     double low_pass_rad_s_;
-    std::vector<dynamics::GearboxInputs> gearboxes_;  // the nominal one first
+    std::vector<dynamics::GearboxInputs> gearboxes_;  // pilot sample, the nominal one first
     double decay_meshes_ = 0.0, runge_kutta_ = 0.0;
 };
 
 [[noreturn]] void refuse_explicit(const StepNeeds& needs, double steps) {
     const lockstep::StiffPart stiff = needs.stiffest_part();
     throw SceneError("numerics.integrator",
-                     fmt::format("the explicit method would need {:.3g} steps a mesh period ({} "
+                     fmt::format("the explicit method would need {:.3g} steps per mesh period ({} "
                                  "moves {} at a rate of {:.3g} 1/s)",
                                  steps, stiff.part, stiff.motion, stiff.rate_1_s),
-                     "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
+                     "use integrator = \"sdirk3\", which is stable for any stiffness, or \"auto\"");
 }
 
-// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. A gearbox
-// beyond what is ample by the pilot is reported as diverged.
+// One grid is used for all gearboxes, so it must be stable for the stiffest and lightest of them. A
+// gearbox outside the margin is reported as diverged.
 Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
     const double stable = needs.stable(integrator), ample = needs.ample(integrator);
     const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
@@ -164,19 +165,20 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
         refuse_explicit(needs, chosen);
     }
     if (!(chosen <= kMostSteps)) {
-        throw SceneError("numerics.steps_per_mesh",
-                         fmt::format("the sensor's low-pass would need {:.3g} steps a mesh period "
-                                     "(at most {})",
-                                     chosen, kMostSteps),
-                         "lower sensor.low_pass_Hz or raise the speed");
+        throw SceneError(
+            "numerics.steps_per_mesh",
+            fmt::format(
+                "the sensor's low-pass would need {:.3g} steps per mesh period (at most {})",
+                chosen, kMostSteps),
+            "lower sensor.low_pass_Hz or raise the speed");
     }
     if (given > 0 && given < least) {
         throw SceneError(
             "numerics.steps_per_mesh",
             fmt::format("{} steps are too few (below {}, {} is unstable for this study's stiffest "
-                        "gearbox, or its sensor's low-pass inaccurate)",
+                        "gearbox, or the sensor's low-pass is inaccurate)",
                         given, least, name(integrator)),
-            "leave the key out to have the steps chosen");
+            "remove the key, so that the steps are chosen automatically");
     }
     return {
         integrator,           given > 0 ? given : static_cast<int>(chosen), static_cast<int>(least),
@@ -187,7 +189,7 @@ Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     const double chosen = given > 0 ? given : std::ceil(needs.implicit(integrator));
     if (!(chosen <= kMostSteps)) {
         throw SceneError("numerics.steps_per_mesh",
-                         fmt::format("{:.3g} steps a mesh period would be needed (at most {})",
+                         fmt::format("{:.3g} steps per mesh period would be needed (at most {})",
                                      chosen, kMostSteps),
                          "lower sensor.low_pass_Hz or raise the speed");
     }
@@ -222,10 +224,9 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     if (result.samples < kFewestSamples) {
         throw SceneError(
             key,
-            fmt::format("{} sample(s) a mesh period leave nothing to {} (mesh "
-                        "frequency {:.4g} Hz)",
+            fmt::format("{} sample(s) per mesh period are too few to {} (mesh frequency {:.4g} Hz)",
                         result.samples, sensor ? "window" : "average", mesh_frequency_Hz),
-            fmt::format("at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
+            fmt::format("use at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
     }
     result.te_samples = std::min(samples_at_least(study.sensor.encoder_sampling_Hz,
                                                   mesh_frequency_Hz, "sensor.encoder_sampling_Hz"),
@@ -235,13 +236,12 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     }
     const unsigned needs = needs_of(used_features(study));
     if ((needs & features::kTeParts) != 0 && result.te_samples < kFewestSamples) {
-        throw SceneError(
-            "sensor.encoder_sampling_Hz",
-            fmt::format("{} sample(s) a mesh period do not part the transmission error, as te_fm4, "
-                        "te_m6a and te_m8a do",
-                        result.te_samples),
-            fmt::format("at least {:.4g} Hz, or without these features",
-                        kFewestSamples * mesh_frequency_Hz));
+        throw SceneError("sensor.encoder_sampling_Hz",
+                         fmt::format("{} sample(s) per mesh period are too few for te_fm4, te_m6a "
+                                     "and te_m8a, which split the transmission error",
+                                     result.te_samples),
+                         fmt::format("use at least {:.4g} Hz, or remove these features",
+                                     kFewestSamples * mesh_frequency_Hz));
     }
     return result;
 }
@@ -266,8 +266,8 @@ double settle_tolerance(const Study& study) {
                : asked;
 }
 
-// Enough mesh periods for twice the time in which the nominal gearbox's slowest mode decays to the
-// tolerance.
+// Twice the number of mesh periods in which the nominal gearbox's slowest mode decays to the
+// tolerance, within bounds.
 int choose_max_meshes(const Study& study, double decay_meshes) {
     constexpr double kFewest = 200.0, kMost = 1e6;
     const double decay = -2.0 * decay_meshes * std::log(settle_tolerance(study));

@@ -24,7 +24,7 @@ double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& m
 }
 
 double loaded_approach(const Scene& scene, int pair, double phase) {
-    constexpr double kBeside = 1e-9;  // mesh periods, to later phases
+    constexpr double kBeside = 1e-9;  // mesh periods, towards later phases
     const lockstep::PairSet& pairs = scene.pairs();
     const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
     const double tau = pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;

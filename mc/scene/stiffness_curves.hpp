@@ -1,4 +1,4 @@
-// Mesh stiffness while a faulty tooth engages, and which pairs it engages with.
+// Mesh stiffness while a faulty tooth engages, and the gear pairs in which it engages.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace gearpod::mc {
 
-// The first pair that the faulty tooth meets with each of its curves.
+// First gear pair in which the faulty tooth engages, for each of its stiffness curves.
 std::vector<int> faulty_pairs(const Scene& scene);
 
-// The stiffness, N/m, of the pair `since` mesh periods after its faulty tooth engaged; before and
-// after its engagement that of the healthy pair.
+// Stiffness, N/m, of the gear pair `since` mesh periods after its faulty tooth started to engage;
+// outside its engagement, that of the healthy pair.
 double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh, double since);
 
-// How far the gears of a pair approach along the line of action at a phase of the mesh period under
-// the nominal load, m: the pair's loaded static transmission error.
+// Loaded static transmission error of a gear pair, m: approach of its gears along the line of
+// action at a phase of the mesh period under the nominal load.
 double loaded_approach(const Scene& scene, int pair, double phase);
 
 }  // namespace gearpod::mc

@@ -17,11 +17,11 @@ std::string teeth(const Study& study) {
         return "identical teeth";
     }
     if (study.find_random("gearbox.tooth_quality") != nullptr) {
-        return "teeth of ISO 1328 grades that vary";
+        return "teeth of random ISO 1328 grades";
     }
     return study.errors.tooth_quality
                ? fmt::format("teeth of ISO 1328 grade {:g}", *study.errors.tooth_quality)
-               : "teeth that differ";
+               : "teeth with individual errors";
 }
 
 }  // namespace
@@ -32,25 +32,24 @@ std::string assumptions(const Study& study, bool lives) {
     }
     std::vector<std::string> all{teeth(study)};
     if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
-        all.push_back("planets and pins alike");
+        all.push_back("identical planets and pins");
     }
     if (study.effects.foundation == Foundation::none && !stiffness_given(study)) {
         all.push_back("rigid gear bodies");
     }
     if (!torque_fluctuates(study) && !speed_fluctuates(study)) {
-        all.push_back(lives ? "torque and speed steady in a record" : "steady torque and speed");
+        all.push_back(lives ? "torque and speed steady in each record" : "steady torque and speed");
     }
     if (lives) {
         all.push_back(study.life.curve_h.empty() ? "cracks that grow by Paris' law"
                                                  : "cracks that grow along the given curve");
     }
-    std::string text = fmt::format("Holds for {}, and thresholds from {} gearboxes.",
+    std::string text = fmt::format("Holds for {}, and for thresholds set on {} gearboxes.",
                                    fmt::join(all, ", "), lives ? "the lives of other" : "other");
     if (compares_records(study) && !lives) {
         text += fmt::format(
-            " own_ and change_ features also take a healthy record of the same gearbox, at a "
-            "torque "
-            "{:g} % (rms) off.",
+            " own_ and change_ features also need a healthy record of the same gearbox, taken at a "
+            "torque that differs by {:g} % (rms).",
             100.0 * study.features.baseline_torque_scatter);
     }
     const bool alike =
@@ -61,13 +60,13 @@ std::string assumptions(const Study& study, bool lives) {
     }
     if (study.ensemble.sampling == SamplingKind::sobol) {
         text +=
-            " Gearboxes fill the ranges of their inputs evenly (ensemble.sampling): intervals take "
-            "them for independent, and are wider than they need be.";
+            " The gearboxes' inputs are points of a Sobol sequence (ensemble.sampling), but "
+            "intervals treat them as independent and are therefore wider than necessary.";
     }
     if (!has_tooth_errors(study)) {
         text +=
-            " Errors of real teeth hide faults that identical teeth show: gearbox.tooth_quality "
-            "draws them.";
+            " Errors of real teeth can hide faults that are visible with identical teeth: "
+            "gearbox.tooth_quality simulates them.";
     }
     return text;
 }

@@ -1,4 +1,4 @@
-// What an answer takes for granted, in a sentence for whoever acts on it.
+// One-sentence summary of a study's modelling assumptions, for readers of its results.
 #pragma once
 
 #include <string>
@@ -7,9 +7,10 @@
 
 namespace gearpod::mc {
 
-// "Holds for identical teeth, ...": what the gearboxes have that no real one has, what is not
-// scattered, and what that does to the answer. Of its `lives`, or of a run, in which no crack grows.
-// Empty for a study without gears.
+// Text that begins "Holds for identical teeth, ...": the idealizations of the simulated gearboxes,
+// the inputs that do not vary, and their effect on the results.
+// `lives`: for the lives of gearboxes with a growing crack, otherwise for a run, in which no crack
+// grows. Empty for a study without gears.
 std::string assumptions(const Study& study, bool lives);
 
 }  // namespace gearpod::mc

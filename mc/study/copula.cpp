@@ -47,7 +47,7 @@ std::vector<double> Copula::shares(const std::function<double(std::size_t input)
     for (const std::size_t input : inputs_) {
         normals.push_back(normal(input));
     }
-    // In order, not by Eigen: the same bits on every machine.
+    // Summed in a fixed order, not by Eigen, so that the bits are the same on every machine.
     for (std::size_t i = 0; i < normals.size(); ++i) {
         double z = 0.0;
         for (std::size_t j = 0; j <= i; ++j) {

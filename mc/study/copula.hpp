@@ -1,7 +1,7 @@
-// Random inputs that go together: a Gaussian copula, which leaves every input its own distribution.
-// Normals with correlations r have rank correlations (6 / pi) asin(r / 2), whatever increasing
-// functions are then applied to them: K. Pearson, Drapers' Company Research Memoirs IV (1907);
-// W. H. Kruskal, J. Am. Stat. Assoc. 53 (1958), 814-861.
+// Gaussian copula: correlates random inputs and leaves the distribution of each one unchanged.
+// Normal variates with correlation r have the rank correlation (6 / pi) asin(r / 2), whatever
+// increasing functions are then applied to them: K. Pearson, Drapers' Company Research Memoirs IV
+// (1907); W. H. Kruskal, J. Am. Stat. Assoc. 53 (1958), 814-861.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,20 +12,20 @@
 
 namespace gearpod::mc {
 
-// Of standard normal numbers, that is not above z: inside (0, 1).
+// Standard normal distribution function at z, clamped to [2^-53, 1 - 2^-53].
 double share_below(double z);
 
 class Copula {
   public:
     explicit Copula(const Study& study);
 
-    // Whether there are such normals: the matrix of their correlations, of pairs that are not
-    // given 0, is positive definite.
+    // True if the matrix of the normal variates' correlations (0 for pairs that are not given) is
+    // positive definite.
     bool exists() const { return exists_; }
-    // Of the study's random input at a place.
+    // True if the study's random input at this index is correlated with another one.
     bool has(std::size_t input) const { return input < has_.size() && has_[input] != 0; }
-    // Where each correlated input lies in its distribution, 0 < share < 1, in the inputs' order;
-    // from a normal number for each, by its place in the study.
+    // One uniform variate in (0, 1) for each correlated input, in the inputs' order. `normal` gives
+    // an independent standard normal variate for each input, by its index in the study.
     std::vector<double> shares(const std::function<double(std::size_t input)>& normal) const;
 
   private:

@@ -1,4 +1,5 @@
-// What the kinds of fault keep of a study: a struct of each kind, which its own file alone knows.
+// Fault parameters of a study, by kind of fault. Each kind has a struct that only its own file
+// knows.
 #pragma once
 
 #include <concepts>
@@ -9,15 +10,17 @@
 
 namespace gearpod::mc {
 
-// Such a struct derives from this; it can be copied and compared, and knows its defaults.
+// Base of a fault kind's parameter struct, which must be copyable, comparable and
+// default-constructible.
 struct FaultShape {
     bool operator==(const FaultShape&) const = default;
 };
 
-// Copies share what they hold until one of them edits it.
+// Heterogeneous map from parameter type to value. Copies share the values until one of them edits
+// it.
 class FaultShapes {
   public:
-    // As it was edited last, else its defaults.
+    // Value as last edited, or a default-constructed one.
     template <std::derived_from<FaultShape> Shape>
     const Shape& get() const {
         static const Shape defaults{};
@@ -25,7 +28,7 @@ class FaultShapes {
         return found == held_.end() ? defaults
                                     : static_cast<const Holder<Shape>&>(*found->second).shape;
     }
-    // Good until the next call.
+    // Reference for changing the value, valid until the next call of edit() for the same type.
     template <std::derived_from<FaultShape> Shape>
     Shape& edit() {
         auto own = std::make_shared<Holder<Shape>>(get<Shape>());

@@ -43,17 +43,17 @@ bool gravity_turns(const Study& study) {
 std::string why_no_mesh_repeats(const Study& study) {
     return torque_fluctuates(study)  ? "the torque fluctuates"
            : speed_fluctuates(study) ? "the speed fluctuates"
-           : gravity_turns(study)    ? "gravity turns past the carrier"
-           : has_tooth_errors(study) ? "every tooth has errors of its own"
+           : gravity_turns(study)    ? "gravity rotates relative to the carrier"
+           : has_tooth_errors(study) ? "every tooth has individual errors"
                                      : "";
 }
 
 std::string why_not_superposed(const Study& study) {
-    return study.effects.quasi_static() ? "a gearbox without inertia is solved, not marched"
-           : driven_unevenly(study)     ? "torque, speed or weight vary"
-           : !has_tooth_errors(study)   ? "no tooth has errors of its own"
+    return study.effects.quasi_static() ? "a quasi-static gearbox is not integrated in time"
+           : driven_unevenly(study)     ? "torque, speed or weight varies"
+           : !has_tooth_errors(study)   ? "the teeth have no individual errors"
            : study.effects.contact_onset == ContactOnset::extended
-               ? "tooth pairs come into contact gradually, which no sum describes"
+               ? "extended contact (effects.contact_onset) cannot be superposed"
                : "";
 }
 

@@ -1,11 +1,11 @@
-// What drives a study's gearboxes unevenly.
+// Variable excitation of a study's gearboxes: torque and speed fluctuations, and gravity.
 #pragma once
 
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// A part that is 0 in every gearbox counts as absent.
+// True if any gearbox has this component. A component that is 0 in every gearbox counts as absent.
 bool torque_has_sine(const Study& study);
 bool torque_has_noise(const Study& study);
 bool speed_has_sine(const Study& study);
@@ -20,21 +20,20 @@ inline bool draws_fluctuations(const Study& study) {
     return torque_has_noise(study) || speed_has_noise(study);
 }
 
-// Planets whose weights balance each other about the carrier's axis: a train of rotations alone
-// feels nothing of them. True without planets.
+// True if the planets' weights balance each other about the carrier's axis, so that a purely
+// torsional model does not respond to them. True without planets.
 bool planets_balance(const Study& study);
 
-// Weight that turns in the frame of a turning carrier.
+// True if weight rotates in the frame of a turning carrier.
 bool gravity_turns(const Study& study);
 
 inline bool driven_unevenly(const Study& study) {
     return torque_fluctuates(study) || speed_fluctuates(study) || study.effects.gravity;
 }
-// Why no mesh repeats the one before, as "the torque fluctuates"; empty if nothing of this prevents
-// it.
+// Reason why mesh periods are not identical, e.g. "the torque fluctuates"; empty if there is none.
 std::string why_no_mesh_repeats(const Study& study);
-// Why its meshes cannot be superposed of what the teeth of each gear do; empty if they can where no
-// tooth pair loses contact.
+// Reason why the motion cannot be superposed from the effects of each gear's tooth errors; empty if
+// it can as long as no tooth pair loses contact.
 std::string why_not_superposed(const Study& study);
 
 }  // namespace gearpod::mc

@@ -171,7 +171,7 @@ gears::Gear standard_gear(const Study& study, Member member) {
     return gear;
 }
 
-// The two of a pair, or sun and planet.
+// Pinion and gear of a fixed-shaft gearbox, or sun and planet.
 std::pair<Member, Member> shifted_pair(const Study& study) {
     const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
     return {mesh.driver, mesh.driven};

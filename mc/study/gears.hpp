@@ -1,4 +1,4 @@
-// The gears that a study describes.
+// Gears that a study describes.
 #pragma once
 
 #include <optional>
@@ -19,91 +19,99 @@ namespace gearpod::mc {
 
 std::string_view member_name(Member member);
 
-// Two meshing members; the first drives and is external.
+// Two meshing members; the first one drives and is external.
 struct MeshMembers {
     MeshKind kind;
     Member driver, driven;
 };
 
-// The meshes of a kind of gearbox: sun-planet and planet-ring, or pinion-gear.
+// Meshes of a kind of gearbox: sun-planet and planet-ring, or pinion-gear.
 std::span<const MeshMembers> meshes_of(GearboxKind kind);
 
 // "sun-planet", "ring-planet", "pinion-gear".
 std::string mesh_name(const MeshMembers& mesh);
 
-// Whether a gearbox of that kind has that member, and it has teeth.
+// True if a gearbox of that kind has that member and the member has teeth.
 bool has_toothed_member(GearboxKind kind, Member member);
 
-// Its tooth number, if given.
+// Number of teeth of a member; empty if not given.
 std::optional<int> teeth_of(const Study& study, Member member);
 
-// Centre distance of sun and planets, or of a pair. The study must have gears.
+// Centre distance of sun and planets, or of a gear pair, m. Precondition: has_gears().
 double centre_distance_m(const Study& study);
 
-// Whether profile shifts or a centre distance are given, be they those of standard gears.
+// True if a profile shift or a centre distance is given, even that of standard gears.
 bool shift_given(const Study& study);
-// The keys that give them, and the tip circles.
+// Keys of profile shifts, centre distance and tip diameters.
 std::vector<std::string> shift_keys();
-// All shifts of the study's gears, given or following. The study must have gears.
+// All profile shifts of the study's gears, given or derived. Precondition: has_gears().
 gears::WorkingShifts working_shifts(const Study& study);
-// A planet's axis and tip circle, in modules; only of studies with shifts given.
+// Radius of the planets' axes and diameter of their tip circle, in modules. Precondition:
+// shift_given().
 gears::PlanetRoom planet_room(const Study& study);
-// Relief and crowning of a member's flanks; true if any member has some.
+// Relief and crowning of a member's flanks; has_relief(): true if any member has some.
 gears::FlankRelief relief_of(const Study& study, Member member);
 bool has_relief(const Study& study);
-// True if tooth pairs have gaps that all gearboxes share: relief, crowning or extended contact.
+// True if tooth pairs have gaps that are the same in all gearboxes: relief, crowning or extended
+// contact.
 bool has_flank_gaps(const Study& study);
-// True if the meshes are computed tooth pair by tooth pair, each of which pushes and does not pull.
+// True if the mesh force is computed tooth pair by tooth pair with unilateral contact, which
+// transmits compression only.
 bool has_unilateral_teeth(const Study& study);
-// Working pressure angle of a mesh in the plane in which the gears turn. The study must have gears.
+// Working pressure angle of a mesh in the transverse plane. Precondition: has_gears().
 double working_angle_rad(const Study& study, MeshKind mesh);
 
-// Whether the study gives the meshes' stiffness instead of the teeth that make it.
+// True if the study gives the mesh stiffness, so that it is not computed from the teeth.
 bool stiffness_given(const Study& study);
 
 // True if any mesh has a static transmission error given by its harmonics.
 bool has_static_errors(const Study& study);
 
-// The law of its meshes, and whether their teeth can lose contact under it.
+// Contact law of the study's meshes. teeth_can_part(): true if teeth can lose contact under it.
 dynamics::MeshLaw mesh_law(const Study& study);
 bool teeth_can_part(const Study& study);
-// Whether the teeth of any gearbox have errors of their own; a quality that says how large;
-// measured ones.
+// has_tooth_errors(): true if the teeth of any gearbox deviate individually. has_tooth_quality():
+// true if an ISO 1328 grade gives their size. has_measured_teeth(): true if measured deviations are
+// given.
 bool has_tooth_errors(const Study& study);
 bool has_tooth_quality(const Study& study);
 bool has_measured_teeth(const Study& study);
-// Whether the planets of any gearbox differ, and are drawn.
+// has_unlike_planets(): true if the planets of any gearbox differ. draws_planets(): true if their
+// differences are random.
 bool has_unlike_planets(const Study& study);
 bool draws_planets(const Study& study);
 
-// Whether all tooth numbers and the module are given.
+// True if all tooth numbers and the module are given.
 bool has_gears(const Study& study);
 
-// The pressure angle in the plane in which the gears turn.
+// Pressure angle in the transverse plane.
 double transverse_pressure_angle_rad(const Gearbox& gearbox);
 
-// Modules: heights of teeth and shifts are counted in the normal one, a gears::Gear's in its own.
+// Ratio of normal to transverse module. Studies give tooth heights and shifts in normal modules, a
+// gears::Gear in its own (transverse) module.
 double normal_over_transverse(const Gearbox& gearbox);
 
-// A toothed member of the study's gearbox, whose tooth number and module must be given. Helical
-// gears stand for the spur gears that they are in the transverse plane.
+// Gear of a toothed member. Helical gears are replaced by the equivalent spur gears in the
+// transverse plane. Precondition: its number of teeth and the module are given.
 gears::Gear gear_of(const Study& study, Member member);
 
-// Where the beams of its teeth begin; of no meaning where the stiffness is given.
+// Profile that defines the root of the beam model of its teeth; meaningless where the stiffness is
+// given.
 stiffness::Profile profile_of(const Study& study);
 
-// What a mesh of rims and webs keeps of the stiffness of solid discs: the smaller of its two gears'
-// factors (stiffness/foundation/gear_blank.hpp); 1 for discs and for a ring, whose rim its own
-// elastic ring is.
+// Gear blank factor: stiffness of a mesh with rims and webs relative to that of solid discs
+// (stiffness/foundation/gear_blank.hpp). For a mesh, the smaller of its two gears' factors. 1 for
+// discs, and for a ring, whose rim is modelled as an elastic ring.
 double blank_factor(const Study& study, Member member);
 double blank_factor(const Study& study, const MeshMembers& mesh);
 
-// What the teeth of a mesh are made of, and how wide. They must not be without a face width.
-// Young's modulus is that which gives the mesh what its gears' blanks leave: every part of a tooth
-// pair's stiffness grows with it.
+// Material and face width of the teeth of a mesh. Precondition: face width, Young's modulus and
+// Poisson's ratio are given. Young's modulus is multiplied by the mesh's blank factor, because
+// every part of a tooth pair's stiffness is proportional to it.
 stiffness::Material material_of(const Study& study, const MeshMembers& mesh);
 
-// Mesh periods by which helical teeth engage later at one end of the face width than at the other.
+// Overlap ratio: number of mesh periods by which helical teeth engage later at one end of the face
+// width than at the other.
 double overlap_ratio(const Study& study);
 
 }  // namespace gearpod::mc

@@ -1,17 +1,18 @@
-// The accelerometer's noise, whichever way a study gives it.
+// Accelerometer noise of a study, given by its rms or by its density.
 #pragma once
 
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Whether it is given by its density before the low-pass, be it random, instead of its rms.
+// True if the noise is given by its density before the low-pass, nominal or random, and not by its
+// rms.
 bool noise_by_density(const Study& study);
 
-// Of every sample, m/s^2 rms.
+// Standard deviation of every sample, m/s^2.
 double sensor_noise_m_s2(const Study& study);
 
-// "sensor.noise_m_s2", or the density's.
+// Key that gives the noise: "sensor.noise_m_s2", or that of the density.
 const char* noise_key(const Study& study);
 
 }  // namespace gearpod::mc

@@ -1,4 +1,4 @@
-// How a study is computed: the part of it that says nothing of gearboxes.
+// Numerical settings of a study.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,9 @@ namespace gearpod::mc {
 
 using lockstep::Precision;
 enum class StepGrid { uniform, graded };
-// Mesh periods that are integrated: the periodic orbit and a fault's passages; the effect of each
-// gear's tooth errors by itself, where no tooth pair loses contact; every mesh period.
+// Strategy of time integration. `reuse`: the periodic orbit and a fault's passages are integrated.
+// `superpose`: the effect of each gear's tooth errors is integrated separately, as long as no tooth
+// pair loses contact. `march`: every mesh period is integrated.
 enum class Horizon { reuse, superpose, march };
 
 // Number of lanes that fill a 512-bit register.
@@ -20,24 +21,24 @@ constexpr int full_lanes(Precision precision) {
 }
 
 struct Numerics {
-    std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
+    std::optional<lockstep::Integrator> integrator;  // empty: chosen by the program
     Precision precision = Precision::double_precision;
     StepGrid grid = StepGrid::uniform;
-    double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
-    double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
-    int steps_per_mesh = 0;        // 0: chosen from a pilot of the ensemble
-    // Relative tolerance of every feature, by which integrator, steps and settling are chosen; 0:
-    // they are not chosen.
+    double step_tolerance = 1e-5;  // local error of a bs3 step, relative to the largest motion
+    double grid_tolerance = 1e-3;  // rms error of the signals on a graded grid, other integrators
+    int steps_per_mesh = 0;        // 0: chosen from pilot gearboxes of the ensemble
+    // Relative tolerance of every feature, from which integrator, steps and convergence tolerance
+    // are chosen; 0: they are not chosen.
     double tolerance = 0.0;
-    bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
+    bool verify = false;  // repeat some gearboxes with finer steps; always with a tolerance
     double settle_tolerance = 1e-10;
-    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
-    int face_slices = 0;               // across a face whose gaps vary; 0: chosen
-    int max_meshes = 0;                // 0: from the damping
+    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: the smallest that is possible
+    int face_slices = 0;               // slices across a face with varying gaps; 0: chosen
+    int max_meshes = 0;                // 0: derived from the damping
     Horizon horizon = Horizon::reuse;
-    int lanes = full_lanes(Precision::double_precision);     // of its precision, 8, 4 or 1
+    int lanes = full_lanes(Precision::double_precision);     // 16 (single only), 8, 4 or 1
     int threads = 0;                                         // 0: all
-    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest
+    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest set
 
     bool operator==(const Numerics&) const = default;
 };

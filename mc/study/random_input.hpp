@@ -1,4 +1,4 @@
-// What [random] says: which inputs are drawn from what, and which go together.
+// Random inputs of the section [random]: their distributions and correlations.
 #pragma once
 
 #include <optional>
@@ -18,12 +18,12 @@ struct RandomInput {
     bool operator==(const RandomInput&) const = default;
 };
 
-// What a record may have of its own.
+// Quantities that may vary from record to record.
 enum class RecordQuantity { torque, speed, gain, noise };
-// That of a key; nothing of what belongs to a gearbox.
+// Record quantity that a key gives; empty for keys whose values belong to the gearbox.
 std::optional<RecordQuantity> record_quantity(std::string_view key);
 
-// Two random inputs that go together: their rank correlation (Spearman's).
+// Rank correlation (Spearman's) of two random inputs.
 struct Correlation {
     std::string first, second;  // keys of random inputs
     double rank = 0.0;

@@ -1,5 +1,5 @@
-// A study: everything a study file (TOML) says, checked, in SI units and radians.
-// The keys, their units, defaults and ranges are the table in schema/*_keys.cpp.
+// Study: the content of a study file (TOML), checked, in SI units and radians. The table in
+// schema/*_keys.cpp lists the keys with units, defaults and ranges.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ using dynamics::MeshDamping;
 using stiffness::Contact;
 using FaultSide = lockstep::PlanetSide;
 
-// A value for each of `kCount` enumerators.
+// Array indexed by an enumeration with `kCount` enumerators.
 template <class Enum, std::size_t kCount, class Value>
 struct Each {
     std::array<Value, kCount> values{};
@@ -56,35 +56,38 @@ using EachMember = Each<Member, kAllMembers.size(), Value>;
 template <class Value>
 using EachMesh = Each<MeshKind, kMeshKinds, Value>;
 
-// Inputs that may be random hold their nominal value: the value in its section, else the
+// Inputs that may be random store their nominal value: the value in its section, else the
 // distribution's median. An empty optional means "not given".
 
-// What a body of a gearbox has of its own.
+// Properties of one body of a gearbox.
 struct MemberValues {
     std::optional<int> teeth;
-    std::optional<double> profile_shift;   // in modules; positive: thicker teeth, of the ring too
-    std::optional<double> tip_diameter_m;  // by the usual rules if not given
-    // Ground off every flank, lengths along the line of action from the end of contact.
+    std::optional<double> profile_shift;   // in modules; positive: thicker teeth, also for the ring
+    std::optional<double> tip_diameter_m;  // if not given, from addendum and shift
+    // Amounts removed from every flank; lengths along the line of action from the end of contact.
     std::optional<double> tip_relief_m, tip_relief_length_m, root_relief_m, root_relief_length_m;
     std::optional<double> crowning_m;
-    // Of the foundation: diameter of the bore, of a ring the outer one.
+    // Diameter of the bore, or outer diameter of a ring, where the gear body is held.
     std::optional<double> held_diameter_m;
-    // Of a gear that is no solid disc: its rim below the teeth's roots, and the web under it.
+    // Gear blank that is no solid disc: thickness of the rim below the teeth's roots and of the web
+    // under it.
     std::optional<double> rim_m, web_m;
     std::optional<double> mass_kg;
-    // J, or J / r^2 (r: base radius; carrier: centre distance), or neither (solid disc).
+    // Moment of inertia J, or J / r^2 (r: base radius; carrier: centre distance); if neither is
+    // given, that of a solid disc.
     std::optional<double> inertia_kg_m2, inertia_over_r2_kg;
     std::optional<double> bearing_stiffness_N_m;
     double bearing_damping_N_s_m = 0.0;
-    std::optional<double> quality;  // ISO 1328 grade of its teeth, before that of all gears
-    // Measured index deviations in place of drawn ones, tooth by tooth, gaps positive; of planets
-    // one planet after the other, and the side that meets the ring.
+    std::optional<double> quality;  // ISO 1328 grade of its teeth; overrides that of all gears
+    // Measured index deviations that replace random ones, tooth by tooth, gaps positive. For
+    // planets one planet after the other; ring_side_index_m is that of the flanks that meet the
+    // ring.
     std::vector<double> index_m, ring_side_index_m;
 
     bool operator==(const MemberValues&) const = default;
 };
 
-// What the meshes of one kind have where their stiffness is given.
+// Given mesh stiffness of the meshes of one kind.
 struct MeshValues {
     std::optional<double> stiffness_N_m;                                         // constant
     std::optional<double> low_stiffness_N_m, high_stiffness_N_m, contact_ratio;  // square wave
@@ -92,15 +95,15 @@ struct MeshValues {
     bool operator==(const MeshValues&) const = default;
 };
 
-// What both kinds of gearbox have, and the planetary one's own.
+// Properties of both kinds of gearbox, and those of the planetary one.
 struct Gearbox {
     GearboxKind kind = GearboxKind::planetary;
     int planets = 0;
     EachMember<MemberValues> bodies;
     EachMesh<MeshValues> meshes;
     std::vector<double> planet_positions_rad;         // ascending from 0; empty: equally spaced
-    std::optional<double> module_m, normal_module_m;  // transverse, of helical teeth; one of them
-    std::optional<double> centre_distance_m;          // at which the gears work
+    std::optional<double> module_m, normal_module_m;  // transverse, or normal (helical)
+    std::optional<double> centre_distance_m;          // working centre distance
     double pressure_angle_rad = 0.0;
     double helix_angle_rad = 0.0;
     std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;
@@ -114,13 +117,13 @@ struct Gearbox {
     std::optional<double> mesh_damping_ratio, mesh_damping_time_s, mesh_damping_N_s_m;
     std::optional<double> backlash_m;  // 2b along the line of action
 
-    // In the plane in which the gears turn.
+    // Module in the transverse plane.
     std::optional<double> transverse_module_m() const {
         return normal_module_m ? *normal_module_m / std::cos(helix_angle_rad) : module_m;
     }
 
-    // Planetary: of all three or of none; without them only the modes of a constant-stiffness
-    // gearbox are defined.
+    // True if the tooth numbers of a planetary gearbox are given: all three, or none. Without them
+    // only the modes of a constant-stiffness gearbox are defined.
     bool has_teeth() const {
         return bodies[Member::sun].teeth && bodies[Member::planet].teeth &&
                bodies[Member::ring].teeth;
@@ -128,8 +131,8 @@ struct Gearbox {
     bool operator==(const Gearbox&) const = default;
 };
 
-// A fixed-shaft gearbox's own: motor, coupling, pinion, gear, coupling, load. Tian (2004), Table
-// 4.1.
+// Properties of a fixed-shaft gearbox: motor, coupling, pinion, gear, coupling, load. Tian (2004),
+// Table 4.1.
 struct FixedShaft {
     std::optional<double> motor_inertia_kg_m2, load_inertia_kg_m2;
     double motor_coupling_stiffness_N_m_rad = 0.0, load_coupling_stiffness_N_m_rad = 0.0;
@@ -138,12 +141,13 @@ struct FixedShaft {
     bool operator==(const FixedShaft&) const = default;
 };
 
-// Static transmission errors along the line of action. Element i of a list is mesh harmonic i + 1;
-// phases are empty (all 0) or as many as the amplitudes.
+// Static transmission errors along the line of action. Element i of a list is the amplitude or
+// phase of mesh harmonic i + 1; lists of phases are empty (all 0) or as long as those of
+// amplitudes.
 struct MeshErrors {
     std::vector<double> sun_planet_m, sun_planet_phase_rad, ring_planet_m, ring_planet_phase_rad;
     std::vector<double> mesh_m, mesh_phase_rad;  // fixed-shaft
-    // Of the teeth, drawn: an ISO 1328 grade, and rms deviations beside it, along the line of
+    // Random tooth deviations: an ISO 1328 grade, and additional rms deviations along the line of
     // action (gears::DeviationScales).
     std::optional<double> tooth_quality;
     double pitch_error_m = 0.0, index_wave_m = 0.0, eccentricity_m = 0.0, profile_slope_m = 0.0;
@@ -151,12 +155,13 @@ struct MeshErrors {
     bool operator==(const MeshErrors&) const = default;
 };
 
-// How a planetary gearbox's planets differ: given for each (empty: not at all), and drawn.
+// Differences between the planets of a planetary gearbox: given for each planet (empty: none), and
+// random.
 struct UnlikePlanets {
-    std::vector<double> pin_tangential_m, pin_radial_m;            // off their places
+    std::vector<double> pin_tangential_m, pin_radial_m;  // deviations from the nominal positions
     std::vector<double> bearing_stiffness, bearing_damping, mass;  // factors
-    double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;     // normal
-    // Of the factors' logarithms, which are normal.
+    double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;     // of normal distributions
+    // Standard deviations of the factors' logarithms, which are normal.
     double bearing_stiffness_scatter = 0.0, bearing_damping_scatter = 0.0, mass_scatter = 0.0;
 
     bool operator==(const UnlikePlanets&) const = default;
@@ -176,11 +181,11 @@ struct Operation {
     bool operator==(const Operation&) const = default;
 };
 
-// How torque and speed vary around their means, relative to these: a sine, and noise whose
-// spectrum has fallen to half at its band (lockstep/plan/excitation.hpp).
+// Relative fluctuation of torque and speed about their means: a sine, and noise with a spectrum
+// that has fallen to half at its band (lockstep/plan/excitation.hpp).
 struct Fluctuations {
     std::optional<double> torque;                   // amplitude; all torques vary in proportion
-    std::optional<double> torque_order, torque_Hz;  // one of them: a turn of the input, or time
+    std::optional<double> torque_order, torque_Hz;  // one of them: per input turn, or in time
     double torque_phase_rad = 0.0;
     std::optional<double> torque_noise, torque_noise_Hz;  // rms and band
     std::optional<double> speed;                          // amplitude
@@ -201,32 +206,33 @@ struct Effects {
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
     bool gravity = false;
-    double gravity_direction_rad = -1.5707963267948966;  // in the housing; down
-    // Null: no path leads to a sensor, in a file by default where it is so.
+    double gravity_direction_rad = -1.5707963267948966;  // in the frame of the housing; downwards
+    // Null if no transmission path leads to a sensor; the reader's default for fixed-shaft and
+    // quasi-static gearboxes.
     const signals::PathWindow* path = &signals::path_window("hamming");
 
     bool quasi_static() const {
         return motion == Motion::quasi_static || motion == Motion::quasi_static_torsional;
     }
-    // Rotations only.
+    // True if the bodies have rotations only.
     bool torsional() const {
         return motion == Motion::torsional || motion == Motion::quasi_static_torsional;
     }
     bool operator==(const Effects&) const = default;
 };
 
-// What a kind needs besides is its own file's business (mc/study/faults).
+// Fault of a study. Parameters of a kind are defined in its own file (mc/study/faults).
 struct Fault {
-    const FaultKind* kind = nullptr;  // of all_faults(); null without a fault
-    std::optional<Member> member;     // of the gearbox's toothed members
-    std::optional<FaultSide> side;    // of a planet tooth
+    const FaultKind* kind = nullptr;  // one of all_faults(); null without a fault
+    std::optional<Member> member;     // one of the gearbox's toothed members
+    std::optional<FaultSide> side;    // only for a planet tooth
     int planet = 1;                   // 1..planets
     FaultShapes shapes;
 
     bool operator==(const Fault&) const = default;
 };
 
-// An interfering tone on the sensor.
+// Interfering tone at the sensor.
 struct Tone {
     double frequency_Hz = 0.0;
     double amplitude_m_s2 = 0.0;
@@ -237,13 +243,13 @@ struct Tone {
 struct Sensor {
     double sampling_Hz = 0.0;
     double low_pass_Hz = 0.0;
-    Member position = Member::pinion;  // fixed-shaft: the bearing it sits on
+    Member position = Member::pinion;  // fixed-shaft: bearing on which the sensor is mounted
     double path_exponent = 0.1;
-    double gain = 1.0;        // on the gearbox's vibration, before tones and noise
+    double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
-    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // instead; behind the low-pass
+    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // instead; low-pass filtered
     std::vector<Tone> tones;
-    double tone_level = 1.0;  // on their amplitudes
+    double tone_level = 1.0;  // factor on the amplitudes of all tones
     double encoder_sampling_Hz = 0.0;
     double encoder_noise_rad = 0.0;         // rms
     std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
@@ -252,11 +258,11 @@ struct Sensor {
 };
 
 struct Features {
-    std::vector<std::string> use;  // as in the file; the basic ones by default
+    std::vector<std::string> use;  // as in the file; by default the basic ones
     double tukey_taper = 0.1;
     int te_harmonics = 8;
-    // Of the logarithm of the torque in a gearbox's baseline record, normal about that of the
-    // record that is judged.
+    // Standard deviation of the logarithm of the torque in a gearbox's baseline record, normal
+    // about that of its test record.
     double baseline_torque_scatter = 0.0;
 
     bool operator==(const Features&) const = default;
@@ -265,46 +271,50 @@ struct Features {
 struct Detection {
     double false_alarm_rate = 0.05;
     double confidence = 0.95;
-    // Ascending; one of them, and only for a continuous fault size: a length, or a pure number.
+    // Ascending. At most one of the two, and only for a continuous fault size: a length, or a pure
+    // number.
     std::vector<double> size_edges_m, size_edges;
-    // Keys of random inputs that are one unknown value of all gearboxes, not scatter among them.
+    // Keys of random inputs that have one unknown value common to all gearboxes and do not vary
+    // among them.
     std::vector<std::string> uncertain_inputs;
 
     bool operator==(const Detection&) const = default;
 };
 
-// How a gearbox that is measured again and again is watched (analysis/monitoring).
+// Monitoring of a gearbox that is measured repeatedly (analysis/monitoring).
 struct Monitoring {
-    int baseline_records = 20;  // of each gearbox, its first, that say what is normal for it; or 0
-    bool torque_regression = false;        // normal depends on the records' torque, along a line
-    std::vector<std::string> detectors;    // as in the file; the usual ones by default
-    double false_alarms_per_1000_h = 5.0;  // of lives
+    // Number of first records of each gearbox, from which its normal state is estimated; or 0.
+    int baseline_records = 20;
+    bool torque_regression = false;      // the normal state depends linearly on the records' torque
+    std::vector<std::string> detectors;  // as in the file; by default the usual ones
+    double false_alarms_per_1000_h = 5.0;  // allowed rate of false alarms in lives
 
     bool operator==(const Monitoring&) const = default;
 };
 
-// When a detection rate is known well enough to stop; never without a half_width.
+// Stopping rule: the run ends when a detection rate is known well enough. Absent without a
+// half_width.
 struct Until {
     std::optional<double> half_width;  // of the interval of Pd
-    std::optional<int> feature;        // place in features::all_features()
-    std::optional<double> size;        // of the fault, in the unit of its key
+    std::optional<int> feature;        // index in features::all_features()
+    std::optional<double> size;        // fault size in the unit of its key
     double noise_level = 1.0;
 
     bool operator==(const Until&) const = default;
 };
 
-// How gearboxes' random inputs are drawn: each by itself, or as points of a scrambled Sobol
-// sequence (mc/scene/sampling_plan).
+// Sampling of the gearboxes' random inputs: independent, or as points of a scrambled Sobol sequence
+// (mc/scene/sampling_plan).
 enum class SamplingKind { plain, sobol };
 
 struct Ensemble {
     std::int64_t instances = 0;            // gearboxes over all fault sizes
     std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
-    int threshold_records = 1;             // of each of those, with noise of their own
-    std::optional<bool> threshold_tilt;    // most of them with noise tilted towards an alarm
+    int threshold_records = 1;             // records of each of those, with independent noise
+    std::optional<bool> threshold_tilt;    // most records with exponentially tilted noise
     std::int64_t seed = 0;                 // 0..2^63-1
     SamplingKind sampling = SamplingKind::plain;
-    double checkpoint_s = 30.0;  // how often finished gearboxes are made safe
+    double checkpoint_s = 30.0;  // interval of writing finished gearboxes to disk
     Until until;
 
     bool tilted() const { return threshold_tilt.value_or(false); }
@@ -331,31 +341,32 @@ struct Study {
     std::vector<RandomInput> random;  // in the order of the schema
     std::vector<Correlation> correlations;
 
-    // The random input of that key, or nullptr.
+    // Random input with that key, or nullptr.
     const RandomInput* find_random(const std::string& key) const;
     bool operator==(const Study&) const = default;
 };
 
-// Whether a feature compares a gearbox with its own baseline record.
+// True if any feature compares a gearbox with its baseline record.
 bool compares_records(const Study& study);
 
 struct StudyReading {
-    std::optional<Study> study;  // only without problems
+    std::optional<Study> study;  // empty if there are problems
     Problems problems;           // sorted
 };
 
 // Reads a study file. Each override is "section.key=value" with a TOML value (a bare word is a
-// string) and replaces what the file says. An override of section.key also drops what [random] says
-// of that key: all gearboxes then have the value given. An override of random.section.key leaves
-// the value in its section, which is nominal; given together with one of section.key, in whatever
-// order, it wins. Bad input of any kind ends in `problems`, never in an exception.
+// string) and replaces the value in the file. An override of section.key also removes the key's
+// distribution in [random], so that all gearboxes have the given value. An override of
+// random.section.key leaves the nominal value in its section; given together with one of
+// section.key, in any order, it takes precedence. Invalid input of any kind is reported in
+// `problems`, never by an exception.
 StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides = {});
 
-// The same from text; `name` stands for the file in messages.
+// Reads a study from text; `name` stands for the file in messages.
 StudyReading read_study_text(const std::string& text, const std::string& name,
                              const std::vector<std::string>& overrides = {});
 
-// The complete study as TOML, defaults spelled out. Reads back to the same study, bit for bit.
+// Complete study as TOML with all defaults. It reads back to the same study, bit for bit.
 std::string resolved_text(const Study& study);
 
 }  // namespace gearpod::mc

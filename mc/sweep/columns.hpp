@@ -1,4 +1,4 @@
-// Columns of text.
+// Alignment of text in columns.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace gearpod::mc {
 
-// Lines of cells, all to the right but for the last column.
+// Aligns cells in columns; all are right-aligned except the last column.
 std::string aligned(const std::vector<std::vector<std::string>>& lines);
 
 }  // namespace gearpod::mc

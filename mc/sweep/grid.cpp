@@ -47,12 +47,12 @@ std::string toml_text(const Value& value) {
     return "";
 }
 
-// The value at the end of the only path of a document that an override has made.
+// Returns the value of the only key of a document made by an override.
 const Value& end_of(const Value& document, std::size_t depth) {
     return depth == 0 ? document : end_of(document.entries.front().value, depth - 1);
 }
 
-// What a file's name may hold anywhere.
+// Replaces characters that are not portable in file names.
 std::string file_name(const std::string& text) {
     std::string name;
     for (const char c : text) {
@@ -63,7 +63,7 @@ std::string file_name(const std::string& text) {
     return name;
 }
 
-// Names that leave something out, and long ones, end in a checksum of what they stand for.
+// Names a point. Inexact and long names end in a hash of the overrides.
 void name_point(const std::vector<VariedKey>& keys, SweepPoint& point) {
     constexpr std::size_t kLongest = 100;
     std::string plain, whole;
@@ -122,7 +122,7 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
         }
         for (const std::string& one : varied.values) {
             if (std::ranges::count(varied.values, one) > 1) {
-                reject(fmt::format("has {} twice", one), "give every value once");
+                reject(fmt::format("contains {} twice", one), "give every value once");
                 break;
             }
         }

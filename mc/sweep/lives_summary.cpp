@@ -71,7 +71,7 @@ const MonitoredFeature* best_over(const std::vector<LivesPoint>& points) {
                 const MonitoredFeature* here = find_answers(point, one);
                 known = known || (here != nullptr && !std::isnan(here->answers.threshold.value));
                 found += here == nullptr ? 0 : here->answers.found;
-                // fmin: of a number and NaN the number.
+                // std::fmin returns the number if the other argument is NaN.
                 deep_90 += here == nullptr ? last : std::fmin(here->answers.size_90.value, last);
                 deep_50 += here == nullptr ? last : std::fmin(here->answers.size_50.value, last);
             }
@@ -89,7 +89,7 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
                              const std::vector<LivesPoint>& points) {
     const MonitoredFeature* best = best_over(points);
     if (best == nullptr) {
-        return "the healthy lives are too few for a threshold at any point\n";
+        return "no point has enough healthy lives for a threshold\n";
     }
     std::vector<std::vector<std::string>> lines(1);
     for (const VariedKey& key : keys) {
@@ -99,7 +99,7 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
     for (const std::string& column : answer_columns(points[0].study)) {
         lines[0].push_back(column);
     }
-    lines[0].emplace_back("best here");
+    lines[0].emplace_back("best at this point");
     for (const LivesPoint& point : points) {
         std::vector<std::string> line = point.point.values;
         line.push_back(std::to_string(point.cracked));
@@ -111,7 +111,8 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
         line.push_back(name_of(best_at(point)));
         lines.push_back(std::move(line));
     }
-    return fmt::format("by {}, which find most over all points\n", name_of(best)) + aligned(lines);
+    return fmt::format("by {}, which finds most cracks over all points\n", name_of(best)) +
+           aligned(lines);
 }
 
 nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,

@@ -1,4 +1,4 @@
-// What the lives of a sweep's points come to, side by side.
+// Summary of `lives` results over the points of a sweep.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,23 +16,23 @@ struct LivesPoint {
     Study study;
     std::size_t cracked = 0;
     long failed = 0;
-    std::string record;  // how long one is, and what it hears
+    std::string record;  // description of a record
     InterpolationErrors interpolation;
     std::vector<MonitoredFeature> monitored;
 };
 
-// Of a results file of `lives`. Throws std::runtime_error if it is none, or damaged.
+// Summarises a results file of `lives`. Throws std::runtime_error if it is not one, or damaged.
 LivesPoint summarise_lives(const SweepPoint& point, const std::string& results);
 
-// The feature and detector that find most over all points, then shallowest; nullptr where no point
-// has a threshold.
+// Returns the feature and detector that find most cracks over all points; with equal numbers, those
+// that find the smallest cracks. Returns null if no point has a threshold.
 const MonitoredFeature* best_over(const std::vector<LivesPoint>& points);
 
-// A table with a line a point, by best_over(), and which are best at that point.
+// Table with a line for each point: the results of best_over(), and the best detector at the point.
 std::string lives_sweep_text(const std::vector<VariedKey>& keys,
                              const std::vector<LivesPoint>& points);
 
-// `title`: the study's. The keys are in mc/README.md.
+// `title`: title of the study. mc/README.md lists the keys.
 nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
                                 const std::vector<LivesPoint>& points);
 

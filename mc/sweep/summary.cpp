@@ -64,7 +64,7 @@ std::string size_cell(const PointSummary& point, double noise_level) {
     return fmt::format("{:.3g}{}{}", at->smallest->size, point.unit.empty() ? "" : " ", point.unit);
 }
 
-// Of the level that is shown first, with the area of its feature.
+// Best feature at the noise level that is shown first, with its AUC.
 std::string best_cell(const PointSummary& point) {
     if (point.levels.empty()) {
         return "";
@@ -79,7 +79,7 @@ std::string best_cell(const PointSummary& point) {
     return "";
 }
 
-// Each once, however many points say it.
+// Warnings of all points, without duplicates.
 std::string shortages(const std::vector<PointSummary>& points) {
     std::vector<std::string> said;
     std::string text;
@@ -134,12 +134,12 @@ std::string sweep_text(const std::vector<VariedKey>& keys,
     for (const VariedKey& key : keys) {
         lines[0].push_back(short_key(key.key));
     }
-    lines[0].insert(lines[0].end(), {"boxes", "failed"});
+    lines[0].insert(lines[0].end(), {"gearboxes", "failed"});
     for (const double level : levels) {
         lines[0].push_back(fmt::format("noise x {:g}", level));
     }
     const bool any = !points.empty() && !points[0].levels.empty();
-    lines[0].push_back(any ? fmt::format("by (AUC), noise x {:g}",
+    lines[0].push_back(any ? fmt::format("feature (AUC), noise x {:g}",
                                          points[0].levels[points[0].reference].noise_level)
                            : "");
     for (const PointSummary& point : points) {
@@ -157,7 +157,7 @@ std::string sweep_text(const std::vector<VariedKey>& keys,
                "smallest fault found with 90 % probability at {:g} % confidence, by noise level\n",
                points.empty() ? 0.0 : 100.0 * points[0].confidence) +
            aligned(lines) +
-           "none: no tested fault is; ?: too few healthy gearboxes for a threshold\n";
+           "none: no tested fault is found; ?: too few healthy gearboxes for a threshold\n";
 }
 
 nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<VariedKey>& keys,

@@ -1,5 +1,5 @@
-// Factorisations of a gearbox's matrices, whose templates are compiled here alone: they take the
-// compiler longer than a kernel.
+// Factorizations of a gearbox's matrices. Their Eigen templates are instantiated only in this
+// source file, because they take longer to compile than a kernel.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,20 +8,20 @@ namespace gearpod::dynamics {
 
 struct EigenPairs {
     Eigen::VectorXcd values;
-    Eigen::MatrixXcd vectors;  // a column each
+    Eigen::MatrixXcd vectors;  // one per column
 };
 
 struct Modes {
-    Eigen::VectorXd squares;  // (rad/s)^2, the smallest first
-    Eigen::MatrixXd shapes;   // a column each
+    Eigen::VectorXd squares;  // (rad/s)^2, ascending
+    Eigen::MatrixXd shapes;   // one per column
 };
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 EigenPairs eigen_pairs(const Eigen::MatrixXd& matrix);
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
-// The solution of least norm.
+// Solution of least norm.
 Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
-// Of symmetric matrices.
+// Undamped modes; both matrices must be symmetric.
 Modes modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 bool positive_definite(const Eigen::MatrixXd& matrix);
 

@@ -1,5 +1,5 @@
-// Eigen's vectors and matrices by name alone, for headers that only declare functions of them:
-// reading Eigen takes the compiler a second, and most who ask about a gearbox need none of it.
+// Forward declarations of Eigen's vectors and matrices, for headers that only declare functions of
+// them. Including Eigen takes the compiler a second, and most users of a gearbox do not need it.
 #pragma once
 
 namespace Eigen {

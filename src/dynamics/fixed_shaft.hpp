@@ -3,9 +3,9 @@
 //
 // Order of the motions q: x_1 y_1 x_2 y_2 (m; 1 the pinion, 2 the gear, y along the line of action)
 // and u_m u_1 u_2 u_b (m) of motor, pinion, gear and load. u = R_b theta with the pinion's base
-// radius for motor and pinion, the gear's for gear and load, so that the mesh deflects by
-// u_1 - u_2 - y_1 + y_2. Every spring-damper acts on both its ends: Eq. 4.4 prints the mesh force
-// on the gear with the sign of that on the pinion, which would create energy.
+// radius for motor and pinion, and the gear's for gear and load. The mesh thus deflects by u_1 -
+// u_2 - y_1 + y_2. Every spring-damper acts on both its ends. Eq. 4.4 prints the mesh force on the
+// gear with the sign of that on the pinion, which would create energy.
 #pragma once
 
 #include <string>
@@ -22,22 +22,23 @@ struct SpringDamper;
 
 enum FixedShaftGear { pinion, gear, fixed_shaft_gear_count };
 
-// Positions in q.
+// Indices in q.
 enum FixedShaftMotion { x_1, y_1, x_2, y_2, u_m, u_1, u_2, u_b, fixed_shaft_motions };
 
-// What all gearboxes of an ensemble share.
+// Properties common to all gearboxes of an ensemble.
 struct FixedShaftLayout {
     double base_radius_m[fixed_shaft_gear_count] = {};
     MeshDamping mesh_damping = MeshDamping::proportional;
-    FixedShaftGear sensor = pinion;  // the gear on whose bearing the sensor sits
+    FixedShaftGear sensor = pinion;  // gear whose bearing carries the sensor
 
     int pairs() const { return 1; }
     int sources() const { return 1; }
     int degrees_of_freedom() const { return fixed_shaft_motions; }
 };
 
-// What differs between gearboxes; SI units. Arrays are indexed by FixedShaftGear: bearings in x and
-// y alike; coupling of the motor with the pinion, of the gear with the load.
+// Parameters that differ between gearboxes; SI units. Arrays are indexed by FixedShaftGear.
+// Bearings are equal in x and y. Couplings connect the motor with the pinion, and the gear with the
+// load.
 struct FixedShaftInputs {
     double mass_kg[fixed_shaft_gear_count] = {};
     double inertia_kg_m2[fixed_shaft_gear_count] = {};
@@ -46,8 +47,8 @@ struct FixedShaftInputs {
     double coupling_stiffness_N_m_rad[fixed_shaft_gear_count] = {};
     double coupling_damping_N_m_s_rad[fixed_shaft_gear_count] = {};
     double motor_inertia_kg_m2 = 0.0, load_inertia_kg_m2 = 0.0;
-    double motor_torque_N_m = 0.0, load_torque_N_m = 0.0;  // each along its own arrow, Eqs. 4.7-4.8
-    double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), as the layout says
+    double motor_torque_N_m = 0.0, load_torque_N_m = 0.0;  // directions as in Eqs. 4.7-4.8
+    double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), according to the layout
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
 };
@@ -59,19 +60,20 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
                                          const FixedShaftInputs& inputs,
                                          const std::vector<double>& pair_stiffness_N_m);
 
-// Of the load, the part that makes the train vibrate: torques out of balance also speed the whole
-// train up, which the steady mesh period leaves out. With the rigid rotation phi this is
-// f - M phi (phi . f) / (phi . M phi); it does no work on phi.
+// Assembles the matrices. Unbalanced torques would also accelerate the whole train, which
+// contradicts the steady mesh period. The force is therefore only the part of the load that excites
+// vibration, f - M phi (phi . f) / (phi . M phi) with the rigid rotation phi; it does no work on
+// phi.
 GearboxMatrices assemble(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
                          const std::vector<double>& pair_stiffness_N_m);
 
 double mesh_damping_factor(const FixedShaftLayout& layout, const FixedShaftInputs& inputs,
                            int pair);
 
-// All four rotations alike; deflects nothing.
+// Equal rotation of all four bodies, which deflects no spring.
 Eigen::VectorXd rigid_rotation(const FixedShaftLayout& layout);
 
-// Name of every degree of freedom: pinion_x, pinion_y, ...
+// Names of the degrees of freedom: pinion_x, pinion_y, ...
 std::vector<std::string> motion_names(const FixedShaftLayout& layout);
 
 }  // namespace gearpod::dynamics

@@ -1,4 +1,4 @@
-// Parameters of W fixed-shaft gearboxes, structure of arrays, as the lockstep kernels read them.
+// Parameters of W fixed-shaft gearboxes for the lockstep kernels, as a structure of arrays.
 #pragma once
 
 #include <span>
@@ -14,12 +14,12 @@ struct alignas(64) FixedShaftLanes {
     // [motion][lane].
     Real inverse_mass[fixed_shaft_motions][W];
     Real force[fixed_shaft_motions][W];
-    // [pinion, gear][lane]; the couplings' over R_b^2.
+    // [pinion, gear][lane]; those of the couplings are divided by R_b^2.
     Real bearing_stiffness[fixed_shaft_gear_count][W];
     Real bearing_damping[fixed_shaft_gear_count][W];
     Real coupling_stiffness[fixed_shaft_gear_count][W];
     Real coupling_damping[fixed_shaft_gear_count][W];
-    Real mesh_damping_factor[W];  // times the shape of the stiffness
+    Real mesh_damping_factor[W];  // multiplies the damping shape
     Real mesh_period[W];          // s
     Real backlash[W];             // 2b of the mesh, m
     int sensor;                   // FixedShaftGear

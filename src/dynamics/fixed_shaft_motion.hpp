@@ -1,5 +1,5 @@
-// Lockstep accelerations of the fixed-shaft gearbox: the physics of fixed_shaft.cpp's matrices
-// (tests compare the two), written out per spring-damper. Tian (2004), Eqs. 4.1-4.8.
+// Lockstep accelerations of the fixed-shaft gearbox, written out per spring-damper. The physics is
+// that of the matrices in fixed_shaft.cpp; tests compare the two. Tian (2004), Eqs. 4.1-4.8.
 #pragma once
 
 #include "dynamics/effects/mesh_law.hpp"

@@ -12,7 +12,7 @@ struct ByKind : Cases... {
 template <class... Cases>
 ByKind(Cases...) -> ByKind<Cases...>;
 
-// f(layout, inputs) of the kind that both have.
+// Calls f(layout, inputs) with the alternatives of their common kind.
 template <class F>
 auto with_inputs(const GearboxLayout& layout, const GearboxInputs& inputs, F f) {
     return std::visit(ByKind{[&](const PlanetaryLayout& kind) {

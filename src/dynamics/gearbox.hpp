@@ -1,4 +1,4 @@
-// A gearbox of any kind: what the march and the program ask of a kind, kind by kind.
+// Interface to a gearbox of any kind; dispatches to the functions of its kind.
 #pragma once
 
 #include <span>
@@ -12,21 +12,22 @@
 namespace gearpod::dynamics {
 
 using GearboxLayout = std::variant<PlanetaryLayout, FixedShaftLayout>;
-// Of the same kind as the layout they go with.
+// Must be of the same kind as the layout.
 using GearboxInputs = std::variant<PlanetaryInputs, FixedShaftInputs>;
 
 int degrees_of_freedom(const GearboxLayout& layout);
 int pairs(const GearboxLayout& layout);
-// Places whose x and y acceleration the sensor's channels take: the planets, or one bearing.
+// Number of locations whose x and y acceleration the sensor's channels record: the planets, or one
+// bearing.
 int sources(const GearboxLayout& layout);
 MeshDamping mesh_damping(const GearboxLayout& layout);
 double mesh_period_s(const GearboxInputs& inputs);
 std::vector<double> mesh_periods_s(std::span<const GearboxInputs> inputs);
 double backlash_m(const GearboxInputs& inputs);
-// Speed of the frame that x and y turn with: the carrier's, or 0.
+// Rotational speed of the frame of x and y: that of the carrier, or 0.
 double frame_speed_rad_s(const GearboxInputs& inputs);
 
-// The functions of the same names in planetary.hpp and fixed_shaft.hpp; all rows are over the
+// Same as the functions of these names in planetary.hpp and fixed_shaft.hpp. All rows are over the
 // degrees of freedom.
 GearboxMatrices assemble(const GearboxLayout& layout, const GearboxInputs& inputs,
                          const std::vector<double>& pair_stiffness_N_m);

@@ -21,8 +21,8 @@ void add(GearboxMatrices& matrices, const SpringDamper& spring) {
 }
 
 Eigen::VectorXd static_equilibrium(const GearboxMatrices& matrices) {
-    // The least-norm solution leaves the rigid rotation, the null vector of a free gearbox, at
-    // zero.
+    // The least-norm solution has no component along the rigid rotation, the null vector of a free
+    // gearbox.
     return solve(matrices.stiffness + matrices.centrifugal, matrices.force);
 }
 
@@ -31,7 +31,7 @@ std::vector<double> natural_frequencies_Hz(const GearboxMatrices& matrices) {
     std::vector<double> frequencies;
     const double largest = squares.cwiseAbs().maxCoeff();
     for (const double value : squares) {
-        // A rigid rotation comes out as rounding noise of either sign.
+        // The eigenvalue of a rigid rotation is rounding error of either sign.
         frequencies.push_back(
             std::abs(value) < 1e-10 * largest ? 0.0 : std::sqrt(value) / (2.0 * std::numbers::pi));
     }

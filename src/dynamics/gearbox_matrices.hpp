@@ -1,5 +1,5 @@
-// Equations of motion of a gearbox of any kind, M q'' + (C + G) q' + (K + K_inertial) q = f, and
-// what follows from them at rest.
+// Equations of motion of a gearbox of any kind, M q'' + (C + G) q' + (K + K_inertial) q = f.
+// Includes static equilibrium and natural frequencies.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace gearpod::dynamics {
 
-// A spring and a damper side by side on the deflection d = row . q: adds k row row^T to K and
-// c row row^T to C, so that both are symmetric and what deflects nothing costs no energy.
+// Spring and damper in parallel on the deflection d = row . q. It adds k row row^T to K and c row
+// row^T to C, so both stay symmetric, and motions without deflection need no energy.
 struct SpringDamper {
     std::string name;  // as in "the motor coupling"
     Eigen::VectorXd row;
@@ -22,15 +22,16 @@ struct GearboxMatrices {
     Eigen::VectorXd force;
 };
 
-// All matrices and the force zero.
+// Matrices and force, all zero.
 GearboxMatrices zero_matrices(int motions);
 
 void add(GearboxMatrices& matrices, const SpringDamper& spring);
 
-// Displacements at rest under the load; the free rigid rotation, if any, is left at zero.
+// Static displacements under the load, without any free rigid rotation.
 Eigen::VectorXd static_equilibrium(const GearboxMatrices& matrices);
 
-// Undamped natural frequencies at rest, Hz, ascending; a rigid rotation shows as 0.
+// Undamped natural frequencies without rotation of the frame, Hz, ascending; that of a rigid
+// rotation is 0.
 std::vector<double> natural_frequencies_Hz(const GearboxMatrices& matrices);
 
 }  // namespace gearpod::dynamics

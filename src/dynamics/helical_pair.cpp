@@ -5,7 +5,8 @@
 namespace gearpod::dynamics {
 namespace {
 
-// The tooth's normal as seen from the central gear: radial, tangential and axial parts.
+// Unit normal of the tooth flank relative to the central gear: radial, tangential and axial
+// components.
 struct Normal {
     double x, y, z;
 };
@@ -43,7 +44,7 @@ PairMatrix pair_matrix(const PairVector& deflection, double stiffness_N_m) {
 }
 
 double transverse_pressure_angle(double pressure_angle_rad, double helix_angle_rad) {
-    // A spur tooth keeps its angle to the last bit.
+    // The angle of a spur tooth must stay bit-identical.
     return helix_angle_rad == 0.0
                ? pressure_angle_rad
                : std::atan(std::tan(pressure_angle_rad) / std::cos(helix_angle_rad));

@@ -1,14 +1,14 @@
-// A meshing pair of helical gears as one spring along the normal to the tooth: both gears' three
-// translations and three rotations, and what of it remains in the transverse plane.
+// Helical gear pair as one spring along the normal of the tooth flank: deflection over three
+// translations and three rotations of both gears, and its restriction to the transverse plane.
 //
 // Source: Park et al. (2016), section III-B and Eqs. A1, A2, after Kim (2001). The printed matrices
-// are k v v^T of the vectors below but for slips, as far as the scan can be read: y_s y_p (A1) and
-// y_p y_r (A2) carry a squared sine for cos^2(omega); in (A2) x_p z_r has cos(omega) for
-// sin(omega), and the planet's y and z couple to its own rotations by r_r for r_p. As printed,
-// rigid motion would cost energy.
+// are k v v^T of the vectors below, except for printing errors, as far as the scan is legible. y_s
+// y_p (A1) and y_p y_r (A2) have a squared sine instead of cos^2(omega). In (A2), x_p z_r has
+// cos(omega) instead of sin(omega), and the planet's y and z couple to its own rotations by r_r
+// instead of r_p. As printed, rigid motion would need energy.
 //
 // x points from the central gear's axis to the planet's, z along the axes. phi is the pressure
-// angle in the normal plane, omega the helix angle, radii are those of the pitch circles.
+// angle in the normal plane, omega the helix angle; radii are those of the pitch circles.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,20 +23,20 @@ struct HelicalPair {
     double helix_angle_rad = 0.0;
 };
 
-// Deflection over (x, y, z, alpha, beta, gamma) of the sun, then of the planet (A1); of the planet,
-// then of the ring (A2). Translations m, rotations rad.
+// Deflection over (x, y, z, alpha, beta, gamma) of the sun and then the planet (A1), or of the
+// planet and then the ring (A2). Translations in m, rotations in rad.
 PairVector sun_planet_deflection(const HelicalPair& pair, double sun_radius_m,
                                  double planet_radius_m);
 PairVector planet_ring_deflection(const HelicalPair& pair, double planet_radius_m,
                                   double ring_radius_m);
 
-// k v v^T; k is the stiffness along the tooth's normal, N/m.
+// k v v^T; k is the stiffness along the normal of the tooth flank, N/m.
 PairMatrix pair_matrix(const PairVector& deflection, double stiffness_N_m);
 
-// Gears that move in the transverse plane only, x, y and gamma: there v has the length
-// sqrt(sin^2 phi + cos^2 phi cos^2 omega) and the direction of the transverse pressure angle
-// atan(tan phi / cos omega). So the pair is a spur pair of that pressure angle, its base radii
-// r cos(transverse angle) included, whose stiffness is the normal one times the squared length.
+// Equivalent spur pair of gears that move only in the transverse plane (x, y and gamma). There v
+// has the length sqrt(sin^2 phi + cos^2 phi cos^2 omega) and the direction of the transverse
+// pressure angle atan(tan phi / cos omega). The spur pair has that pressure angle, base radii r
+// cos(transverse angle), and the normal stiffness times the squared length.
 double transverse_pressure_angle(double pressure_angle_rad, double helix_angle_rad);
 double transverse_stiffness_factor(double pressure_angle_rad, double helix_angle_rad);
 

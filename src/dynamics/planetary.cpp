@@ -33,7 +33,7 @@ void add_inertial_terms(GearboxMatrices& m, const PlanetaryLayout& layout,
     }
 }
 
-// A bearing that is at rest where its pin is: f = k_p (pin) along x and y.
+// Adds f = k_p (pin) along x and y: a bearing is unloaded where its pin is.
 void add_pin_forces(GearboxMatrices& m, const PlanetaryLayout& layout,
                     const PlanetaryInputs& inputs) {
     for (int n = 0; n < layout.planets; ++n) {
@@ -219,7 +219,8 @@ std::vector<std::string> motion_names(const PlanetaryLayout& layout) {
 }
 
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
-    // From zero deflection of both meshes: u_s + u_n = u_c cos a_s and u_r - u_n = u_c cos a_r.
+    // Condition of zero deflection of both meshes: u_s + u_n = u_c cos a_s and u_r - u_n = u_c cos
+    // a_r.
     const double cos_s = std::cos(layout.sun_mesh_angle());
     const double cos_r = std::cos(layout.ring_mesh_angle());
     const Body held = held_body(layout.fixed);

@@ -1,9 +1,9 @@
 // Planetary gearbox with 9 + 3N degrees of freedom, as mass, damping and stiffness matrices.
 //
-// Order of the motions q: carrier, ring, sun, planets 1..N; each x, y (m, in the frame that turns
-// with the carrier) and u = r theta (m; r the base radius, for the carrier the centre distance).
-// Every spring-damper is one row v of the deflection d = v . q; it adds k v v^T and c v v^T.
-// Lin and Parker (1999); Liang (2016), Eqs. 4.2.1-4.2.4 in this energy-consistent form.
+// Order of the motions q: carrier, ring, sun, planets 1..N. Each has x, y (m, in the frame that
+// rotates with the carrier) and u = r theta (m; r is the base radius, or the centre distance for
+// the carrier). Every spring-damper is one row v of the deflection d = v . q; it adds k v v^T and c
+// v v^T. Lin and Parker (1999); Liang (2016), Eqs. 4.2.1-4.2.4 in this energy-consistent form.
 #pragma once
 
 #include <optional>
@@ -32,29 +32,29 @@ inline int motion_index(Body body, int n = 0) {
     return 3 * (body + n);
 }
 
-// What all gearboxes of an ensemble share.
+// Properties common to all gearboxes of an ensemble.
 struct PlanetaryLayout {
     int planets = 0;
-    double pressure_angle_rad = 0.0;    // of the normal plane, if the teeth are helical
-    double helix_angle_rad = 0.0;       // see helical_pair.hpp for what it does to a stiffness
+    double pressure_angle_rad = 0.0;    // of the normal plane for helical teeth
+    double helix_angle_rad = 0.0;       // see helical_pair.hpp for its effect on the stiffness
     std::vector<double> positions_rad;  // psi_n; empty: equally spaced
-    double carrier_radius_m = 0.0;      // centre distance; only inertial terms need it
+    double carrier_radius_m = 0.0;      // centre distance; used only by inertial terms
     gears::FixedMember fixed = gears::FixedMember::ring;
     Motion motion = Motion::translational_torsional;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
-    // Working pressure angles in the plane of rotation, where profile shift makes them another one.
+    // Working pressure angles in the plane of rotation, if profile shift changes them.
     std::optional<double> sun_working_angle_rad = {}, ring_working_angle_rad = {};
 
     int pairs() const { return 2 * planets; }
-    int sources() const { return planets; }  // places whose acceleration the sensor hears
+    int sources() const { return planets; }  // locations whose acceleration the sensor measures
     int motions() const { return 9 + 3 * planets; }
     int degrees_of_freedom() const { return motion == Motion::torsional ? 3 + planets : motions(); }
-    // Where the rotation u of carrier, ring, sun or (planet + n) stands among them.
+    // Index of the rotation u of carrier, ring, sun or (planet + n) among the degrees of freedom.
     int rotation_index(int body) const { return motion == Motion::torsional ? body : 3 * body + 2; }
     double planet_angle(int n) const;  // psi_n, rad
     double transverse_pressure_angle() const;
-    // Between a mesh's line of action and the normal to its centre line.
+    // Angle between a mesh's line of action and the normal to its centre line.
     double sun_mesh_angle() const {
         return sun_working_angle_rad.value_or(transverse_pressure_angle());
     }
@@ -63,23 +63,24 @@ struct PlanetaryLayout {
     }
 };
 
-// What sets a planet apart from the others: factors on what they all have, and where its pin is
-// off its place in the carrier, m along the frame's x and y: the bearing is at rest there.
+// Individual deviations of a planet: factors on the properties of all planets, and the offset of
+// its pin from the nominal position in the carrier, m along the frame's x and y. The bearing is
+// unloaded at that offset.
 struct PlanetOwn {
     double bearing_stiffness = 1.0, bearing_damping = 1.0;
     double mass = 1.0;  // and inertia
     double pin_x_m = 0.0, pin_y_m = 0.0;
 };
 
-// What differs between gearboxes; SI units. Arrays are indexed by Body.
+// Parameters that differ between gearboxes; SI units. Arrays are indexed by Body.
 struct PlanetaryInputs {
     double mass_kg[body_count] = {};
     double inertia_over_r2_kg[body_count] = {};  // J / r^2, r as for u
     double bearing_stiffness_N_m[body_count] = {};
     double bearing_damping_N_s_m[body_count] = {};
-    double support_stiffness_N_m = 0.0;  // holds the fixed member's u
+    double support_stiffness_N_m = 0.0;  // of the fixed member's u
     double support_damping_N_s_m = 0.0;
-    double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), as the layout says
+    double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), according to the layout
     double carrier_speed_rad_s = 0.0;
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
@@ -94,14 +95,14 @@ Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n);
 Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n);
 Eigen::VectorXd planet_bearing_row(const PlanetaryLayout& layout, int n, int axis);
 
-// All spring-dampers over the 9 + 3N motions, at given stiffness of the 2N pairs (sp1..spN,
+// All spring-dampers over the 9 + 3N motions, for the given stiffness of the 2N pairs (sp1..spN,
 // rp1..rpN).
 std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                                          const PlanetaryInputs& inputs,
                                          const std::vector<double>& pair_stiffness_N_m);
 
-// Planets that cannot move on their bearings, x_n = -u_c sin psi_n, y_n = u_c cos psi_n: motions
-// from the degrees of freedom of the layout's motion.
+// Matrix from the layout's degrees of freedom to all motions. In torsional motion, planets cannot
+// move on their bearings: x_n = -u_c sin psi_n, y_n = u_c cos psi_n.
 Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout);
 
 // Matrices over the layout's degrees of freedom. `torsional` motion ties each planet to the carrier
@@ -109,20 +110,20 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout);
 GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
                          const std::vector<double>& pair_stiffness_N_m);
 
-// Name of every degree of freedom: carrier_x, carrier_y, carrier_u, ...
+// Names of the degrees of freedom: carrier_x, carrier_y, carrier_u, ...
 std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 
-// The member that `fixed` names.
+// Body of the fixed member.
 Body held_body(gears::FixedMember fixed);
 
-// Damping of a pair over the shape of its stiffness (effects/mesh_damping.hpp): with it, damping
-// is 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22) or c.
+// Mesh damping of a pair divided by the damping shape of its stiffness (effects/mesh_damping.hpp).
+// The damping is 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22) or c.
 double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);
 
-// The motion that deflects nothing: the train turning freely past its held member. It is neutral in
-// a real gearbox. The linearised centrifugal term W^2 x lets it grow at a rate near W, since the
-// linear model lacks the turn of the bearing pull that cancels it; so the march removes it
-// (lockstep/tile).
+// Motion without any deflection: free rotation of the train relative to its fixed member. It is
+// neutral in a real gearbox. In the linear model, the centrifugal term W^2 x lets it grow at a rate
+// near W. The model lacks the rotation of the bearing force that cancels this term. The time
+// integration therefore removes it (lockstep/tile).
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout);
 
 }  // namespace gearpod::dynamics

@@ -26,7 +26,7 @@ void set_directions(PlanetaryLanes<W, Real>& lanes, const PlanetaryLayout& layou
     }
 }
 
-// Of the planets that ride on the carrier.
+// Mass of the planets, which the carrier moves in torsional motion.
 double riding_mass_kg(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
     double factors = 0.0;
     for (int n = 0; n < layout.planets; ++n) {

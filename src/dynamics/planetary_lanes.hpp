@@ -1,4 +1,4 @@
-// Parameters of W planetary gearboxes, structure of arrays, as the lockstep kernels read them.
+// Parameters of W planetary gearboxes for the lockstep kernels, as a structure of arrays.
 #pragma once
 
 #include <span>
@@ -17,18 +17,19 @@ struct alignas(64) PlanetaryLanes {
     Real inverse_inertia[kBodies][W];  // 1 / (J / r^2)
     Real bearing_stiffness[kBodies][W];
     Real bearing_damping[kBodies][W];
-    // [carrier, ring, sun][lane]: support of u; zero but for the held member.
+    // [carrier, ring, sun][lane]: support of u; zero except for the fixed member.
     Real support_stiffness[3][W];
     Real support_damping[3][W];
     Real force[3][W];
-    Real mesh_damping_factor[kMaxPairs][W];  // of each pair: times the shape of the stiffness
-    Real pin_x[kMaxPlanets][W], pin_y[kMaxPlanets][W];  // where planet n's bearing is at rest, m
-    Real speed[W];                                      // carrier, rad/s
-    Real centrifugal[W];                                // r_c Omega^2, m/s^2
-    Real mesh_period[W];                                // s
-    Real backlash[W];                                   // 2b of every mesh, m
+    Real mesh_damping_factor[kMaxPairs][W];  // per pair; multiplies the damping shape
+    // unloaded position of planet n's bearing, m
+    Real pin_x[kMaxPlanets][W], pin_y[kMaxPlanets][W];
+    Real speed[W];        // carrier, rad/s
+    Real centrifugal[W];  // r_c Omega^2, m/s^2
+    Real mesh_period[W];  // s
+    Real backlash[W];     // 2b of every mesh, m
 
-    // Shared by all lanes: unit vectors of planet n's radius, sun mesh and ring mesh.
+    // Data common to all lanes: unit vectors of planet n's radius, sun mesh and ring mesh.
     Real cos_psi[kMaxPlanets], sin_psi[kMaxPlanets];
     Real cos_sun[kMaxPlanets], sin_sun[kMaxPlanets];
     Real cos_ring[kMaxPlanets], sin_ring[kMaxPlanets];

@@ -1,7 +1,7 @@
-// Lockstep accelerations of the rotations alone, 3 + N: carrier, ring, sun, planets 1..N.
-// Bearings are rigid, so a planet rides on the carrier: x_n = -u_c sin psi_n, y_n = u_c cos psi_n,
-// and a mesh sees -u_c cos(alpha), alpha being its working pressure angle. The planets' masses
-// count in the carrier's inertia (make_lanes).
+// Lockstep accelerations of the torsional model with 3 + N rotations: carrier, ring, sun, planets
+// 1..N. Bearings are rigid, so planets move with the carrier: x_n = -u_c sin psi_n, y_n = u_c cos
+// psi_n. A mesh with working pressure angle alpha thus deflects by -u_c cos(alpha). The planets'
+// masses are included in the carrier's inertia (make_lanes).
 #pragma once
 
 #include <cmath>

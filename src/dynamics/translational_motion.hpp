@@ -1,5 +1,6 @@
-// Lockstep accelerations of the 9 + 3N model: carrier, ring, sun, planets with x, y and u each.
-// Same physics as planetary.cpp's matrices (tests compare the two), written out per spring-damper.
+// Lockstep accelerations of the model with 9 + 3N degrees of freedom: x, y and u of carrier, ring,
+// sun and planets, written out per spring-damper. The physics is that of the matrices in
+// planetary.cpp; tests compare the two.
 #pragma once
 
 #include <cmath>
@@ -84,8 +85,8 @@ struct TranslationalMotion {
         }
     }
 
-    // Both meshes and the bearing of planet n: completes its accelerations and adds the reactions
-    // to the forces on carrier, ring and sun.
+    // Adds the forces of both meshes and the bearing of planet n. Completes its accelerations, and
+    // adds the reactions to the forces on carrier, ring and sun.
     static GEARPOD_INLINE void planet_forces(const Lanes& p, int n, const Real* __restrict q,
                                              const Real* __restrict v, const Pairs& pairs,
                                              Real* __restrict f) {

@@ -22,8 +22,8 @@ Eigen::MatrixX2d planetary_weight(const PlanetaryLayout& layout, const Planetary
     return motions_from_degrees(layout).transpose() * weight;
 }
 
-// Planets that do not balance each other would turn the train as one body; its rotation is
-// prescribed, so what would do so is left out, as with torques out of balance (fixed_shaft.cpp).
+// Removes the part of the force that rotates the train as a rigid body, as for unbalanced torques
+// (fixed_shaft.cpp). Unbalanced planets cause such a part, but the rotation is prescribed.
 Eigen::VectorXd without_turning(const Eigen::VectorXd& force, const Eigen::MatrixXd& mass,
                                 const Eigen::VectorXd& turn) {
     const double turning = turn.dot(force);

@@ -1,23 +1,23 @@
-// Forces on a gearbox's degrees of freedom that vary while it turns, each a pattern over the
-// degrees of freedom times a number that varies.
+// Time-varying forces on a gearbox's degrees of freedom. Each is a pattern over the degrees of
+// freedom times a time-varying factor.
 #pragma once
 
 #include "dynamics/gearbox.hpp"
 
 namespace gearpod::dynamics {
 
-// The external torques in balance, N: what a relative fluctuation of all of them multiplies.
-// Neither the pull of the turning carrier nor a weight is part of it.
+// External torques in balance, N, to be multiplied by their common relative fluctuation. Excludes
+// the centrifugal force of the rotating carrier and the weight.
 Eigen::VectorXd torque_force(const GearboxLayout& layout, const GearboxInputs& inputs);
 
 // Weight, N per 1 m/s^2 of gravity along the model's x (column 0) and y (column 1). In a planetary
-// train these axes turn with the carrier. Riding planets of a torsional train weigh on
-// the carrier's rotation. What would turn the train as one body is left out.
+// train these axes rotate with the carrier. In a torsional train the planets' weight acts on the
+// carrier's rotation. The part that would rotate the train as a rigid body is removed.
 Eigen::MatrixX2d weight_force(const GearboxLayout& layout, const GearboxInputs& inputs);
 
-// The train turning unevenly, N per 1 m/s^2 along rigid_rotation(layout): every mass resists, and
-// the torque on degree of freedom `driving` speeds them all up. The train's free rotation feels no
-// part of the sum, since it is that rotation that is prescribed.
+// Force under angular acceleration of the train, N per 1 m/s^2 along rigid_rotation(layout): the
+// inertia forces of all masses, and the torque on degree of freedom `driving` that accelerates
+// them. The sum does no work on the free rotation, because that rotation is prescribed.
 Eigen::VectorXd uneven_turning_force(const GearboxLayout& layout, const GearboxInputs& inputs,
                                      int driving);
 

@@ -106,7 +106,8 @@ constexpr std::array kFeatures{
             &ring_window_m8a, true, kRingMoments},
 };
 
-// Of the change since the baseline record: the energy of what changed, and where on the gears.
+// Features computed from the change since the baseline record: its energy, and its location on the
+// gears.
 constexpr std::string_view kOfChange[] = {"sensor_rms",       "window_ratio", "window_z",
                                           "sun_window_ratio", "sun_window_z", "ring_window_ratio",
                                           "ring_window_z"};
@@ -139,7 +140,7 @@ class Catalogue {
     std::string_view text(std::string_view before, std::string_view of, std::string_view behind) {
         return texts_.emplace_back(std::string(before).append(of).append(behind));
     }
-    std::deque<std::string> texts_;  // which keeps its strings in place
+    std::deque<std::string> texts_;  // a deque, so that the strings never move
     std::vector<Feature> all_;
 };
 

@@ -1,5 +1,4 @@
-// Energy ratio: RMS of the difference signal over the RMS of the regular one.
-// Lebold et al. (2000).
+// Energy ratio: RMS of the difference signal over RMS of the regular signal. Lebold et al. (2000).
 #include <cmath>
 
 #include "features/feature.hpp"

@@ -1,5 +1,6 @@
-// Condition indicators: one number for one gearbox at one noise level. A feature is one short file
-// with its definition, and one line in all_features.cpp. README.md lists all definitions.
+// Condition indicators (features): one number for one gearbox at one noise level. A feature is a
+// short source file with its definition, and one line in all_features.cpp. README.md lists all
+// definitions.
 #pragma once
 
 #include <span>
@@ -7,39 +8,39 @@
 
 namespace gearpod::features {
 
-// Which way the feature moves as damage grows, hence which side of a threshold raises the alarm.
+// Direction in which the feature changes as damage grows, and thus the alarm side of a threshold.
 enum class AlarmSide { high, low };
 
-// A signal averaged over the turns of a gear, and its parts: signals/spectra/mesh_separation.hpp.
+// Signal averaged over the turns of a gear, and its parts: signals/spectra/mesh_separation.hpp.
 struct TurnSignals {
     std::span<const double> turn;  // mean not removed
     std::span<const double> regular, residual, difference, envelope;
     std::span<const double> amplitude;  // [order]
 };
 
-// Statistics of every tooth's windowed and mapped signal: signals/windowing/tooth_signals.hpp.
+// Statistics of the windowed and mapped signal of every tooth: signals/windowing/tooth_signals.hpp.
 struct ToothSignals {
     std::span<const double> rms, kurtosis, crest, m8a;
 };
 
-// What trending indicators know of healthy gearboxes: means over several records.
+// Reference values of healthy gearboxes for trending indicators: means over several records.
 struct HealthyRecords {
     double residual_variance = 0.0;     // (m/s^2)^2
     double envelope_variance = 0.0;     // (m/s^2)^2, about the envelope's mean
     std::span<const double> amplitude;  // m/s^2, [order] of the averaged turn
 };
 
-// The signals of one gearbox at one noise level. Empty where nobody asked for them.
+// Signals of one gearbox at one noise level. Signals that no requested feature needs are empty.
 struct FeatureInput {
-    // The same of the gearbox's own earlier record, and of what has changed since: record less
-    // baseline, sample by sample. Null where nobody asked for them.
+    // Signals of the gearbox's own baseline record, and of the change since then (record minus
+    // baseline, sample by sample). Null unless requested.
     const FeatureInput* baseline = nullptr;
     const FeatureInput* change = nullptr;
 
     std::span<const double> te_turn;       // rad, one planet turn, averaged, mean removed
     std::span<const double> te_amplitude;  // rad, [order], order 0 to the Nyquist order of te_turn
     int planet_teeth = 0;                  // Z_p, the mesh order
-    int te_harmonics = 0;                  // mesh harmonics that te_fm0 counts
+    int te_harmonics = 0;                  // number of mesh harmonics in te_fm0
     std::span<const double> tooth_rms;     // m/s^2, one per planet tooth, at the best first window
     double sensor_mean_square = 0.0;       // (m/s^2)^2 over the span
 
@@ -50,16 +51,16 @@ struct FeatureInput {
     HealthyRecords healthy;
 };
 
-// Signals that cost more than folded squares and the averaged TE do. A feature without needs is
-// basic: studies use those unless they name others.
+// Signals that a feature needs in addition to folded squares and the averaged TE. A feature without
+// needs is basic: studies use the basic features by default.
 enum Need : unsigned {
     kTeParts = 1,         // FeatureInput::te
     kSensorTurn = 2,      // sensor
     kSunRms = 4,          // sun.rms
     kRingRms = 8,         // ring.rms
-    kPlanetMoments = 16,  // planet but for its rms, which is tooth_rms
-    kSunMoments = 32,     // sun but for its rms
-    kRingMoments = 64,    // ring but for its rms
+    kPlanetMoments = 16,  // planet, except rms (which is tooth_rms)
+    kSunMoments = 32,     // sun, except rms
+    kRingMoments = 64,    // ring, except rms
     kFiltered = 128,      // filtered_rms
     kHealthy = 256,       // healthy
     kBaseline = 512,      // baseline
@@ -68,8 +69,10 @@ enum Need : unsigned {
 inline constexpr unsigned kSun = kSunRms | kSunMoments;
 inline constexpr unsigned kRing = kRingRms | kRingMoments;
 
-// Of which signals: the gearbox's; those of its change since the baseline record; or the feature of
-// the gearbox's over that of its baseline's.
+// Comparison with the baseline record.
+// - nothing: the feature of the record.
+// - change: the feature of the change since the baseline record.
+// - baseline: the feature of the record divided by that of the baseline record.
 enum class Compared { nothing, change, baseline };
 
 struct Feature {
@@ -77,24 +80,25 @@ struct Feature {
     std::string_view unit;  // "1" for a ratio
     AlarmSide alarm = AlarmSide::high;
     std::string_view doc;
-    // NaN where the definition divides by zero (a signal that is exactly constant, say).
+    // NaN where the definition divides by zero (for example, a constant signal).
     double (*compute)(const FeatureInput& input) = nullptr;
-    bool from_sensor = false;  // whether it needs the sensor's signal
-    unsigned needs = 0;        // of Need; with a baseline those of the feature compared beside it
+    bool from_sensor = false;  // true if it needs the sensor signal
+    unsigned needs = 0;        // of Need; compared features include those of the underlying feature
     Compared compared = Compared::nothing;
 
     bool basic() const { return needs == 0; }
-    // NaN as `compute`, and where the baseline's is zero.
+    // NaN as for `compute`, and if the baseline value is zero.
     double value(const FeatureInput& input) const;
 };
 
-// Those of the record alone come first, then those of its change, then those over the baseline's.
+// All features: those of a single record, then those of its change, then those relative to the
+// baseline.
 std::span<const Feature> all_features();
 
-// The former: what can be had of one record.
+// Features of a single record only.
 std::span<const Feature> record_features();
 
-// nullptr if there is none of this name.
+// nullptr if no feature has this name.
 const Feature* find_feature(std::string_view name);
 
 double te_rms(const FeatureInput& input);

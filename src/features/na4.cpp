@@ -1,7 +1,7 @@
 // NA4: fourth moment of the residual signal over the squared mean variance of the residual signals
-// of M earlier records; Zakrajsek, Townsend and Decker, NASA TM-105950 (1993). The records are
-// those of M healthy gearboxes (mc/gearbox/healthy_reference.hpp), so that it is the NA4 of a
-// gearbox that was one of them when its record began; a healthy one has about 3.
+// of M earlier records; Zakrajsek, Townsend and Decker, NASA TM-105950 (1993). Here the earlier
+// records are those of M healthy gearboxes (mc/gearbox/healthy_reference.hpp). This is the NA4 of a
+// gearbox that resembled them when its record began; a healthy one has about 3.
 #include "features/feature.hpp"
 #include "features/trending.hpp"
 

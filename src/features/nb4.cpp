@@ -1,5 +1,5 @@
-// NB4: as NA4, of the envelope of the signal around the first mesh harmonic. Zakrajsek, Handschuh
-// and Decker, NASA TM-106467 (1994); the band: signals/spectra/mesh_separation.hpp.
+// NB4: the same as NA4 for the envelope of the signal around the first mesh harmonic. Zakrajsek,
+// Handschuh and Decker, NASA TM-106467 (1994); the band: signals/spectra/mesh_separation.hpp.
 #include "features/feature.hpp"
 #include "features/trending.hpp"
 

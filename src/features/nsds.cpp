@@ -1,10 +1,10 @@
-// NSDS, normalised summation of the positive amplitudes of the difference spectrum, after Lei et
-// al., Meas. Sci. Technol. 23 (2012) 055605: how far the spectrum stands above that of healthy
-// gearboxes, as a share of it,
+// NSDS, normalized summation of the positive amplitudes of the difference spectrum, after Lei et
+// al., Meas. Sci. Technol. 23 (2012) 055605: excess of the spectrum over that of healthy gearboxes,
+// relative to the latter,
 //
 //     NSDS = sum over f > 0 of max(0, s(f) - s_h(f)) / sum over f > 0 of s_h(f),
 //
-// s: amplitudes of the averaged turn, s_h: their mean over the healthy records.
+// where s are the amplitudes of the averaged turn, and s_h their mean over the healthy records.
 #include <algorithm>
 
 #include "features/feature.hpp"

@@ -1,4 +1,4 @@
-// Root mean square of the sensor signal over the span, the indicator that every monitor has.
+// Root mean square of the sensor signal over the span, a standard indicator of condition monitors.
 #include <cmath>
 
 #include "features/feature.hpp"

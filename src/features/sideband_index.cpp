@@ -1,6 +1,6 @@
-// Of the first-order sidebands of the first mesh harmonic, orders Z_p - 1 and Z_p + 1 of the
-// averaged sensor signal: the index is their mean amplitude, the level their sum
-// over the signal's RMS about its mean; Lebold et al. (2000).
+// First-order sidebands of the first mesh harmonic, orders Z_p - 1 and Z_p + 1 of the averaged
+// sensor signal. The index is their mean amplitude. The level is their sum over the signal's RMS
+// about its mean. Lebold et al. (2000).
 #include <cmath>
 
 #include "features/feature.hpp"

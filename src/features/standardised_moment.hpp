@@ -1,4 +1,5 @@
-// n^(p/2 - 1) sum (x - mean)^p / (sum (x - mean)^2)^(p/2) for even p: the kurtosis for p = 4.
+// Standardized moment n^(p/2 - 1) sum (x - mean)^p / (sum (x - mean)^2)^(p/2) for even p; the
+// kurtosis for p = 4.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Frequency centre: sum of f s(f) over sum of s(f), f > 0, in orders of the planet turn:
-// Park et al. (2016), Table II. Falls as a local fault adds sidebands at low orders.
+// Frequency centre: sum of f s(f) over sum of s(f), f > 0, in orders of the planet turn: Park et
+// al. (2016), Table II. It decreases when a local fault adds sidebands at low orders.
 #include "features/feature.hpp"
 
 namespace gearpod::features {

@@ -1,5 +1,5 @@
 // Figure of merit zero: peak-to-peak over the sum of the amplitudes at the mesh order Z_p and its
-// harmonics, as many as te_harmonics and below the Nyquist order: Park et al. (2016), Table II.
+// harmonics, up to te_harmonics of them and below the Nyquist order: Park et al. (2016), Table II.
 #include <algorithm>
 #include <limits>
 
@@ -17,7 +17,7 @@ double te_fm0(const FeatureInput& input) {
         }
         harmonics += input.te_amplitude[order];
     }
-    // Encoders too slow for a mesh harmonic show none.
+    // NaN if the encoder's sampling rate is too low for any mesh harmonic.
     return harmonics > 0.0 ? (*high - *low) / harmonics : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -1,5 +1,5 @@
-// Fourth moment of a signal over the square of the variance that healthy gearboxes have in it:
-// unlike a kurtosis it goes on rising when damage spreads and the variance grows with it.
+// Fourth moment of a signal over the square of its variance in healthy gearboxes. Unlike a
+// kurtosis, it keeps rising when damage spreads and the variance grows.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Largest tooth crest factor over the median one. Liang (2016), section 5.4, names it, citing Chen
-// and Shao.
+// Largest tooth crest factor over the median one; mentioned in Liang (2016), section 5.4, citing
+// Chen and Shao.
 #include "features/feature.hpp"
 #include "features/worst_tooth.hpp"
 

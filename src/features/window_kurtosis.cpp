@@ -1,5 +1,5 @@
-// Largest tooth kurtosis over the median one. Liang (2016), section 5.4, names kurtosis among the
-// statistics that may take the place of the RMS.
+// Largest tooth kurtosis over the median one. Liang (2016), section 5.4, lists kurtosis among the
+// possible substitutes for the RMS.
 #include "features/feature.hpp"
 #include "features/worst_tooth.hpp"
 

@@ -1,4 +1,5 @@
-// Largest tooth M8A over the median one. Liang (2016), section 5.4, names it, citing Lewicki et al.
+// Largest tooth M8A over the median one; mentioned in Liang (2016), section 5.4, citing Lewicki et
+// al.
 #include "features/feature.hpp"
 #include "features/worst_tooth.hpp"
 

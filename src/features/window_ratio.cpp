@@ -1,6 +1,6 @@
-// Largest tooth RMS over the median one: Liang (2016), Fig. 5.8, read as a ratio, so that neither
-// a healthy reference nor the absolute scale of the signal matters. For teeth of the sun and the
-// ring as for the planets'.
+// Largest tooth RMS over the median one: Liang (2016), Fig. 5.8, expressed as a ratio, so that it
+// needs no healthy reference and is independent of the signal's scale. It applies to teeth of the
+// planets, the sun and the ring.
 #include "features/feature.hpp"
 #include "features/worst_tooth.hpp"
 

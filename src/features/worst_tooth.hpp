@@ -1,4 +1,5 @@
-// The worst tooth of a gear against the others: no healthy gearbox is needed for comparison.
+// Comparison of the worst tooth of a gear with the other teeth, which needs no healthy gearbox as
+// reference.
 #pragma once
 
 #include <span>
@@ -12,10 +13,10 @@ double worst_to_median(std::span<const double> teeth);
 //
 //     z = (max - median) / (1.4826 MAD),
 //
-// median and median absolute deviation of the other teeth; 1.4826 makes MAD the standard deviation
-// of a normal sample. Simulated teeth without noise are alike to the last bit and their MAD is
-// zero, so it is not taken below 1e-6 of the median: far less than any sensor tells teeth apart by,
-// and z stays finite (0 where all teeth agree). NaN for fewer than two teeth.
+// with median and median absolute deviation of the other teeth; 1.4826 makes MAD the standard
+// deviation of a normal sample. Simulated teeth without noise are bit-identical, so their MAD is
+// zero. A lower bound of 1e-6 of the median, far below any sensor's resolution, keeps z finite (0
+// if all teeth are equal). NaN for fewer than two teeth.
 double worst_score(std::span<const double> teeth);
 
 }  // namespace gearpod::features

@@ -18,10 +18,10 @@ double profile_angle(double base_radius, double radius) {
     return std::acos(std::min(1.0, base_radius / radius));
 }
 
-// Angles count from the line of centres, positive towards the side from which contact approaches.
-// On the line of action, r_b tan(a_w) - x further on than the base tangent point of gear 1 or of an
-// internal gear 2, a gear's flank lies at this angle at a radius; x is the distance of the contact
-// from that gear's base tangent point.
+// Angular position of a flank at a radius, for contact on the line of action at the distance x from
+// the gear's base tangent point. Angles count from the line of centres, positive towards the side
+// from which contact approaches. At the pitch point x is r_b tan(a_w), and the angle on the working
+// pitch circle is 0. Valid for gear 1 and for an internal gear 2.
 double flank_angle(double base_radius, double working_angle, double x, double radius) {
     return working_angle - x / base_radius + involute(profile_angle(base_radius, radius));
 }
@@ -30,16 +30,16 @@ Point at_angle(double radius, double angle) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-// Gap from the flank of an external gear to a point that its driven mate's corner occupies; x is
-// the position on the line of action, from that gear's base tangent point.
+// Gap from the flank of a gear to the tip corner of its mate at `corner`; x is the position on the
+// line of action, from that gear's base tangent point.
 double gap_to_flank(double base_radius, double working_angle, double x, Point corner) {
     const double radius = std::hypot(corner.x, corner.y);
     return base_radius *
            (flank_angle(base_radius, working_angle, x, radius) - std::atan2(corner.y, corner.x));
 }
 
-// The corner of gear `tip` runs ahead of the path by `beyond` metres and misses the flank of its
-// external mate `flank`. Both directions of an external pair are alike but for the gears' roles.
+// Gap before the path of contact between the corner of gear `tip`, `beyond` metres from the path,
+// and the flank of its external mate `flank`. For the gap after the path, exchange the gears.
 double external_gap(const Gear& flank, const Gear& tip, double distance, double working_angle,
                     double beyond) {
     const double base = tip.base_radius(), tip_radius = tip.tip_radius();
@@ -51,7 +51,7 @@ double external_gap(const Gear& flank, const Gear& tip, double distance, double 
                         {distance - corner.x, corner.y});
 }
 
-// The corner of the ring (gear 2) misses the planet's flank before the path.
+// Gap between the corner of the ring (gear 2) and the planet's flank, before the path of contact.
 double ring_corner_gap(const Gear& planet, const Gear& ring, double distance, double working_angle,
                        double beyond) {
     const double base = ring.base_radius(), tip_radius = ring.tip_radius();
@@ -64,7 +64,7 @@ double ring_corner_gap(const Gear& planet, const Gear& ring, double distance, do
                         {corner.x - distance, corner.y});
 }
 
-// The planet's corner misses the ring's flank, which lies ahead of it, after the path.
+// Gap between the planet's corner and the ring's flank ahead of it, after the path of contact.
 double planet_corner_gap(const Gear& planet, const Gear& ring, double distance,
                          double working_angle, double beyond) {
     const double base = planet.base_radius(), tip_radius = planet.tip_radius();
@@ -87,7 +87,7 @@ double gap_after(const MeshGeometry& mesh, double beyond) {
                            : external_gap(mesh.gear(2), mesh.gear(1), distance, angle, beyond);
 }
 
-// Mesh periods beyond the path at which a growing gap reaches a size.
+// Distance beyond the path, in mesh periods, at which an increasing gap reaches a size.
 template <class Gap>
 double reach(const Gap& gap, double pitch, double gap_m) {
     double low = 0, high = kLongestReach;

@@ -7,7 +7,7 @@ namespace gearpod::gears {
 
 namespace {
 
-// At a distance from the end of contact.
+// Relief at a distance from the end of contact.
 double ground_off(double amount, double length, ReliefShape shape, double distance) {
     if (!(amount > 0) || distance >= length) {
         return 0;

@@ -18,8 +18,8 @@ double inverse_involute(double value) {
     if (!(value > 0)) {
         return 0;
     }
-    // tan a - a is near a^3 / 3 for small angles and convex: Newton's method falls to the root from
-    // above.
+    // tan a - a is near a^3 / 3 for small angles, and convex. Newton's method thus converges to the
+    // root monotonically from above.
     double angle = std::min(std::cbrt(3 * value), 1.57);
     for (int step = 0; step < 60; ++step) {
         const double slope = std::tan(angle) * std::tan(angle);

@@ -16,15 +16,15 @@ using std::numbers::pi;
 
 namespace {
 
-// Signed distances along the line of action from the point where it touches gear 1's base circle,
-// in metres.
+// Signed distances along the line of action from its tangent point on gear 1's base circle, in
+// metres.
 struct LineOfAction {
-    double start;  // contact begins: gear 2's tip circle
+    double start;  // start of contact: gear 2's tip circle
     double pitch;
-    double end;  // contact ends: gear 1's tip circle
+    double end;  // end of contact: gear 1's tip circle
 };
 
-// From the tangent point on the base circle to a point of the flank at the given radius.
+// Distance from the tangent point on the base circle to the point of the flank at the given radius.
 double roll_length(const Gear& gear, double radius) {
     const double base = gear.base_radius();
     return std::sqrt(radius * radius - base * base);
@@ -42,8 +42,8 @@ LineOfAction line_of_action(const Gear& gear_1, const Gear& gear_2, double worki
     const double pitch_2 = gear_2.base_radius() * slope;
     const double tip_2 = roll_length(gear_2, gear_2.tip_radius());
     const double end = roll_length(gear_1, gear_1.tip_radius());
-    // An internal gear's tangent point lies behind gear 1's, an external one's ahead of the pitch
-    // point.
+    // The tangent point of an internal gear lies before that of gear 1, that of an external gear
+    // after the pitch point.
     const double start =
         gear_2.internal ? pitch_1 + (tip_2 - pitch_2) : pitch_1 - (tip_2 - pitch_2);
     return {start, pitch_1, end};
@@ -53,7 +53,7 @@ double working_radius(const Gear& gear, double working_angle) {
     return gear.base_radius() / std::cos(working_angle);
 }
 
-// Along the working pitch circles, whose pitches are alike.
+// Backlash along the working pitch circles, whose pitches are equal.
 double backlash_between(const Gear& gear_1, const Gear& gear_2, double working_angle) {
     const double radius = working_radius(gear_1, working_angle);
     const double pitch = 2 * pi * radius / gear_1.teeth;
@@ -65,7 +65,7 @@ double distance_at(const Gear& gear_1, const Gear& gear_2, double working_angle)
     return base_centre_distance(gear_1, gear_2) / std::cos(working_angle);
 }
 
-// Of the tips of gear `which` from the other's root circle.
+// Clearance between the tips of gear `which` and the other gear's root circle.
 double clearance_of_tip(const Gear& gear_1, const Gear& gear_2, double distance, int which) {
     if (!gear_2.internal) {
         const Gear& tip = which == 1 ? gear_1 : gear_2;
@@ -96,8 +96,8 @@ std::vector<std::string> pair_problems(const Gear& gear_1, const Gear& gear_2) {
     return problems;
 }
 
-// Teeth that do not fit between each other at that distance. What rounded shifts overlap by is
-// harmless.
+// Checks that the teeth fit between each other at that distance. Overlaps caused by rounded shifts
+// are harmless.
 void fit_problems(const Gear& gear_1, const Gear& gear_2, double angle,
                   std::vector<std::string>& problems) {
     constexpr double kRounded = 2e-3;  // modules
@@ -124,8 +124,9 @@ void fit_problems(const Gear& gear_1, const Gear& gear_2, double angle,
     }
 }
 
-// Outside the line of action the tips of an internal gear and its mate pass each other where their
-// tip circles cross; the mate's must be ahead. Colbourne (1987), chapter 8; KHK's theta_1.
+// Checks tip interference of an internal gear pair: the tips pass each other where the tip circles
+// cross, outside the line of action, and the mate's tip must be ahead. Colbourne (1987), chapter 8;
+// KHK's theta_1.
 void crossing_problems(const Gear& gear_1, const Gear& gear_2, double angle,
                        std::vector<std::string>& problems) {
     const double a = distance_at(gear_1, gear_2, angle);
@@ -253,7 +254,7 @@ double MeshGeometry::tip_clearance(int which_tip) const {
 }
 
 double MeshGeometry::contact_radius(int which, double tau) const {
-    // The roll angle: what the contact angle is but for the tooth's half angle.
+    // Roll angle: the contact angle plus or minus the tooth's half angle.
     const Gear& at = gear(which);
     const double half = at.internal ? -at.half_base_angle() : at.half_base_angle();
     const double roll = contact_angle(which, tau) + half;

@@ -1,8 +1,7 @@
-// Where a tooth pair touches, from the start of its engagement to the end. Positions are counted in
-// mesh periods (base pitches along the line of action).
-// Sources: Tian (2004), Eqs. 2.1, 2.50-2.60, 2.71 (external pair); Liang (2016),
-// Eqs. 2.2.13-2.2.14, 2.2.30-2.2.31, 2.3.5-2.3.6 (internal pair, pitch point); ISO 21771 for the
-// working pressure angle of shifted gears.
+// Contact positions of a tooth pair from the start to the end of its engagement. Positions count in
+// mesh periods (base pitches along the line of action). Sources: Tian (2004), Eqs. 2.1, 2.50-2.60,
+// 2.71 (external pair); Liang (2016), Eqs. 2.2.13-2.2.14, 2.2.30-2.2.31, 2.3.5-2.3.6 (internal
+// pair, pitch point); ISO 21771 for the working pressure angle of shifted gears.
 #pragma once
 
 #include <optional>
@@ -13,48 +12,49 @@
 
 namespace gearpod::gears {
 
-// Gear 1 drives and is external: the sun of a sun-planet pair, the planet of a ring-planet pair.
-// Its tooth is touched low first, its mate's tooth at the tip first.
+// Geometry of a gear pair. Gear 1 drives and is external: the sun of a sun-planet pair, the planet
+// of a ring-planet pair. Contact starts near the root of its tooth, and at the tip of its mate's
+// tooth.
 class MeshGeometry {
   public:
-    // centre_distance_m: that at which the teeth fit without backlash, unless given. Throws
+    // `centre_distance_m` defaults to the distance at which the teeth fit without backlash. Throws
     // std::invalid_argument with all of mesh_problems().
     MeshGeometry(const Gear& gear_1, const Gear& gear_2,
                  std::optional<double> centre_distance_m = {});
 
     const Gear& gear(int which) const { return which == 1 ? gear_1_ : gear_2_; }
     bool internal() const { return gear_2_.internal; }
-    // Mean number of tooth pairs in contact: how many mesh periods one pair stays engaged.
+    // Mean number of tooth pairs in contact, equal to the length of an engagement in mesh periods.
     double contact_ratio() const { return contact_ratio_; }
-    // Mesh periods from the start of an engagement to the contact at the pitch point.
+    // Mesh periods from the start of an engagement to contact at the pitch point.
     double pitch_position() const { return pitch_position_; }
-    // The angle between the contact force and the normal to the tooth's centre line, tau mesh
-    // periods after the engagement began: alpha_1 of an external tooth, beta_1 of an internal one.
-    // Linear in tau.
+    // Angle between the contact force and the normal to the tooth's centre line, tau mesh periods
+    // after the start of the engagement: alpha_1 of an external tooth, beta_1 of an internal one.
+    // It is linear in tau.
     double contact_angle(int which, double tau) const {
         return contact_angle_at_start(which) + contact_angle_rate(which) * tau;
     }
     double contact_angle_at_start(int which) const { return start_[which - 1]; }
     double contact_angle_rate(int which) const { return rate_[which - 1]; }  // rad per mesh period
     double centre_distance() const;
-    // Along the line of action; of contact one mesh period.
+    // Pitch along the line of action, the distance that the contact moves in one mesh period.
     double base_pitch() const;
     double working_pressure_angle() const { return working_angle_; }
     double working_pitch_radius(int which) const;
-    // Between the flanks that do not work, along the working pitch circles, m.
+    // Gap between the non-working flanks along the working pitch circles, m.
     double backlash() const;
-    // Radius at which gear `which` is touched tau mesh periods after the engagement began.
+    // Contact radius on gear `which`, tau mesh periods after the start of the engagement.
     double contact_radius(int which, double tau) const;
-    // Between the tips of gear `which_tip` and the other gear's root circle, m.
+    // Clearance between the tips of gear `which_tip` and the other gear's root circle, m.
     double tip_clearance(int which_tip) const;
-    // Turn of gear 1 during which two pairs touch, (c - 1) 2 pi / N1, and one pair, for 1 <= c
-    // <= 2.
+    // Rotation of gear 1 during which two pairs are in contact, (c - 1) 2 pi / N1, and during which
+    // one pair is; for contact ratios 1 <= c <= 2.
     double double_pair_span() const;
     double single_pair_span() const;
 
   private:
     Gear gear_1_, gear_2_;
-    std::optional<double> centre_distance_;  // empty: that of the reference circles
+    std::optional<double> centre_distance_;  // empty: that without backlash
     double working_angle_ = 0;
     double contact_ratio_ = 0;
     double pitch_position_ = 0;
@@ -62,8 +62,8 @@ class MeshGeometry {
     double rate_[2] = {0, 0};
 };
 
-// Everything that keeps the two from meshing over their full flanks, one sentence each
-// (gear_problems included).
+// All reasons why the gears cannot mesh over their full flanks, one sentence each, including
+// gear_problems.
 std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2,
                                        std::optional<double> centre_distance_m = {});
 

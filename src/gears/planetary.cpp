@@ -15,18 +15,19 @@ namespace {
 
 constexpr int kCountless = std::numeric_limits<int>::max();
 
-// Largest number of equally spaced planets whose tip circles stay apart.
+// Largest number of equally spaced planets whose tip circles do not touch.
 int planets_with_room(const PlanetRoom& room) {
     const double ratio = room.tip_diameter / (2 * room.centre_distance);
     if (ratio >= 1) {
         return 1;
     }
     const double most = std::ceil(pi / std::asin(ratio)) - 1;
-    // Next to no tips, or none at all: more than can be counted.
+    // Almost no tooth tips, or none: practically unlimited.
     return ratio > 0 && most < kCountless ? static_cast<int>(most) : kCountless;
 }
 
-// More planets than have room wherever they are: one problem, not one of every two that touch.
+// Reports more planets than can fit at any positions as one problem, instead of one for every pair
+// that touches.
 bool too_many(const PlanetaryTrain& train, const PlanetRoom& room,
               std::vector<std::string>& problems) {
     const int most = planets_with_room(room), n = train.planets;
@@ -45,14 +46,15 @@ PlanetRoom standard_room(const PlanetaryTrain& train, double addendum_coefficien
             train.planet_teeth + 2 * addendum_coefficient};
 }
 
-// teeth * place / places without its whole part, computed on integers.
+// Fractional part of teeth * place / places, computed with integers.
 double reduced_phase(int teeth, int planet, const PlanetPlaces& at) {
     const int place = at.place.at(static_cast<std::size_t>(planet));
     const long long remainder = static_cast<long long>(teeth) * place % at.places;
     return static_cast<double>(remainder) / at.places;
 }
 
-// Meshes of a gear from planet 0 to the given one: those of its turn if `onwards`, else the rest.
+// Mesh periods of a gear from planet 0 to the given planet, in the forward direction if `onwards`,
+// otherwise backward.
 double tooth_delay(int teeth, int planet, const PlanetPlaces& at, bool onwards) {
     const int place = at.place.at(static_cast<std::size_t>(planet));
     const int passed = onwards ? place : (at.places - place) % at.places;
@@ -80,7 +82,8 @@ double degrees(double angle_rad) {
     return angle_rad * 180 / pi;
 }
 
-// A position this far from a place, as a part of the distance between places, is rounded input.
+// Largest deviation of a position from a valid place that counts as rounding, relative to the
+// spacing of places.
 constexpr double kPlaceTolerance = 0.01;
 
 void position_problems(const PlanetaryTrain& train, const PlanetRoom& room,
@@ -215,18 +218,19 @@ double ring_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sen
 }
 
 double ring_to_sun_phase(const PlanetaryTrain& train) {
-    // The sun pushes a planet tooth's trailing flank, the planet pushes the ring with its leading
-    // flanks. On the pitch circle leading flanks lie half a pitch (one tooth thickness) ahead of
-    // trailing ones, and the two pitch points lie half the circumference, Z_p / 2 pitches, apart.
-    // With a trailing flank at the sun's pitch point the leading flanks miss the ring's by 1/2 -
-    // Z_p / 2 pitches: nothing for odd Z_p, half a pitch for even Z_p.
+    // The sun pushes a planet tooth's trailing flank, and the planet pushes the ring with its
+    // leading flanks. On the pitch circle, leading flanks are half a pitch (one tooth thickness)
+    // ahead of trailing ones. The two pitch points are half the circumference, Z_p / 2 pitches,
+    // apart. With a trailing flank at the sun's pitch point, the leading flanks are 1/2 - Z_p / 2
+    // pitches from the ring's. That is a whole number of pitches for odd Z_p, and half a pitch off
+    // for even Z_p.
     return train.planet_teeth % 2 == 0 ? 0.5 : 0.0;
 }
 
 // The sun touches a tooth's trailing flank on the line between the axes when the tooth's middle is
-// half its thickness on the sun's working circle past that line; likewise the ring and the leading
-// flank, half its thickness on the ring's working circle before. Standard teeth are half a pitch
-// thick on both.
+// half its thickness past that line. The ring touches the leading flank when the middle is half its
+// thickness before it. The thicknesses are those on the working circles of the sun and ring meshes.
+// Standard teeth are half a pitch thick on both.
 double ring_to_sun_phase(const PlanetaryTrain& train, const Gear& planet, double sun_angle_rad,
                          double ring_angle_rad, PlanetSense sense) {
     const double a = planet.pressure_angle_rad;
@@ -252,7 +256,7 @@ Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given
         throw std::invalid_argument(
             "the speed of the fixed member is given (it is 0: give another one)");
     }
-    // Relative to the carrier sun and ring turn as -Z_r : Z_s. Take their speeds there for a unit
+    // Relative to the carrier, sun and ring rotate as -Z_r : Z_s. These are their speeds for a unit
     // tooth speed.
     const double sun = 1 / s, ring = -1 / r, planet = -1 / p;
     const double carrier = fixed == FixedMember::ring  ? -ring

@@ -11,11 +11,11 @@ namespace {
 
 using std::numbers::pi;
 
-// Deviations of a wave's harmonics h, together of rms 1: each is (A cos + B sin) / h with normal A
-// and B, of mean square 1 / h^2.
+// Normalizes the sum of a wave's harmonics h to rms 1: each is (A cos + B sin) / h with standard
+// normal A and B, of mean square 1 / h^2.
 const double kWaveNorm = 1.0 / std::sqrt(1.0 + 1.0 / 4.0 + 1.0 / 9.0);
 
-// The quantile kShareWithin of values, which it sorts.
+// Quantile kShareWithin of values; partially sorts them.
 double quantile(std::vector<double>& values) {
     const auto rank =
         static_cast<std::ptrdiff_t>(kShareWithin * static_cast<double>(values.size()));
@@ -23,7 +23,7 @@ double quantile(std::vector<double>& values) {
     return values[static_cast<std::size_t>(rank)];
 }
 
-// Sines and cosines of all waves at the teeth of a gear, for flanks on one side.
+// Sines and cosines of all waves at the teeth of a gear, for the flanks on one side.
 class FlankWaves {
   public:
     FlankWaves(int teeth, double pressure_angle_rad, int side)
@@ -60,7 +60,7 @@ class FlankWaves {
 
   private:
     struct Tooth {
-        double c, s;  // of the angle to the flank's normal
+        double c, s;  // cosine and sine of the angle to the flank's normal
         double cosine[WaveNumbers::kHarmonics], sine[WaveNumbers::kHarmonics];
     };
     int side_;
@@ -68,11 +68,11 @@ class FlankWaves {
     std::vector<Tooth> teeth_;
 };
 
-// Random gears of unit scales, whose parts add up to gears of any scales.
+// Random gears of unit scales; weighted sums of their parts are gears of any scales.
 class SampleGears {
   public:
     SampleGears(int teeth, double pressure_angle_rad) : angle_(pressure_angle_rad) {
-        // Enough that the quantiles are within a percent or so.
+        // Large enough for quantiles accurate to about one percent.
         const int gears = std::max(600, 60000 / teeth);
         boost::random::mt19937_64 engine(1328);
         boost::random::normal_distribution<double> normal;
@@ -109,7 +109,7 @@ class SampleGears {
 
     static constexpr double kCommonSlope = 2.0 / 3.0, kOwnSlope = 1.0 / 3.0;
 
-    // What all but a tenth of gears of these scales keep.
+    // Deviations that 90 % of gears with these scales do not exceed.
     ToothTolerances kept(const DeviationScales& scales) const {
         std::vector<double> single, cumulative, runout;
         std::vector<double> sides[2];
@@ -128,7 +128,7 @@ class SampleGears {
         }
         return {quantile(single), quantile(cumulative), 0.0, quantile(runout)};
     }
-    // Of gears whose slopes have the rms kCommonSlope and kOwnSlope.
+    // Same for slopes with the rms kCommonSlope and kOwnSlope.
     double kept_slope() const {
         std::vector<double> worst = worst_slope_;
         return quantile(worst);
@@ -183,7 +183,8 @@ ToothTolerances measured_deviations(double pressure_angle_rad, const std::vector
     }
     found.single_pitch /= std::cos(pressure_angle_rad);
     found.cumulative_pitch /= std::cos(pressure_angle_rad);
-    // A fork over a tooth sinks by what both flanks lack.
+    // A fork-shaped probe over a tooth sinks by an amount that depends on the deviations of both
+    // flanks.
     double least = 0.0, most = 0.0;
     for (std::size_t t = 0; t < teeth; ++t) {
         const double both = along[t] + against[t];
@@ -196,7 +197,8 @@ ToothTolerances measured_deviations(double pressure_angle_rad, const std::vector
 
 DeviationScales scales_of(const ToothTolerances& tolerances, int teeth, double pressure_angle_rad) {
     constexpr int kMostRounds = 30;
-    constexpr double kPart = 0.9;  // of the logarithm of what is missing, each round
+    // fraction of the remaining logarithmic error corrected in each round
+    constexpr double kPart = 0.9;
     constexpr double kClose = 0.003;
     const SampleGears gears(teeth, pressure_angle_rad);
     DeviationScales scales;

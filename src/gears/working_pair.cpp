@@ -15,7 +15,7 @@ double signed_teeth(const Gear& gear) {
     return gear.internal ? -gear.teeth : gear.teeth;
 }
 
-// A distance that is that of the reference circles but for rounding.
+// True if the distance equals that of the reference circles up to rounding.
 bool is_reference(const Gear& gear_1, const Gear& gear_2, double centre_distance_m) {
     const double reference = reference_centre_distance(gear_1, gear_2);
     return std::abs(centre_distance_m - reference) <= 1e-9 * reference;
@@ -88,8 +88,9 @@ std::vector<std::string> undercut_problems(const Gear& gear) {
 
 namespace {
 
-// Distance at which a planet of whatever shift fits between a sun and a ring of these shifts. The
-// planet's shift that the sun's mesh asks for grows with the distance, the ring's falls.
+// Distance at which a planet of any shift fits between a sun and a ring with these shifts. The
+// planet shift required by the sun mesh increases with the distance, that required by the ring mesh
+// decreases.
 double distance_between(const Gear& sun, const Gear& planet, const Gear& ring) {
     const auto excess = [&](double distance) {
         return tight_shift_sum(sun, planet, distance) - sun.profile_shift -
@@ -101,7 +102,7 @@ double distance_between(const Gear& sun, const Gear& planet, const Gear& ring) {
     }
     double low = std::max(base_centre_distance(sun, planet), base_centre_distance(planet, ring));
     double high = 2 * low;
-    constexpr int kBisections = 100;  // to the last digit
+    constexpr int kBisections = 100;  // to machine precision
     for (int i = 0; i < kBisections; ++i) {
         const double middle = 0.5 * (low + high);
         (excess(middle) < 0 ? low : high) = middle;
@@ -109,13 +110,15 @@ double distance_between(const Gear& sun, const Gear& planet, const Gear& ring) {
     return 0.5 * (low + high);
 }
 
-// True if the shift of sun or planet follows from the ring's, which is drawn without the distance.
+// True if the shift of sun or planet follows from the ring's, which is specified without the
+// distance.
 bool follows_ring(const Gear* ring, const DrawnShifts& drawn) {
     return ring != nullptr && drawn.ring && !drawn.centre_distance_m &&
            !(drawn.first && drawn.second);
 }
 
-// Distance that drawn shifts fix: those of sun and planet, planet and ring, or sun and ring.
+// Distance determined by the specified shifts: those of sun and planet, of planet and ring, or of
+// sun and ring.
 double drawn_distance(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
                       const DrawnShifts& drawn) {
     const Gear first = shifted(gear_1, drawn.first.value_or(0));
@@ -127,7 +130,8 @@ double drawn_distance(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
                         : distance_between(first, gear_2, outer);
 }
 
-// Shifts of the first two gears at a distance. They sum up to what fits unless both are drawn.
+// Shifts of the first two gears at a distance. Their sum is the one that fits, unless both are
+// specified.
 std::pair<double, double> shifts_at(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
                                     const DrawnShifts& drawn, double distance) {
     const double sum = tight_shift_sum(gear_1, gear_2, distance);

@@ -1,6 +1,6 @@
-// At what distance and pressure angle two gears work together, with profile shift. Lengths in
-// metres, angles in radians; gear 1 is external, tooth numbers of an internal gear 2 count
-// negative, shifts do not (gear.hpp). Source: ISO 21771; DIN 3960; with the involute function
+// Working centre distance and pressure angle of two gears with profile shift. Lengths in metres,
+// angles in radians. Gear 1 is external. Tooth numbers of an internal gear 2 are negative in the
+// formula, shifts are not (gear.hpp). Sources: ISO 21771; DIN 3960; with the involute function
 //
 //     inv a_w = inv a0 + 2 tan a0 (x_1 + x_2) / (z_1 + z_2),    a = (R_b1 + R_b2) / cos a_w
 //
@@ -15,49 +15,54 @@
 
 namespace gearpod::gears {
 
-// Centre distance of touching reference circles and of touching base circles: the sum of an
-// external pair's radii, the difference of an internal one's.
+// Centre distance of touching reference circles, and of touching base circles: the sum of an
+// external pair's radii, the difference of an internal pair's.
 double reference_centre_distance(const Gear& gear_1, const Gear& gear_2);
 double base_centre_distance(const Gear& gear_1, const Gear& gear_2);
 
-// The pressure angle at that distance; 0 if the base circles do not reach it. At the reference
-// distance exactly that of the teeth.
+// Pressure angle at that distance; 0 if it does not exceed that of the base circles. At the
+// reference distance it equals that of the teeth exactly.
 double working_angle_at(const Gear& gear_1, const Gear& gear_2, double centre_distance_m);
 
-// At which the shifted teeth fit without backlash; 0 if they do at none. Exactly that of the teeth
-// where the shifts cancel.
+// Working angle and distance at which the shifted teeth fit without backlash; the angle is 0 if
+// there is none. If the shifts cancel, it equals that of the teeth exactly.
 double tight_working_angle(const Gear& gear_1, const Gear& gear_2);
 double tight_centre_distance(const Gear& gear_1, const Gear& gear_2);
-// x_1 + x_2 with which they fit at that distance.
+// Sum x_1 + x_2 with which the teeth fit at that distance without backlash.
 double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_distance_m);
 
-// Undercut that takes flank from the contact, with the shift that avoids it; empty if there is
-// none. A fifth of the addendum is harmless: 14 teeth at 20 degrees do without shift (DIN 3960),
-// where 18 have no undercut at all.
+// Undercut that removes part of the active flank, with the shift that avoids it; empty if there is
+// none. Undercut up to a fifth of the addendum is harmless: 14 teeth at 20 degrees need no shift
+// (DIN 3960), and 18 have no undercut.
 std::vector<std::string> undercut_problems(const Gear& gear);
 
-// Shifts of a set as drawn, in modules, and its centre distance; `ring` of a planetary
-// set, whose first gear is the sun and second the planet.
+// Profile shifts as specified on a drawing, in modules, and the centre distance. `ring` is used for
+// a planetary set, whose first gear is the sun and second the planet.
 struct DrawnShifts {
     std::optional<double> first = {}, second = {}, ring = {};
     std::optional<double> centre_distance_m = {};
     bool operator==(const DrawnShifts&) const = default;
 };
 
-// All of them. Standard teeth at the standard distance have no centre distance of their own.
+// Complete set of shifts. Standard teeth at the standard distance have no separate centre distance.
 struct WorkingShifts {
     double first = 0, second = 0, ring = 0;
     std::optional<double> centre_distance_m = {};
-    // Of first and second, so that their tips keep off each other's roots: x_1 + x_2 less what the
-    // distance grew by, in modules, if that is positive. An internal pair's clearance only grows.
+    // Tip shortening of first and second, which keeps tips and roots apart: x_1 + x_2 minus the
+    // increase of the distance, in modules, if positive. It is not needed in an internal pair,
+    // whose clearance only grows.
     double tip_shortening = 0;
 };
 
-// Completes what is drawn so that no mesh has backlash. A distance alone is shared out equally to
-// the first two gears' shifts. Without a distance, the ring's shift decides if it is drawn: with
-// the planet's it fixes the distance and the sun's shift, otherwise the planet's follows (the sun's
-// is 0 if it is not drawn). Other shifts that are not drawn are 0. If more is drawn than fits, the
-// ring's mesh has backlash or overlaps. The gears are those without shift; ring: null for a pair.
+// Completes specified shifts so that no mesh has backlash.
+// - A distance alone is divided equally between the first two gears' shifts.
+// - Without a distance, a specified ring shift determines the others. With the planet's shift it
+//   determines the distance and the sun's shift; otherwise it determines the planet's shift, with a
+//   default of 0 for the sun.
+// - Other unspecified shifts are 0.
+// - If more is specified than fits, a mesh has backlash or overlap.
+//
+// `gear_1`, `gear_2` and `ring` are the unshifted gears; `ring` is null for a pair.
 WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
                              const DrawnShifts& drawn);
 

@@ -15,7 +15,7 @@ std::atomic<InstructionSet>& active() {
 
 InstructionSet best_instruction_set() {
 #if defined(__x86_64__)
-    // The levels of the x86-64 psABI, by the features that gcc's x86-64-v3 and -v4 may use.
+    // Levels of the x86-64 psABI, tested by the features that gcc's x86-64-v3 and -v4 may use.
     const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                     __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
     const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&

@@ -1,10 +1,10 @@
 // Run-time choice of the instruction set for the lockstep kernels.
 //
-// A kernel is written once as an always-inline function template in plain C++ and is instantiated
-// by GEARPOD_KERNEL for every instruction set; the processor, or a test, chooses among them at run
-// time. All of them give the same bits: contraction is off and fused operations are spelled
-// std::fma, which is exact with and without hardware support (a processor without FMA is slow and
-// correct).
+// A kernel is written once as an always-inline function template in plain C++. GEARPOD_KERNEL
+// instantiates it for every instruction set, and the processor or a test chooses one at run time.
+// All instruction sets give the same bits: contraction is off, and fused operations are spelled
+// std::fma, which is exact with and without hardware support. A processor without FMA is slow but
+// correct.
 #pragma once
 
 #include <string_view>
@@ -15,30 +15,34 @@ namespace gearpod::machine {
 
 enum class InstructionSet { baseline, x86_64_v3, x86_64_v4 };
 
-// The widest set that this processor offers.
+// Widest instruction set of this processor.
 InstructionSet best_instruction_set();
 
-// The set that kernels use now; best_instruction_set() unless use_instruction_set() chose another.
+// Instruction set that kernels use now: best_instruction_set() unless use_instruction_set() chose
+// another.
 InstructionSet active_instruction_set();
 
-// Chooses the set for all threads. Throws std::invalid_argument if the processor lacks it.
+// Chooses the instruction set for all threads. Throws std::invalid_argument if the processor lacks
+// it.
 void use_instruction_set(InstructionSet set);
 
-// "baseline", "x86-64-v3" or "x86-64-v4".
+// Name of the set: "baseline", "x86-64-v3" or "x86-64-v4".
 std::string_view name(InstructionSet set);
 
-// Throws std::logic_error: a kernel was called whose width the program was built without.
+// Throws std::logic_error: the called kernel's number of lanes was left out of this build.
 [[noreturn]] void throw_spare();
 
 }  // namespace gearpod::machine
 
-// GEARPOD_KERNEL(march, (State& s, int n), (s, n), march_steps<8>(s, n))
-// defines void march(State&, int), which runs the last argument built for the active instruction
-// set.
-// GEARPOD_NARROW_KERNEL: the same for kernels of one lane, or of four, which fill a 256-bit
-// register: wider registers cannot help either.
-// GEARPOD_SPARE_KERNEL: a narrow one whose width a build for one processor does without
-// (GEARPOD_ONLY_X86_64_V4 and the like, which the build sets): it throws there.
+// GEARPOD_KERNEL(integrate, (State& s, int n), (s, n), integrate_steps<8>(s, n))
+// defines void integrate(State&, int), which runs the last argument compiled for the active
+// instruction set.
+//
+// GEARPOD_NARROW_KERNEL does the same for kernels of one or four lanes. Four doubles fill a 256-bit
+// register, so 512-bit registers are no gain.
+//
+// GEARPOD_SPARE_KERNEL is a narrow kernel that a build for one processor leaves out. The build sets
+// GEARPOD_ONLY_X86_64_V4 or a similar macro, and the kernel throws there.
 #if defined(GEARPOD_ONLY_X86_64_V4) || defined(GEARPOD_ONLY_X86_64_V3)
 #    define GEARPOD_KERNEL_OF_SET(SET, TARGET, NAME, PARAMETERS, ARGUMENTS, ...) \
         namespace {                                                              \

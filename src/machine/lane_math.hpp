@@ -1,5 +1,5 @@
-// Elementary functions over lanes: straight lines of fused multiply-adds that the compiler
-// vectorises and that give the same bits on every instruction set, which no libm promises.
+// Elementary functions over lanes, written as straight-line fused multiply-adds. The compiler
+// vectorises them, and they give the same bits on every instruction set, which no libm promises.
 #pragma once
 
 #include <bit>
@@ -10,10 +10,11 @@
 
 namespace gearpod::machine {
 
-// Relative error below 4e-16 for |v| <= 700; beyond, the value at +-700.
-// v = k ln 2 + r with |r| <= ln(2)/2; exp(r) by its Taylor series (remainder 2e-16 at worst, at the
-// ends); 2^k enters the exponent bits. Adding 1.5 * 2^52 rounds to an integer and leaves it in the
-// lowest bits of the sum.
+// exp(v), with a relative error below 4e-16 for |v| <= 700. Larger |v| give the value at +-700.
+//
+// v = k ln 2 + r with |r| <= ln(2)/2. exp(r) is summed from its Taylor series (remainder at most
+// 2e-16, at the ends), and 2^k enters the exponent bits. Adding 1.5 * 2^52 rounds to an integer and
+// leaves it in the lowest bits of the sum.
 GEARPOD_INLINE double lane_exp(double v) {
     constexpr double kRound = 0x1.8p52;
     constexpr double kLog2e = 0x1.71547652b82fep0;
@@ -42,9 +43,11 @@ GEARPOD_INLINE double lane_exp(double v) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sum) + scale);
 }
 
-// -ln(x 2^-64), x in [1, 2^64]. x = 2^k m with m in [sqrt(1/2), sqrt 2); ln m = 2 artanh s,
-// s = (m - 1) / (m + 1), |s| < 0.172, by its series (remainder 3e-18). Towards x = 2^64, where the
-// result vanishes, k is 64 and nothing cancels.
+// -ln(x 2^-64) for x in [1, 2^64].
+//
+// x = 2^k m with m in [sqrt(1/2), sqrt 2). ln m = 2 artanh s with s = (m - 1) / (m + 1) and |s| <
+// 0.172, by its series (remainder 3e-18). Near x = 2^64, where the result vanishes, k is 64 and
+// nothing cancels.
 GEARPOD_INLINE double lane_minus_log(double x) {
     constexpr std::uint64_t kRootHalf = std::bit_cast<std::uint64_t>(0x1.6a09e667f3bcdp-1);
     constexpr double kLn2High = 0x1.62e42fefa39efp-1;
@@ -71,7 +74,7 @@ GEARPOD_INLINE double lane_minus_log(double x) {
     return std::fma(k, kLn2High, std::fma(k, kLn2Low, log_m));
 }
 
-// Taylor series on |x| <= pi/4; remainders 5e-17 and 3e-18.
+// sin(x) and cos(x) for |x| <= pi/4 by their Taylor series. The remainders are 5e-17 and 3e-18.
 GEARPOD_INLINE double lane_sine(double x) {
     const double q = x * x;
     double sum = -1.0 / 1307674368000.0;
@@ -97,8 +100,8 @@ GEARPOD_INLINE double lane_cosine(double x) {
     return std::fma(sum, q, 1.0);
 }
 
-// sin(2 pi z) for |z| < 2^50, in error by less than 1e-15 of 1 beyond the rounding of z: folded to
-// a quarter turn, then Taylor's series, whose first term left out is below 1e-20.
+// sin(2 pi z) for |z| < 2^50. The absolute error is below 1e-15, beyond the rounding of z. The
+// angle is folded to a quarter turn; the first omitted term of the Taylor series is below 1e-20.
 GEARPOD_INLINE double lane_sine_of_turns(double z) {
     constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
     const double part = z - ((z + kRound) - kRound);

@@ -7,8 +7,9 @@
 
 namespace gearpod::machine {
 
-// The numbers of lanes that kernels are built for: 8 doubles or 16 floats fill a 512-bit register,
-// 4 or 8 one of 256 bits; 1 is for comparison. Only floats march 16 abreast.
+// True for the numbers of lanes that kernels are built for. 8 doubles or 16 floats fill a 512-bit
+// register, 4 doubles or 8 floats a 256-bit register, and 1 lane is for comparison. Only float
+// kernels have 16 lanes.
 constexpr bool is_lane_count(int lanes) {
     return lanes == 16 || lanes == 8 || lanes == 4 || lanes == 1;
 }

@@ -1,10 +1,10 @@
 // Elementary functions that give the same bits on every x86-64 processor.
 //
-// The C library chooses among variants of sin, exp, ... by the processor: with fused multiply-adds
-// where there are some, without elsewhere, and the last bit differs. Its 80-bit functions have one
-// variant only. These definitions take the place of the double functions in every program that
-// links the physics (libraries such as the FFT included) and round the 80-bit results, which also
-// makes nearly all of them correctly rounded. No hot loop calls them.
+// The C library chooses variants of sin, exp, ... by processor, with or without fused
+// multiply-adds, and their last bits differ. Its 80-bit functions have one variant only. The
+// definitions below replace the double functions in every program that links the physics, libraries
+// such as the FFT included. They round the 80-bit results, which makes nearly all of them correctly
+// rounded. No hot loop calls them.
 #include <cmath>  // defines __GLIBC__ where it applies
 
 #if defined(__x86_64__) && defined(__GLIBC__)
@@ -44,7 +44,8 @@ void sincos(double x, double* sine, double* cosine) noexcept {
     *sine = static_cast<double>(sinl(x));
     *cosine = static_cast<double>(cosl(x));
 }
-__extension__ __complex__ double cexp(__complex__ double z) noexcept {  // of std::exp(std::complex)
+// called by std::exp(std::complex)
+__extension__ __complex__ double cexp(__complex__ double z) noexcept {
     const long double size = expl(__real__ z);
     __complex__ double result;
     __real__ result = static_cast<double>(size * cosl(__imag__ z));

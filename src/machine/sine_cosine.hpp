@@ -1,5 +1,6 @@
-// Sine and cosine of the angles along a tooth's flank by their Taylor series: the same bits on
-// every processor like the library's (machine/portable_libm.cpp), at a tenth of the cost.
+// Sine and cosine of the angles along a tooth's flank by their Taylor series. They give the same
+// bits on every processor, like the library's functions (machine/portable_libm.cpp), at a tenth of
+// their cost.
 #pragma once
 
 #include <cmath>
@@ -10,9 +11,9 @@ struct SineCosine {
     double sine, cosine;
 };
 
-// In error by less than 2e-16.
+// Sine and cosine of an angle, rad, with an absolute error below 2e-16.
 inline SineCosine sine_cosine(double angle) {
-    constexpr double kLargest = 0.8;  // rad; the first term left out is below 1e-20
+    constexpr double kLargest = 0.8;  // rad; the first omitted term is below 1e-20
     if (!(std::abs(angle) <= kLargest))
         return {std::sin(angle), std::cos(angle)};
     const double x = angle * angle;

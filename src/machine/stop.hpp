@@ -1,14 +1,15 @@
-// A wish from outside that what is being computed ends: computations that may take long look for it
-// between their parts (mesh periods, gearboxes, tasks of a team) and leave by an exception.
+// Cooperative cancellation flag. Long computations poll it between their parts (mesh periods,
+// gearboxes, tasks of a team) and leave by an exception.
 #pragma once
 
 namespace gearpod::machine {
 
-// No std::exception: nobody who answers a failed computation answers it by mistake.
+// Thrown by a cancelled computation. It is no std::exception, so that no handler of failed
+// computations catches it by mistake.
 struct Stopped {};
 
-// Who may wish so. One at a time, for all threads, from its making to its end; it outlives the
-// computations that it stops.
+// Source of cancellation requests, active for all threads from its construction to its destruction.
+// At most one may exist at a time, and it must outlive the computations that it stops.
 class StopWish {
   public:
     StopWish();
@@ -16,11 +17,11 @@ class StopWish {
     StopWish& operator=(const StopWish&) = delete;
     virtual ~StopWish();
 
-    // Called often, by any thread.
+    // True if computations are to stop. Called often, by any thread.
     virtual bool stop() const = 0;
 };
 
-// Throws Stopped if there is a wish to stop.
+// Throws Stopped if the active StopWish requests cancellation.
 void leave_if_stopped();
 
 }  // namespace gearpod::machine

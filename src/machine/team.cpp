@@ -12,7 +12,8 @@
 namespace gearpod::machine {
 namespace {
 
-// Nothing may leave a parallel region by an exception: the last one is kept here until its end.
+// Keeps the last exception thrown inside a parallel region, which no exception may leave, and
+// rethrows it after the region's end.
 class Failure {
   public:
     template <class Action>

@@ -1,4 +1,4 @@
-// Threads that work together: an OpenMP team. All that knows OpenMP is here.
+// Teams of OpenMP threads. No other file knows OpenMP.
 #pragma once
 
 #include <cstddef>
@@ -6,23 +6,24 @@
 
 namespace gearpod::machine {
 
-// Calls work(n) on every thread of a team of n: so many as asked for, or as many of them as OpenMP
-// grants (OMP_THREAD_LIMIT, OMP_DYNAMIC). The calling thread is the team's first; OMP_PROC_BIND and
-// OMP_PLACES say where they run. Rethrows what one of them threw, after all have ended.
+// Calls work(n) on every thread of a team of n threads. n is `threads`, or as many as OpenMP grants
+// (OMP_THREAD_LIMIT, OMP_DYNAMIC). The calling thread is the first of the team; OMP_PROC_BIND and
+// OMP_PLACES place the threads. Rethrows one of the exceptions thrown, after all threads have
+// ended.
 void run_team(int threads, const std::function<void(int)>& work);
 
-// Calls work(0) .. work(count - 1), each on the next thread of such a team that is free; rethrows
-// what one of them threw, after all have been called.
+// Calls work(0) .. work(count - 1), each on the next free thread of a team. Rethrows one of the
+// exceptions thrown, after all calls have been made.
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
-// Processors that this process may use, wherever its first thread is bound to.
+// Number of processors that this process may use, independent of the binding of its first thread.
 int processors();
 
-// Threads that OMP_NUM_THREADS asks for (of a list, the first); 0 if it is not set, or not what
-// OpenMP made of it, which says itself what it cannot read.
+// Number of threads requested by OMP_NUM_THREADS (the first of a list). 0 if the variable is not
+// set, or if OpenMP did not accept it; OpenMP itself reports values that it cannot read.
 int threads_asked_for();
 
-// OMP_THREAD_LIMIT, or no limit.
+// OMP_THREAD_LIMIT, or the largest int without a limit.
 int most_threads();
 
 }  // namespace gearpod::machine

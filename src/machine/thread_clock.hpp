@@ -1,4 +1,5 @@
-// Processor time of the calling thread: what a computation cost, however busy the machine was.
+// Processor time of the calling thread: the cost of a computation, independent of other load on the
+// machine.
 #pragma once
 
 #include <ctime>

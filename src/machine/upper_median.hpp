@@ -1,4 +1,4 @@
-// The middle value of a sample in order, of two the upper one.
+// Upper median: the larger of the two middle values when the count is even.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace gearpod::machine {
 
-// Of at least one value.
+// Upper median of at least one value.
 inline double upper_median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -1,4 +1,4 @@
-// Time by the clock on the wall, which no change of the date moves.
+// Monotonic wall-clock time, unaffected by changes of the date.
 #pragma once
 
 #include <chrono>

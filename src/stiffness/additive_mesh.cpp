@@ -11,7 +11,8 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfContactAndMate = 4e-10;  // of the stiffness of contact and mate
+// fraction of the stiffness of contact and mating tooth
+constexpr double kOfContactAndMate = 4e-10;
 
 ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material& material,
                             Profile profile, double tolerance, int which) {
@@ -23,7 +24,7 @@ ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material&
             std::max(tolerance, kSeriesTolerance)};
 }
 
-// Tooth pairs that touch inside a stretch: they stand at tau + age, youngest first.
+// Ages of the tooth pairs in contact inside a stretch. They stand at tau + age, youngest first.
 struct Ages {
     int first, last;  // one past the last
 };

@@ -17,16 +17,17 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfHealthyTotal = 4e-10;  // of the healthy total
+constexpr double kOfHealthyTotal = 4e-10;  // fraction of the healthy total
 
-// Pairs that touch at a phase strictly between transitions.
+// Number of pairs in contact at a phase strictly between transitions.
 int pairs_at(double phase, double contact_ratio) {
     return static_cast<int>(std::ceil(contact_ratio - phase));
 }
 
 }  // namespace
 
-// Solves anew at every node of a smooth piece; the march then reads the pieces.
+// Coupled mesh with a fault. Solves the load sharing at every node of a smooth piece, so that the
+// time integration only evaluates the pieces.
 class FaultyCoupledMesh : public FaultyMesh {
   public:
     FaultyCoupledMesh(const CoupledMesh& healthy, const ToothFault& fault)
@@ -65,20 +66,20 @@ class FaultyCoupledMesh : public FaultyMesh {
     }
 
   private:
-    // Of the tooth pairs that touch during the passage.
+    // First of the tooth pairs that touch during the passage.
     int first_tooth() const { return 1 - static_cast<int>(std::ceil(healthy_.contact_ratio())); }
 
     void fit_tooth_pairs() const {
         for (int tooth = first_tooth(); tooth < duration_; ++tooth)
             tooth_pairs_.push_back(fit([tooth](const SharedLoad& load, int period) {
-                const int pair = period - tooth;  // engaged so many periods ago
+                const int pair = period - tooth;  // number of periods since its engagement
                 return pair < 0 || pair >= TouchingPairs::kMost
                            ? 0.0
                            : load.stiffness * load.share[static_cast<std::size_t>(pair)];
             }));
     }
 
-    // value(load, period): of the loads in that period.
+    // Fits value(load, period), where load is the load sharing in that period.
     template <class Value>
     ToothPairCurve fit(const Value& value) const {
         const double scale = healthy_.stretches_.front().total(0.0);
@@ -97,7 +98,7 @@ class FaultyCoupledMesh : public FaultyMesh {
         for (std::size_t i = 0; i < n; ++i)
             at[i] = healthy_.touching(tau[i] - period, pairs);
         for (int tooth = 0; tooth < fault_.teeth(); ++tooth) {
-            const int pair = period - tooth;  // engaged so many periods ago
+            const int pair = period - tooth;  // number of periods since its engagement
             if (pair >= 0 && pair < pairs)
                 put_fault(healthy_, fault_, tau, tooth, pair, at);
         }
@@ -190,8 +191,8 @@ double CoupledMesh::foundation(int which, double tau) const {
 }
 
 double CoupledMesh::coupling(double tau_i, double tau_j) const {
-    // Gear 1's teeth are pushed against its rotation, gear 2's along it; the pair with the larger
-    // tau is ahead on both.
+    // Gear 1's teeth are pushed against its rotation, gear 2's along it. The pair with the larger
+    // tau is ahead on both gears.
     const int ahead = static_cast<int>(std::lround(tau_j - tau_i));
     double sum = 0;
     for (const int which : {1, 2})

@@ -1,11 +1,11 @@
-// A gear pair whose tooth pairs share the load: beams and Hertz contacts as in AdditiveMesh, and
-// gear bodies that give way under each root and, through the body, under the neighbours'
-// (foundation/fillet_foundation.hpp); contacts may stiffen with the force they carry
-// (contact/hertz_contact.hpp). The total is the mesh's force over the approach of the gears along
-// the line of action. Source: Yang (2022), section 2.1, for any number of touching pairs.
+// Gear pair whose tooth pairs share the load. Beams and Hertz contacts are as in AdditiveMesh. The
+// gear bodies deform under each tooth root and, through the body, under its neighbours
+// (foundation/fillet_foundation.hpp). Contacts may stiffen with the force they carry
+// (contact/hertz_contact.hpp). The total is the mesh force over the approach of the gears along the
+// line of action. Source: Yang (2022), section 2.1, extended to any number of pairs in contact.
 //
-// Curves are Chebyshev series in the position: in error by less than 1e-11 (healthy) and 1e-8 of
-// the mean (faulty).
+// Curves are Chebyshev series in the position. Their error is below 1e-11 (healthy) and 1e-8 of the
+// mean (faulty).
 #pragma once
 
 #include <vector>
@@ -23,17 +23,16 @@ namespace gearpod::stiffness {
 struct CoupledMeshOptions {
     FoundationModel foundation = FoundationModel::none;
     Contact contact = Contact::linear;
-    // The circle on which each gear's body is held (make_foundation).
+    // Radius of the circle on which each gear's body is fixed (make_foundation).
     double body_radius_1_m = 0, body_radius_2_m = 0;
-    double force_N = 0;  // of the mesh, along the line of action; for load-dependent contacts
-    // Curves keep the terms that this share of their largest value asks for; 0: all that say
-    // anything.
+    double force_N = 0;  // mesh force along the line of action, for load-dependent contacts
+    // Error of the curves relative to their largest value; 0: smallest possible error.
     double tolerance = 0;
 };
 
 class CoupledMesh : public MeshStiffness {
   public:
-    // Throws std::invalid_argument for a body or a force that cannot be, or more than 8 pairs in
+    // Throws std::invalid_argument for an impossible body or force, or for more than 8 pairs in
     // contact.
     CoupledMesh(const gears::MeshGeometry& geometry, const Material& material, Profile profile,
                 const CoupledMeshOptions& options);
@@ -46,24 +45,25 @@ class CoupledMesh : public MeshStiffness {
     std::vector<double> transitions() const override { return transitions_; }
     std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const override;
 
-    // Displacement along the line of action of the pair at tau_j by a unit force on the pair at
-    // tau_i, through both gear bodies, m/N; whole mesh periods apart.
+    // Displacement along the line of action of the pair at tau_j caused by a unit force on the pair
+    // at tau_i, through both gear bodies, m/N. The positions are whole mesh periods apart.
     double coupling(double tau_i, double tau_j) const;
-    // Of one healthy tooth: as a beam, and its foundation; m/N.
+    // Compliances of one healthy tooth, m/N: as a beam, and of its foundation.
     double beam(int which, double tau) const { return beams_[which - 1](tau); }
     double foundation(int which, double tau) const;
-    // Null where the gear has none.
+    // Foundation of a gear, null if the gear has none.
     const FilletFoundation* body(int which) const { return bodies_[which - 1].get(); }
 
   private:
     friend class FaultyCoupledMesh;
-    // Between two transitions: the total, and the shares of the pairs from the youngest on.
+    // Total and load shares of the pairs, youngest first, between two transitions.
     struct HealthyStretch {
         double begin, end;
         ChebyshevSeries total;
         std::vector<ChebyshevSeries> shares;
     };
-    // The pairs that touch at phase, 0 <= phase < 1 (or at its end): at phase, phase + 1, ...
+    // Healthy pairs in contact at phase, 0 <= phase < 1 (or the limit at its end). They stand at
+    // phase, phase + 1, ...
     SharedLoad healthy_load(double phase, int pairs) const;
     TouchingPairs touching(double phase, int pairs) const;
     const HealthyStretch& stretch_at(double phase) const;
@@ -74,7 +74,7 @@ class CoupledMesh : public MeshStiffness {
     double force_N_;
     std::unique_ptr<const FilletFoundation> bodies_[2];
     ChebyshevSeries beams_[2];    // over tau, m/N
-    ChebyshevSeries foundation_;  // of both gears
+    ChebyshevSeries foundation_;  // both gears together
     std::vector<double> transitions_;
     std::vector<HealthyStretch> stretches_;
 };

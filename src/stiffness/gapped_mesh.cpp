@@ -130,8 +130,8 @@ std::vector<double> GappedMesh::breaks() const {
     return all;
 }
 
-// Steps of an integrator end where slices start or end their engagement abruptly, and where the
-// stiffness or the gap of spur teeth has a kink.
+// Time steps end where slices start or end their engagement abruptly, and where the stiffness or
+// the gap of spur teeth has a kink.
 std::vector<double> GappedMesh::make_transitions() const {
     std::vector<double> phases;
     add_phase(0, phases);
@@ -177,7 +177,9 @@ void GappedMesh::slice_stiffness(int slice, std::span<const double> tau, double 
         k /= slices_;
 }
 
-// Beyond the path the stiffness is not that of the pair among all others: stiffness times gap is.
+// Gap of a slice. Outside the path the curve's stiffness k differs from the pair's stiffness among
+// all others, `own`. The gap is scaled by own / k there, so that the product of stiffness and gap
+// is right.
 double GappedMesh::slice_gap(int slice, double tau) const {
     const double ratio = spur_->contact_ratio();
     const double at = tau - delay(slice) - path_begin();
@@ -218,7 +220,7 @@ void GappedMesh::add_path_total(const NominalPairs& pairs, const Weight& weight,
         std::transform(tau.begin(), tau.end(), own.begin(), [&](double at) { return at - late; });
         if (slices_ == 1) {
             pairs.total(own, inside - late, one);
-        } else {  // slices change their pairs at positions of their own
+        } else {  // slices change their pairs at different positions
             for (std::size_t i = 0; i < own.size(); ++i)
                 pairs.total({&own[i], 1}, own[i], {&one[i], 1});
         }
@@ -249,8 +251,8 @@ void GappedMesh::share(std::span<const double> tau, double inside, std::span<dou
     }
 }
 
-// The faulty tooth changes the slices of its part of the face (helical_mesh.hpp): what it takes
-// from the spur pair is spread over them.
+// Gapped mesh with a fault. The faulty tooth changes the slices in its part of the face
+// (helical_mesh.hpp). The stiffness lost by the spur pair is distributed over them.
 class FaultyGappedMesh : public FaultyMesh {
   public:
     FaultyGappedMesh(const GappedMesh& healthy, const ToothFault& fault)
@@ -347,10 +349,10 @@ class FaultyGappedMesh : public FaultyMesh {
     }
 
   private:
-    // Tooth pairs that are engaged while the faulty teeth are.
+    // First of the tooth pairs that are engaged while the faulty teeth are.
     int first_tooth() const { return 1 - static_cast<int>(std::ceil(healthy_.contact_ratio())); }
 
-    // The part of the whole loss that falls to a slice.
+    // Fraction of the total loss that a slice has.
     double weight(int slice) const {
         const double low = static_cast<double>(slice) / healthy_.slices_;
         const double high = (slice + 1.0) / healthy_.slices_;
@@ -362,7 +364,7 @@ class FaultyGappedMesh : public FaultyMesh {
     std::unique_ptr<const FaultyMesh> spur_;
     FaceRange face_;
     std::vector<double> jumps_;
-    std::vector<ToothPairCurve> curves_;  // of tooth pairs from first_tooth() on
+    std::vector<ToothPairCurve> curves_;  // for tooth pairs from first_tooth() on
 };
 
 std::unique_ptr<const FaultyMesh> GappedMesh::with_fault(const ToothFault& fault) const {

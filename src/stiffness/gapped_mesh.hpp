@@ -1,14 +1,15 @@
-// A gear pair whose tooth pairs have gaps: relief, crowning, and contact that starts before and
-// ends after the nominal path of contact (gears/corner_contact.hpp).
+// Gear pair whose tooth pairs have gaps: relief, crowning, and contact that starts before and ends
+// after the nominal path of contact (gears/corner_contact.hpp).
 //
-// Each slice of each tooth pair is a spring that pushes and does not pull. A spur pair has one
-// slice unless it is crowned; the slices of a helical pair start their engagement one after the
-// other (helical_mesh.hpp) and have a gap each. Positions tau count from the start of the extended
-// engagement. The total is the secant stiffness under the nominal force: that force over the
-// approach of the gears, which also holds while a fault passes. Mesh damping goes with the sum of
-// the stiffness on the nominal paths instead, as without gaps.
+// Each slice of each tooth pair is a unilateral spring, which carries compression only. A spur pair
+// has one slice unless it is crowned. The slices of a helical pair start their engagement one after
+// the other (helical_mesh.hpp) and each have a gap. Positions tau count from the start of the
+// extended engagement. The total is the secant stiffness under the nominal force, which is the
+// force over the approach of the gears, also while a fault passes. Mesh damping is instead
+// proportional to the sum of the stiffness on the nominal paths, as without gaps.
 //
-// Pairs coupled through elastic bodies have the stiffness of all pairs on their paths in contact.
+// Pairs coupled through elastic bodies have the stiffness that they have while all pairs on their
+// paths are in contact.
 #pragma once
 
 #include <memory>
@@ -21,20 +22,20 @@
 
 namespace gearpod::stiffness {
 
-// The flanks of a gear pair and how they meet.
+// Flanks of a gear pair, with their relief and the extent of their contact.
 struct FlankGaps {
     gears::MeshGeometry geometry;
     gears::FlankRelief relief_1 = {}, relief_2 = {};
-    // Extended contact, followed to corner gaps of this size, m; 0: the pair's stiffness starts and
-    // ends abruptly with the nominal path.
+    // Corner gap, m, up to which contact outside the nominal path is followed. 0: the pair's
+    // stiffness starts and ends abruptly with the nominal path.
     double reach_m = 0;
 };
 
 class GappedMesh : public MeshStiffness {
   public:
     // spur: the pair on its nominal path, as wide as the face. overlap_ratio: 0 for spur teeth.
-    // force_N: nominal force along the line of action. slices: across the face, at least 1.
-    // Throws std::invalid_argument for other values.
+    // force_N: nominal force along the line of action. slices: number across the face, at least 1.
+    // Throws std::invalid_argument for invalid values.
     GappedMesh(std::unique_ptr<const MeshStiffness> spur, double overlap_ratio,
                const FlankGaps& gaps, double force_N, int slices);
 
@@ -64,15 +65,15 @@ class GappedMesh : public MeshStiffness {
 
   private:
     friend class FaultyGappedMesh;
-    // A slice's delay, mesh periods, and its place across the face, -1 to 1.
+    // Delay of a slice, mesh periods, and its position across the face, -1 to 1.
     double delay(int slice) const { return overlap_ * (slice + 0.5) / slices_; }
     double across(int slice) const { return (2 * slice + 1.0) / slices_ - 1; }
-    // Sum over the slices of weight(slice) times the total that `pairs` has on their paths.
+    // Adds the sum over the slices of weight(slice) times the total of `pairs` on their paths.
     template <class Weight>
     void add_path_total(const NominalPairs& pairs, const Weight& weight,
                         std::span<const double> tau, double inside,
                         std::span<double> stiffness) const;
-    // Positions on a tooth pair's engagement, ascending, between which a curve is smooth.
+    // Positions within a tooth pair's engagement, ascending, between which a curve is smooth.
     std::vector<double> breaks() const;
     std::vector<double> make_transitions() const;
     ToothPairCurve fit(ExtendedPairs& pairs, int tooth, const std::vector<double>& breaks) const;
@@ -83,9 +84,9 @@ class GappedMesh : public MeshStiffness {
     double force_;
     int slices_;
     PathExtension extension_;
-    double spur_ratio_;  // mesh periods of one slice's engagement
+    double spur_ratio_;  // duration of one slice's engagement, mesh periods
     ExtendedPairs::Change joins_, leaves_;
-    ToothPairCurve curve_;  // of one slice as wide as the face, over its engagement
+    ToothPairCurve curve_;  // one slice as wide as the face, over its engagement
     std::vector<double> transitions_;
 };
 

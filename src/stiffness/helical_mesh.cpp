@@ -13,9 +13,9 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfMean = 1e-10;  // of the spur pair's mean stiffness
+constexpr double kOfMean = 1e-10;  // fraction of the spur pair's mean stiffness
 
-// The transitions within [begin, end], and both ends.
+// Transitions within [begin, end], and both ends.
 std::vector<double> points_within(std::span<const double> transitions, double begin, double end) {
     std::vector<double> points{begin, end};
     for (double period = std::floor(begin); period <= end; ++period)
@@ -38,8 +38,9 @@ std::vector<double> helical_transitions(const MeshStiffness& spur, double overla
     return phases;
 }
 
-// mean += integral / width over the window of that width which ends `late` before tau, for
-// ascending tau. Of a curve that repeats every mesh period, `inside` lies in the stretch of tau.
+// Adds integral / width over the window of that width that ends `late` before tau, for ascending
+// tau. If the curve repeats every mesh period, `inside` is a position within the stretch of tau,
+// else null.
 void add_mean(const RunningIntegral& integral, double width, std::span<const double> tau,
               std::span<double> mean, const double* inside = nullptr, double late = 0) {
     std::vector<double> t(tau.size()), value(tau.size());
@@ -60,7 +61,7 @@ RunningIntegral integral_of_period(const MeshStiffness& spur, double tolerance) 
             points_within(spur.transitions(), 0, 1), tolerance};
 }
 
-// A healthy tooth pair of the spur pair, N/m.
+// Stiffness of a healthy tooth pair of the spur pair, N/m.
 void spur_pair(const MeshStiffness& spur, std::span<const double> t, double inside,
                std::span<double> values) {
     std::vector<double> all(t.size());
@@ -83,7 +84,8 @@ double checked(double overlap_ratio) {
 
 }  // namespace
 
-// What the fault takes from the spur pair, integrated: outside its passage nothing.
+// Helical mesh with a fault. Integrates the stiffness lost by the spur pair, which is 0 outside the
+// fault's passage.
 class FaultyHelicalMesh : public FaultyMesh {
   public:
     FaultyHelicalMesh(const HelicalMesh& healthy, const ToothFault& fault)
@@ -125,7 +127,7 @@ class FaultyHelicalMesh : public FaultyMesh {
         std::transform(values.begin(), values.end(), from.begin(), values.begin(), std::minus<>());
     }
 
-    // Of the tooth pairs of the spur pair that touch during its passage.
+    // First of the tooth pairs of the spur pair that touch during its passage.
     int first_tooth() const {
         return 1 - static_cast<int>(std::ceil(healthy_.slice().contact_ratio()));
     }
@@ -153,7 +155,8 @@ class FaultyHelicalMesh : public FaultyMesh {
 
     const HelicalMesh& healthy_;
     std::unique_ptr<const FaultyMesh> spur_;
-    double late_, width_;  // mesh periods: of the fault's first slice, and between first and last
+    // mesh periods: delay of the fault's first slice, and from first to last slice
+    double late_, width_;
     RunningIntegral lost_;
     mutable std::once_flag teeth_known_;
     mutable std::vector<RunningIntegral> lost_by_tooth_;

@@ -10,7 +10,8 @@ constexpr double kSteel_Pa = 2.06e11;
 constexpr double kStandardAngle_deg = 20.0;
 constexpr double kLeastShifts = -0.5, kMostShifts = 2.0, kLeastContactRatio = 1.2;
 
-// A gear as the formula counts it: 1 / z of its virtual tooth number, shift in normal modules.
+// Gear parameters of the formula: 1 / z of its virtual tooth number, and profile shift in normal
+// modules.
 struct CountedGear {
     double inverse_teeth = 0, shift = 0;
 };
@@ -20,7 +21,7 @@ CountedGear counted(const gears::Gear& gear, double helix_cos, double base_helix
     return {gear.internal ? 0.0 : 1.0 / teeth, gear.profile_shift / helix_cos};
 }
 
-// q', mm um/N.
+// Theoretical compliance q', mm um/N.
 double theoretical_compliance(const CountedGear& one, const CountedGear& two) {
     const double x_1 = one.shift, x_2 = two.shift;
     return 0.04723 + 0.15551 * one.inverse_teeth + 0.25791 * two.inverse_teeth - 0.00635 * x_1 -

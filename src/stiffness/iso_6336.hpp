@@ -5,8 +5,8 @@
 //
 // z: virtual tooth numbers, x: profile shifts of pinion and wheel in normal modules, b: helix
 // angle, e_alpha: transverse contact ratio. An internal wheel has z2 = infinity. C_B is the
-// basic-rack factor. C_M = 0.8 is empirical: measured teeth are a fifth softer than the theory
-// behind q'.
+// basic-rack factor. C_M = 0.8 is empirical: measured teeth are a fifth softer than the theory of
+// q'.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,14 @@ namespace gearpod::stiffness {
 
 inline constexpr double kIso6336MeasuredOverTheory = 0.8;  // C_M
 
-// Times the face width, N/m. The gear blank factor C_R is left out.
+// Stiffnesses times the face width, N/m. The gear blank factor C_R is omitted.
 struct Iso6336Stiffness {
     double single = 0;  // c', largest stiffness of one tooth pair
     double mesh = 0;    // c_gamma_alpha, mean over a mesh period
 };
 
-// Helical gears are given in their transverse plane. Empty outside the limits of the formula:
-// shifts that sum up to -0.5 to 2, a contact ratio of 1.2 or more.
+// Helical gears are given by their transverse plane. Empty outside the limits of the formula: a sum
+// of profile shifts from -0.5 to 2, and a contact ratio of at least 1.2.
 std::optional<Iso6336Stiffness> iso_6336_stiffness(const gears::MeshGeometry& mesh,
                                                    double helix_angle_rad,
                                                    const Material& material);

@@ -6,8 +6,8 @@
 
 namespace gearpod::stiffness {
 
-// Springs join in the order of their gaps; the first set that the next spring does not join carries
-// the force.
+// Springs come into contact in the order of their gaps. The first set that carries the force
+// without closing the next gap is the solution.
 double approach_of(std::vector<ContactSpring>& springs, double force_N) {
     std::sort(springs.begin(), springs.end(),
               [](const auto& a, const auto& b) { return a.gap < b.gap; });

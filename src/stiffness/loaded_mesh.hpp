@@ -1,12 +1,12 @@
-// Quasi-static contact of a gear pair under load: how far the gears approach along the line of
-// action while they turn slowly under a constant force,
+// Quasi-static contact of a gear pair under load. The approach d of the gears along the line of
+// action, while they turn slowly under a constant force F, follows from
 //
-//     F = sum over touching tooth pairs j and slices s of k_js max(0, d - e_js),
+//     F = sum over tooth pairs j in contact and slices s of k_js max(0, d - e_js),
 //
-// with the stiffness k and the gap e of each slice (relief, crowning, corner contact), which can
-// push but not pull. d is the loaded static transmission error. Munro (1989); Smith, Gear Noise and
-// Vibration (2003): with relief from the end of single contact on whose amount at the tip is the
-// deflection of one pair, d is constant at that load.
+// with the stiffness k and the gap e of each slice (relief, crowning, corner contact). Contacts are
+// unilateral: they carry compression only. d is the loaded static transmission error. Relief may
+// start at the end of single contact, with the deflection of one pair as its amount at the tip.
+// Then d is constant at that load (Munro 1989; Smith, Gear Noise and Vibration (2003)).
 #pragma once
 
 #include <vector>
@@ -15,25 +15,25 @@
 
 namespace gearpod::stiffness {
 
-// A slice of a tooth pair as a spring that only pushes: stiffness, N/m, and gap, m.
+// Unilateral spring of a slice of a tooth pair: stiffness, N/m, and gap, m.
 struct ContactSpring {
     double stiffness = 0, gap = 0;
 };
 
-// The approach d at which springs carry a force together, m. Reorders the springs by their gaps.
-// Without a force the smallest gap; infinite without any spring.
+// Approach d, m, at which the springs together carry a force. Reorders the springs by their gaps.
+// Returns the smallest gap if the force is 0, and infinity without springs.
 double approach_of(std::vector<ContactSpring>& springs, double force_N);
 
-// Secant stiffness: that force over the approach, N/m; without a force the sum of the stiffnesses.
+// Secant stiffness, N/m: the force over the approach; without a force, the sum of the stiffnesses.
 double secant_stiffness(std::vector<ContactSpring>& springs, double force_N);
 
 class LoadedMesh {
   public:
-    // The mesh must outlive it. force_N: along the line of action, positive or 0.
+    // The mesh must outlive the object. force_N: along the line of action, positive or 0.
     LoadedMesh(const MeshStiffness& mesh, double force_N) : mesh_(mesh), force_(force_N) {}
 
     double force_N() const { return force_; }
-    // d, m, at a position within the stretch of `inside` (mesh_stiffness.hpp).
+    // Approach d, m, at a position within the stretch of `inside` (mesh_stiffness.hpp).
     double approach(double tau, double inside) const;
 
     // Least, largest and mean approach over a mesh period.
@@ -48,7 +48,8 @@ class LoadedMesh {
     double force_;
 };
 
-// The springs of all tooth pairs that are engaged at a position within the stretch of `inside`.
+// Appends the springs of all tooth pairs that are engaged at a position within the stretch of
+// `inside`.
 void add_springs(const MeshStiffness& mesh, double tau, double inside,
                  std::vector<ContactSpring>& springs);
 

@@ -17,7 +17,8 @@ struct OwnedFault {
     std::unique_ptr<const FaultyMesh> mesh;
 };
 
-// Positions this close to the end of a stretch count as the end.
+// Offset from a position into the stretch above or below it. Positions this close to the end of a
+// stretch count as the end.
 constexpr double kBeside = 2 * kPositionTolerance;
 
 template <class Mesh>

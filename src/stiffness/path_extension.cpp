@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kNextTo = 4 * kPositionTolerance;
 
-// Starts and ends of paths coincide: the pairs that join and leave cannot be told apart.
+// True if starts and ends of paths coincide, so that the pairs that join and leave cannot be
+// distinguished.
 bool whole(double contact_ratio) {
     return std::abs(contact_ratio - std::round(contact_ratio)) < 10 * kNextTo;
 }
@@ -70,7 +71,7 @@ const ExtendedPairs::Change& ExtendedPairs::change(int tooth, bool joins) {
     return known->second;
 }
 
-// Applies the effect of a pair near its path's end on another one on its path.
+// Applies the effect of a pair near its path's end to another pair on its path.
 void ExtendedPairs::apply(int tooth, int other, bool joins, std::span<const double> tau,
                           std::span<double> values) {
     const auto& factors = change(other, joins).others;

@@ -1,11 +1,10 @@
 // Stiffness of spur tooth pairs before and after their nominal path of contact.
 //
-// Beyond the path a tooth pair touches at a tip corner (gears/corner_contact.hpp). It keeps the
+// Outside the path a tooth pair touches at a tip corner (gears/corner_contact.hpp) and keeps the
 // stiffness that it has at that end of the path. Where pairs share elastic gear bodies, a pair that
-// joins n others adds K_(n+1) - K_n to the mesh once its gap is closed, and from the path on all
-// n + 1 pairs have the stiffness that they have together. Both descriptions give the same force
-// where the pair touches; a weight leads from the one to the other while it does, so that no
-// stiffness jumps at the ends of the path.
+// joins n others adds K_(n+1) - K_n to the mesh once its gap is closed. On the path all n + 1 pairs
+// have their joint stiffness. Both descriptions give the same force where the pair touches. A
+// weight blends them during that contact, so that no stiffness jumps at the ends of the path.
 #pragma once
 
 #include <map>
@@ -16,7 +15,7 @@
 
 namespace gearpod::stiffness {
 
-// A gear pair on its nominal path of contact, healthy or with a faulty tooth. Positions tau count
+// Gear pair on its nominal path of contact, healthy or with a faulty tooth. Positions tau count
 // mesh periods from the start of tooth pair 0's path; tooth pair i starts i periods later. Both
 // functions take ascending positions in the stretch of `inside` and write N/m.
 class NominalPairs {
@@ -28,13 +27,13 @@ class NominalPairs {
                       std::span<double> stiffness) const = 0;
 };
 
-// How far engagements reach beyond the path, and the weight of the description by all pairs in
+// Extent of engagements outside the path, and the weight of the joint stiffness of all pairs in
 // contact.
 class PathExtension {
   public:
-    // No engagement beyond the path.
+    // No engagement outside the path.
     explicit PathExtension(const gears::MeshGeometry& geometry) : geometry_(geometry) {}
-    // Followed to corner gaps of reach_m; the weight falls from 1 at the ends of the path to 0
+    // Engagement up to corner gaps of reach_m. The weight falls from 1 at the ends of the path to 0
     // where the corner gap is approach_m, the nominal approach of the gears.
     PathExtension(const gears::MeshGeometry& geometry, double reach_m, double approach_m)
         : geometry_(geometry),
@@ -43,10 +42,11 @@ class PathExtension {
           approach_(approach_m) {}
 
     double contact_ratio() const { return geometry_.contact_ratio(); }
-    // Mesh periods before and after the path: of the engagement, and of a weight above 0.
+    // Mesh periods before and after the path: of the engagement, and of the range where the weight
+    // is positive.
     const gears::CornerReach& reach() const { return reach_; }
     const gears::CornerReach& fade() const { return fade_; }
-    // Position from the start of a pair's own path; 1 on the path.
+    // Weight at a position measured from the start of a pair's own path; 1 on the path.
     double weight(double tau) const;
 
   private:
@@ -57,7 +57,7 @@ class PathExtension {
 
 class ExtendedPairs {
   public:
-    // Both must outlive it.
+    // Both arguments must outlive the object.
     ExtendedPairs(const NominalPairs& pairs, const PathExtension& extension)
         : pairs_(pairs), extension_(extension) {}
 
@@ -65,8 +65,9 @@ class ExtendedPairs {
     // smooth piece (between starts and ends of paths and of fades).
     void stiffness(int tooth, std::span<const double> tau, std::span<double> values);
 
-    // A tooth pair that starts (joins) or ends (leaves) its path: its stiffness among the others at
-    // that end, what it adds to the mesh, and the factors by which it changes the others'.
+    // Change of the mesh where a tooth pair starts (joins) or ends (leaves) its path: the pair's
+    // stiffness among the others, the stiffness it adds to the mesh, and the factors by which it
+    // changes the other pairs' stiffness.
     struct Change {
         double own = 0, added = 0;
         std::map<int, double> others;

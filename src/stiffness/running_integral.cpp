@@ -10,7 +10,7 @@ namespace gearpod::stiffness {
 namespace {
 
 constexpr int kPieceNodes = 32;
-constexpr int kTermsThatEnd = 26;  // more may hide an error in those that are missing
+constexpr int kTermsThatEnd = 26;  // more terms may mean that the omitted ones are not negligible
 constexpr int kHalvings = 8;
 
 }  // namespace
@@ -27,7 +27,7 @@ void RunningIntegral::add_piece(const Curve& curve, double begin, double end, do
     static const ChebyshevTransform transform(kPieceNodes);
     const double middle = 0.5 * (begin + end);
     std::array<double, kPieceNodes> t, values, coefficients;
-    for (int i = 0; i < kPieceNodes; ++i)  // the points fall
+    for (int i = 0; i < kPieceNodes; ++i)  // the points are in descending order
         t[kPieceNodes - 1 - i] = middle + 0.5 * (end - begin) * transform.points()[i];
     curve(t, middle, values);
     std::reverse(values.begin(), values.end());

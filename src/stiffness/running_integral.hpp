@@ -1,4 +1,4 @@
-// The integral of a piecewise smooth curve from its beginning on, as Chebyshev series.
+// Integral of a piecewise smooth curve from its start, as Chebyshev series.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,15 @@ namespace gearpod::stiffness {
 
 class RunningIntegral {
   public:
-    // curve(t, inside, values) at ascending t of a piece that `inside` lies strictly within.
+    // curve(t, inside, values): values at ascending t of a piece, with `inside` strictly within it.
     using Curve = std::function<void(std::span<const double>, double inside, std::span<double>)>;
 
-    // Over [points.front(), points.back()], smooth between the points (ascending). Pieces whose
-    // series do not end below `tolerance` (of the curve, absolute) are halved, up to eight times.
+    // Integral over [points.front(), points.back()] of a curve that is smooth between the points
+    // (ascending). Pieces whose series have not decayed below `tolerance` (absolute, of the curve)
+    // are halved, up to eight times.
     RunningIntegral(const Curve& curve, std::span<const double> points, double tolerance);
 
-    // At ascending t; 0 before the first point, whole() behind the last.
+    // Integral at ascending t; 0 before the first point, whole() after the last.
     void operator()(std::span<const double> t, std::span<double> values) const;
     double whole() const { return whole_; }
 

@@ -8,7 +8,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// Is the tooth pair that stands at that position in contact?
+// True if the tooth pair at that position is in contact.
 bool touches(double position, double contact_ratio) {
     return position > 0 && position < contact_ratio;
 }
@@ -33,8 +33,8 @@ class FaultySquareWave : public FaultyMesh {
         std::fill(stiffness.begin(), stiffness.end(), mesh_factor_ * pairs_at(inside).total);
     }
 
-    // A faulty tooth pair has its factor's part of what is its share among healthy ones; the sound
-    // ones have the rest.
+    // Stiffness of a tooth pair. A faulty pair has its factor times its share among healthy pairs;
+    // the healthy pairs share the rest.
     void tooth_pair(int tooth, std::span<const double> /*tau*/, double inside,
                     std::span<double> stiffness) const override {
         double own = 0;
@@ -50,7 +50,7 @@ class FaultySquareWave : public FaultyMesh {
   private:
     struct Pairs {
         int all = 0, faulty = 0;
-        double total = 0;  // but for the factor on the mesh
+        double total = 0;  // without the factor on the mesh
     };
     Pairs pairs_at(double inside) const {
         const double ratio = healthy_.contact_ratio();

@@ -11,14 +11,14 @@ namespace {
 
 constexpr int kCurveNodes = ToothPairCurve::kMaxTerms;
 
-// A series that needs more terms may hide an error in those it lacks: its piece is cut near its
-// softer end, where the stiffness of a tooth cracked past its centre line falls to zero within a
-// short layer.
+// Largest number of terms of an accepted series. A series with more terms may omit significant
+// ones, so its piece is cut near its softer end: the stiffness of a tooth cracked past its centre
+// line falls to zero within a short layer.
 constexpr int kResolvedTerms = 32;
 constexpr double kCut = 0.15;
 constexpr int kMaxCuts = 6;
 
-// Mesh periods. Shorter pieces are left to their neighbour.
+// Length in mesh periods below which a piece is merged with its neighbour.
 constexpr double kShortestPiece = 1e-8;
 
 }  // namespace
@@ -65,7 +65,7 @@ ToothPairCurve ToothPairFit::operator()(const Stiffness& stiffness, std::span<co
 void ToothPairFit::add_piece(ToothPairCurve& curve, const Stiffness& stiffness, double begin,
                              double end, int cuts) const {
     std::array<double, kCurveNodes> tau, values;
-    const auto& points = transform_.points();  // falling
+    const auto& points = transform_.points();  // descending
     for (int i = 0; i < kCurveNodes; ++i)
         tau[kCurveNodes - 1 - i] = 0.5 * (begin + end) + 0.5 * (end - begin) * points[i];
     stiffness(tau, values);

@@ -1,5 +1,5 @@
-// Stiffness of one faulty tooth pair from the start of its engagement to the end, N/m, in smooth
-// Chebyshev pieces. Positions in mesh periods since the engagement began.
+// Stiffness of one faulty tooth pair over its engagement, N/m, in smooth Chebyshev pieces.
+// Positions are mesh periods since the start of the engagement.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace gearpod::stiffness {
 
-// A value; const members may be shared by threads. Zero between its pieces.
+// Value type; threads may share its const members. The stiffness is zero between the pieces.
 class ToothPairCurve {
   public:
     static constexpr int kMaxTerms = 40;
@@ -23,10 +23,10 @@ class ToothPairCurve {
     };
 
     // Stiffness at ascending positions (to 1e-10) within a stretch; at its ends the limits from
-    // within. Same bits one by one.
+    // within. Evaluating positions one by one gives the same bits.
     void operator()(std::span<const double> tau, const Stretch& stretch,
                     std::span<double> stiffness) const;
-    // Over the whole engagement; where it jumps, the limit from above.
+    // Stiffness over the whole engagement; at jumps, the limit from above.
     void operator()(std::span<const double> tau, std::span<double> stiffness) const;
     double operator()(double tau) const;
 
@@ -37,15 +37,15 @@ class ToothPairCurve {
     std::vector<Piece> pieces_;
 };
 
-// Interpolates curves.
+// Fits tooth pair curves by Chebyshev interpolation.
 class ToothPairFit {
   public:
     // stiffness(tau, values): N/m at ascending positions strictly within a smooth piece.
     using Stiffness = std::function<void(std::span<const double>, std::span<double>)>;
 
-    // tolerance: absolute error in N/m where 40 terms a piece suffice.
+    // tolerance: absolute error in N/m, reached if 40 terms per piece suffice.
     explicit ToothPairFit(double tolerance) : tolerance_(tolerance) {}
-    // On [0, contact_ratio], smooth between the breaks (ascending).
+    // Fits the curve on [0, contact_ratio], which is smooth between the breaks (ascending).
     ToothPairCurve operator()(const Stiffness& stiffness, std::span<const double> breaks,
                               double contact_ratio) const;
 

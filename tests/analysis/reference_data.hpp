@@ -1,4 +1,4 @@
-// The data sets that tests share with the reference programs (reference/make_reference.*).
+// Data sets that tests share with the reference programs (reference/make_reference.*).
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace gearpod::analysis {
 
-// Columns of reference/<name>, its first line being a heading.
+// Columns of reference/<name>; its first line is a heading.
 inline std::vector<std::vector<double>> reference_columns(const std::string& name) {
     std::ifstream file(std::filesystem::path(GEARPOD_REFERENCE_DIR) / name);
     std::string line;

@@ -1,5 +1,5 @@
-// Bounds over synthetic studies whose truth is known: 95 % bounds must hold in 95 % of them. Tagged
-// [.coverage]; ctest runs it as analysis-coverage of -C long.
+// Checks bounds over synthetic studies with known truth: 95 % bounds must hold in 95 % of them. The
+// tag is [.coverage]; ctest runs it as analysis-coverage of -C long.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -17,8 +17,8 @@ using Where = SizeEstimate::Where;
 constexpr int kStudies = 2000;
 constexpr double kMargin = 0.015;  // three standard deviations of a coverage of 0.95
 
-// One hit/miss study of the true curve, sizes uniform in (0, largest), none repeated, or on as many
-// equally spaced levels.
+// One hit/miss study of the true curve. Sizes are uniform in (0, largest), either all different or
+// on as many equally spaced levels.
 HitMissTable draw_study(const PodCurve& truth, int count, double largest, int levels,
                         std::mt19937_64& engine) {
     std::uniform_real_distribution<double> draw;
@@ -32,7 +32,7 @@ HitMissTable draw_study(const PodCurve& truth, int count, double largest, int le
     return hit_miss_table(sizes, hits);
 }
 
-// Bounds outside the tested sizes hold if the truth does not lie inside on the wrong side.
+// Bounds outside the tested sizes hold unless the truth lies inside on the wrong side.
 bool upper_holds(const SizeEstimate& bound, double truth) {
     return bound.where == Where::not_reached ||
            (bound.where == Where::reached && truth <= bound.size);
@@ -92,7 +92,7 @@ TEST_CASE("Likelihood-ratio bounds of two-parameter curves cover the truth", "[.
 }
 
 TEST_CASE("Likelihood-ratio bounds with floor and ceiling cover the truth", "[.coverage]") {
-    // A ceiling far enough from 1 and from 0.9 to be found in most studies.
+    // A ceiling that is far enough from 1 and from 0.9 to be found in most studies.
     const PodCurve truth{{Link::logit, false, 0.05, true}, -5.0, 3.0, 0.96};
     const Covered covered = coverage_of_form(truth, 1500, 30, 1.6);
     CAPTURE(covered.studies, covered.upper, covered.lower, covered.band_lower, covered.band_upper);
@@ -104,7 +104,7 @@ TEST_CASE("Likelihood-ratio bounds with floor and ceiling cover the truth", "[.c
 }
 
 TEST_CASE("The bound of a90 over all supported curves covers the truth", "[.coverage]") {
-    // The chosen curve's own bound alone covers 0.89 to 0.95 here.
+    // The bound of the chosen curve alone covers 0.89 to 0.95 here.
     for (const PodCurve& truth : {PodCurve{{Link::probit, false, 0.05, false}, -3.0, 1.6, 1.0},
                                   PodCurve{{Link::logit, true, 0.05, false}, -3.0, 4.0, 1.0},
                                   PodCurve{{Link::logit, false, 0.05, true}, -5.0, 3.0, 0.96},
@@ -125,7 +125,7 @@ TEST_CASE("The bound of a90 over all supported curves covers the truth", "[.cove
         CAPTURE(upper / studies);
         CHECK(studies == kStudies);
         CHECK(upper / studies > 0.95 - kMargin);
-        CHECK(upper / studies < 0.985);  // wide where a ceiling is hard to see
+        CHECK(upper / studies < 0.985);  // wide where a ceiling is hard to identify
     }
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("Bounds of a POD from a line with normal scatter cover the truth", "[.
     std::mt19937_64 engine(29);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> draw(0.5, 4.0);
-    // value = 1 + a + 0.5 e, threshold 3: a90 = 2 + 0.5 z.
+    // For value = 1 + a + 0.5 e and threshold 3, a90 = 2 + 0.5 z.
     const double a90 = 2.0 + 0.5 * link_quantile(Link::probit, 0.9);
     double upper = 0.0, lower = 0.0;
     int studies = 0;
@@ -145,8 +145,8 @@ TEST_CASE("Bounds of a POD from a line with normal scatter cover the truth", "[.
         }
         const SignalResponsePod pod =
             signal_response_pod(sizes, values, {3.0, Alarm::high, 0.95, 2});
-        // Studies whose checks fail by chance, or in which another scale passes with less AIC, are
-        // about the selection and not about the bound.
+        // Studies whose checks fail by chance, or in which another scale passes with less AIC,
+        // concern the selection and not the bound.
         if (pod.refusal.empty() && !pod.candidates[pod.chosen].scale.log_size &&
             pod.candidates[pod.chosen].scale.power == 1.0) {
             ++studies;

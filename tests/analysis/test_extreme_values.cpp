@@ -1,4 +1,4 @@
-// Whatever finite values a study gives, its analysis ends with numbers or with a reason.
+// Checks that the analysis of any finite values ends with numbers or with a reason.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -112,7 +112,7 @@ void assess(const Kind& sizes, std::size_t count, double rate, unsigned seed) {
     }
 }
 
-TEST_CASE("no finite values end the analysis of a study") {
+TEST_CASE("finite values never abort the analysis of a study") {
     unsigned seed = 1;
     for (const Kind& sizes : kSizes) {
         for (const std::size_t count : {2u, 3u, 19u, 20u, 60u, 150u, 400u}) {
@@ -122,7 +122,7 @@ TEST_CASE("no finite values end the analysis of a study") {
     }
 }
 
-TEST_CASE("nor do they in large samples") {
+TEST_CASE("finite values never abort the analysis of a large sample") {
     assess(kSizes[0], 20000, 0.05, 71);
     assess(kSizes[1], 3000, 0.01, 72);
 }
@@ -154,7 +154,7 @@ TEST_CASE("rates have intervals at any count") {
     }
 }
 
-TEST_CASE("tails and quantiles have values at the ends of the number line") {
+TEST_CASE("tails and quantiles have values at the limits of the number range") {
     CHECK(chi_squared_upper_tail(0.0, 3.0) == 1.0);
     CHECK(chi_squared_upper_tail(kLargest, 3.0) == 0.0);
     CHECK(chi_squared_upper_tail(HUGE_VAL, 3.0) == 0.0);

@@ -1,5 +1,5 @@
-// a90 and cost over the false-alarm rate, where both are known: a normal feature whose mean grows
-// with the size.
+// Checks a90 and cost over the false-alarm rate where both are known: a normal feature whose mean
+// grows with the size.
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ namespace {
 
 const boost::math::normal kNormal;
 
-// Features of 1 + size / mm +- 1, healthy ones around 0: POD is a probit of the size exactly.
+// Features of 1 + size / mm +- 1, healthy ones around 0: the POD is exactly a probit of the size.
 struct Study {
     std::vector<double> healthy, size, value;
 
@@ -42,7 +42,8 @@ double true_a90(double rate) {
 
 const PodForm kProbit{Link::probit, false, 0.0, false};
 
-TEST_CASE("a90 over the false-alarm rate is the normal law's, down to where the sample carries") {
+TEST_CASE(
+    "a90 over the false-alarm rate matches the normal law, down to the lowest supported rate") {
     const Study study(2000, 3000, 4);
     const FalseAlarmCurve curve = false_alarm_curve(study.values(), {&kProbit, 1}, 0.95);
     REQUIRE(curve.refusal.empty());
@@ -55,7 +56,7 @@ TEST_CASE("a90 over the false-alarm rate is the normal law's, down to where the 
         const double truth = true_a90(point.false_alarm_rate);
         INFO(point.false_alarm_rate << " " << truth);
         REQUIRE(point.a90.estimate.where == SizeEstimate::Where::reached);
-        // Alike where the tail takes over from the sample's largest value.
+        // The a90 may stay equal at 2e-4, where the tail replaces the sample's largest value.
         CHECK((point.a90.estimate.size > before || point.false_alarm_rate == 2e-4));
         CHECK(point.a90.estimate.size >= before);
         before = point.a90.estimate.size;
@@ -63,7 +64,7 @@ TEST_CASE("a90 over the false-alarm rate is the normal law's, down to where the 
         CHECK(point.threshold_bounds.lower < point.threshold);
         CHECK(point.threshold_bounds.upper > point.threshold);
     }
-    // The other side of zero is the same.
+    // A low alarm on the negative feature gives the same result.
     const FalseAlarmCurve low =
         false_alarm_curve(Study(2000, 3000, 4, -1.0).values(Alarm::low), {&kProbit, 1}, 0.95);
     REQUIRE(low.points.size() == curve.points.size());
@@ -71,7 +72,7 @@ TEST_CASE("a90 over the false-alarm rate is the normal law's, down to where the 
     CHECK(low.points[9].threshold == Approx(-curve.points[9].threshold));
 }
 
-TEST_CASE("Bounds of a90 hold the threshold's scatter over 100 studies") {
+TEST_CASE("Bounds of a90 include the threshold's scatter over 100 studies") {
     int covered[3] = {}, narrow = 0;
     constexpr int kStudies = 100;
     for (int s = 0; s < kStudies; ++s) {
@@ -90,15 +91,15 @@ TEST_CASE("Bounds of a90 hold the threshold's scatter over 100 studies") {
         }
         narrow += curve.points[8].a90.upper.where == SizeEstimate::Where::reached ? 1 : 0;
     }
-    // Two halves of the error: no less than what is promised, whatever they have in common.
+    // Coverage is at least nominal, whatever the correlation of the two parts of the error.
     for (const int count : covered) {
         CHECK(count >= 0.95 * kStudies - 2.0 * std::sqrt(0.05 * 0.95 * kStudies));
     }
-    CHECK(narrow > kStudies / 2);  // and not by being open
+    CHECK(narrow > kStudies / 2);  // and not because it is open
 }
 
-TEST_CASE("Alarms that a sample says nothing of leave the bounds of a90 at others as they are") {
-    // 40 recordings each of 50 gearboxes: the rarest threshold may lie nearer than the first.
+TEST_CASE("Rates that a sample cannot determine leave the bounds of a90 at others unchanged") {
+    // Forty recordings each of 50 gearboxes: the rarest threshold may be lower than the first.
     const Study study(2000, 3000, 4);
     std::vector<std::size_t> gearbox;
     for (std::size_t i = 0; i < study.healthy.size(); ++i) {
@@ -116,9 +117,9 @@ TEST_CASE("Alarms that a sample says nothing of leave the bounds of a90 at other
     }
 }
 
-TEST_CASE("The threshold of least cost is where the laws' likelihoods are as the costs ask") {
-    // Faults of one size, 3: the optimum of a normal pair is at 1.5 + log(odds) / 3 with odds of
-    // (1 - share) alarm to share miss.
+TEST_CASE("The threshold of least cost has the likelihood ratio that the costs require") {
+    // Faults of one size, 3: the optimum of a normal pair is at 1.5 + log(odds) / 3 with odds of (1
+    // - share) alarm to share miss.
     Study study(20000, 20000, 9);
     std::mt19937_64 engine(10);
     std::normal_distribution<double> noise(3.0, 1.0);
@@ -139,14 +140,15 @@ TEST_CASE("The threshold of least cost is where the laws' likelihoods are as the
     CHECK(least->bounds.upper >= cost_at(least->threshold));
     CHECK(least->without == Approx(2.5));
     CHECK(!least->rarest);
-    // Alarms that cost everything are never worth it.
+    // Alarms of overwhelming cost lead to the rarest threshold.
     CHECK(least_cost(study.values(), {1e12, 1.0, 0.005}, 0.95)->rarest);
     CHECK(!least_cost({Alarm::high, {}, study.size, study.value}, costs, 0.95));
 }
 
-TEST_CASE("A threshold of least cost has the bounds of what it was taken from") {
-    // 300 healthy gearboxes of 8 records, most of them drawn towards alarms. The first ones, which
-    // alone set order statistics, come out quiet, so that these seem cheap.
+TEST_CASE("A threshold of least cost has the bounds of the method that determined it") {
+    // 300 healthy gearboxes of 8 records, most of them exponentially tilted towards alarms. The
+    // first records, which alone set order statistics, have few alarms, so that these thresholds
+    // seem inexpensive.
     constexpr std::array kShifts{0.0, 2.0, 3.5, 5.0};
     std::mt19937_64 engine(11);
     std::normal_distribution<double> noise;
@@ -172,7 +174,7 @@ TEST_CASE("A threshold of least cost has the bounds of what it was taken from") 
         const auto least = least_cost(values, {10.0, miss, 0.005}, 0.95);
         REQUIRE(least);
         const Threshold at = all.at(least->false_alarm_rate, 0.975);
-        REQUIRE(at.tilted);  // which are there at all of these rates
+        REQUIRE(at.tilted);  // exponentially tilted thresholds exist at all of these rates
         CHECK(least->tilted == (least->threshold == at.value));
         const Interval own = least->tilted
                                  ? at.tilted->rate

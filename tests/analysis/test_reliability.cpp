@@ -19,8 +19,8 @@ namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Features over gearboxes at two noise levels: a good one, one without value, one constant, one
-// that finds all and one that finds none.
+// Features over gearboxes at two noise levels: a good one, one without values, one constant, one
+// that detects all and one that detects none.
 struct Study {
     DetectionRequest request;
     std::vector<double> healthy_size, graded_size, torque, healthy_torque;
@@ -81,15 +81,16 @@ struct Study {
     }
 };
 
-TEST_CASE("A good feature gets a curve, the others the reason why they have none") {
+TEST_CASE("A good feature gets a curve, the others the reason for having none") {
     const Study study;
     const Reliability result = study.assess();
     REQUIRE(result.features.size() == 5);
     const LevelReliability& good = result.features[0].levels[0];
     CHECK(good.hit_miss.refusal == "");
     CHECK(good.hit_miss.chosen.curve.form.floor >= 0.0);
-    // ln(feature) = a/mm + torque's part + normal scatter: half alarm where the mean meets the
-    // threshold, the 95 % quantile of the healthy ones, about 1.7 + 0.15 in the mean.
+    // ln(feature) = a/mm + torque's part + normal scatter. Half of the gearboxes alarm where the
+    // mean meets the threshold, the 95 % quantile of the healthy ones, about 1.7 + 0.15 in the
+    // mean.
     CHECK(good.hit_miss.a50.estimate.size == Approx(1.7e-3).margin(0.15e-3));
     CHECK(good.hit_miss.a90.upper.size > good.hit_miss.a90.estimate.size);
     CHECK(good.signal_response.refusal == "");
@@ -115,7 +116,7 @@ TEST_CASE("A good feature gets a curve, the others the reason why they have none
     CHECK(!smallest_fault(result, 0, 4));
 }
 
-TEST_CASE("The text says everything within its columns and never an invented number") {
+TEST_CASE("The text is complete within its columns and contains no invented number") {
     Study study;
     study.request.size = {"fault_broken", "1"};
     std::string text;
@@ -171,7 +172,7 @@ TEST_CASE("The JSON holds curves, bounds and tests, null where there is no numbe
     CHECK(json["conditions"][0]["levels"][0]["thresholds"].size() == 2);
 }
 
-TEST_CASE("The JSON maps detection over every input; the threads leave no trace in it") {
+TEST_CASE("The JSON maps detection over every input and does not depend on the number of threads") {
     const Study study;
     const auto json = reliability_json(study.assess(false, 1), study.request);
     CHECK(json.dump() == reliability_json(study.assess(false, 4), study.request).dump());
@@ -182,9 +183,9 @@ TEST_CASE("The JSON maps detection over every input; the threads leave no trace 
     CHECK(good["bins"][0]["pd"] < good["bins"][1]["pd"]);
     CHECK(good["p_value"] < 0.05);
     CHECK(torque[1]["levels"][0]["refusal"] == "no gearboxes with a value");  // failed
-    CHECK(torque[3]["levels"][0]["p_value"].is_null());                       // finds all
+    CHECK(torque[3]["levels"][0]["p_value"].is_null());                       // detects all
     const auto& map = json["a90_maps"]["torque"]["features"][0]["levels"][0];
-    // Torque adds 0.3 to the logarithm, as 0.3 mm do.
+    // Torque adds as much to the logarithm as 0.3 mm do.
     CHECK(map["a90"][0]["estimate"]["size"].get<double>() -
               map["a90"][1]["estimate"]["size"].get<double>() ==
           Approx(0.3e-3).margin(0.15e-3));
@@ -192,10 +193,11 @@ TEST_CASE("The JSON maps detection over every input; the threads leave no trace 
     CHECK(json["levels"][0]["combined"]["refusal"].is_null());
     CHECK(json["levels"][0]["combined"]["left_out"].size() == 2);  // failed, flat
     CHECK(json["levels"][0]["sensitivity"]["feature"] == "all");
-    CHECK(json["levels"][0]["sensitivity"]["misses"]["refusal"] == "all gearboxes give the same");
+    CHECK(json["levels"][0]["sensitivity"]["misses"]["refusal"] ==
+          "all gearboxes have the same value");
 }
 
-TEST_CASE("Studies without gearboxes of a kind are stated, not computed") {
+TEST_CASE("Studies without healthy or without faulty gearboxes are reported, not computed") {
     const std::pair<int, int> counts[] = {{0, 0}, {0, 70}, {50, 0}, {1, 7}, {400, 7}};
     for (const auto& [healthy, graded] : counts) {
         Study study(healthy, graded);

@@ -1,4 +1,4 @@
-// The headline's order: results made up at random, and the bound it falls back to.
+// Checks the summary's order of smallest faults on random results, and its fallback bound.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -36,7 +36,7 @@ Sizes sizes(Engine& engine, bool continuous) {
     return made;
 }
 
-// A POD between nothing and all, steep or flat, that a few faults may hide from.
+// A POD between none and all, steep or flat, with a few undetectable faults.
 std::vector<int> outcomes_of(Engine& engine, const std::vector<double>& size) {
     std::uniform_real_distribution<double> share;
     const double middle = 5.0 * share(engine) - 0.5,
@@ -71,7 +71,8 @@ LevelReliability level_of(const Sizes& made, const std::vector<int>& hit, double
     return level;
 }
 
-// Two features at two noise levels; `nested`: more noise, and the second feature, only lose hits.
+// Two features at two noise levels. With `nested`, more noise and the second feature can only lose
+// hits.
 Reliability made_up(Engine& engine, bool continuous, bool nested) {
     const Sizes made = sizes(engine, continuous);
     std::uniform_real_distribution<double> share;
@@ -113,13 +114,15 @@ bool no_less(const LevelReliability& a, const LevelReliability& b) {
     return std::equal(a.pd.begin(), a.pd.end(), b.pd.begin(), std::greater_equal<>());
 }
 
-TEST_CASE("The size found falls with noise where no rate falls, and no feature loses to a worse") {
+TEST_CASE(
+    "The smallest fault grows with noise where no rate rises, and no feature ranks below a worse "
+    "one") {
     Engine engine(20);
     long pairs = 0, wrong = 0, beaten = 0, curves_wrong = 0;
-    // Four thousand results, four a study.
+    // Four thousand results, four per study.
     for (int r = 0; r < 1000; ++r) {
         const Reliability result = made_up(engine, r % 8 == 0, r % 4 != 3);
-        // Each bound by itself, without the others to carry it.
+        // Each bound alone, without support from the others.
         const auto alone = [&](std::size_t f, std::size_t n) {
             Reliability only;
             only.features.push_back({result.features[f].feature, Alarm::high, {}});
@@ -138,7 +141,7 @@ TEST_CASE("The size found falls with noise where no rate falls, and no feature l
                 wrong += size_of(smallest_fault(result, i % 2, i / 2)) >
                          size_of(smallest_fault(result, j % 2, j / 2));
                 curves_wrong += alone(i / 2, i % 2) > alone(j / 2, j % 2);
-                // The same level: the worse of two is not named.
+                // At the same level the worse of two is not named.
                 if (i % 2 == j % 2 && at(i).pd != at(j).pd) {
                     const auto named = smallest_fault(result, i % 2);
                     beaten += named && named->feature == result.features[j / 2].feature;
@@ -154,10 +157,10 @@ TEST_CASE("The size found falls with noise where no rate falls, and no feature l
     CHECK(pairs > 1200);
     CHECK(wrong == 0);
     CHECK(beaten == 0);
-    CHECK(curves_wrong > 40);  // what each curve alone would have said
+    CHECK(curves_wrong > 40);  // result of each curve alone
 }
 
-TEST_CASE("A carried bound names where it comes from, an own one itself") {
+TEST_CASE("A transferred bound names its origin, a bound of its own names itself") {
     Engine engine(3);
     const Sizes made = sizes(engine, false);
     const std::vector<int> all(made.size.size(), 1);
@@ -166,7 +169,7 @@ TEST_CASE("A carried bound names where it comes from, an own one itself") {
     Reliability result;
     result.features.push_back({"te_fm0", Alarm::high, {}});
     result.features[0].levels = {level_of(made, all, 1.0), level_of(made, some, 3.0)};
-    // A curve that reads off less than the smallest tested size that rates vouch for.
+    // A curve whose a90 is less than the smallest size demonstrated by tested rates.
     result.features[0].levels[1].hit_miss.refusal.clear();
     result.features[0].levels[1].hit_miss.a90.upper = {SizeEstimate::Where::reached, 0.7};
     result.features[0].levels[1].hit_miss.doubtful = false;
@@ -192,7 +195,7 @@ TEST_CASE("Sizes beyond the misses: 29 in a row, and the confidence holds") {
     CHECK(size_beyond_misses(size, hit, 0.9, 0.95) == 40.0);  // 11 to 40 without 15
     hit[31] = 0;
     CHECK(std::isnan(size_beyond_misses(size, hit, 0.9, 0.95)));
-    // POD(a) = 1 - exp(-a): a90 = ln 10. Below it at most 5 % of the bounds.
+    // For POD(a) = 1 - exp(-a), a90 = ln 10. At most 5 % of the bounds are below it.
     Engine engine(8);
     std::uniform_real_distribution<double> share;
     int below = 0, reached = 0;

@@ -1,6 +1,7 @@
-// What each effect of a scene costs: time of a step and gearbox against the effects that are on, in
-// three scenes (x, y and rotation of Liang's train; its rotations alone; a fixed-shaft stage),
-// eight abreast. `a_step` is what README.md tabulates and mc/description/effect_costs.cpp holds.
+// Measures the cost of each effect of a scene: time of one step of one realization against the
+// enabled effects, with eight lanes. The three scenes are Liang's train in x, y and rotation, its
+// rotations alone, and a fixed-shaft stage. README.md tabulates `a_step`;
+// mc/description/effect_costs.cpp holds it.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -26,7 +27,7 @@ struct Case {
 
 const std::vector<std::string> kTrain{"effects.inertial_terms=false", "numerics.integrator=rk4",
                                       "fault.depth_mm=0", "numerics.steps_per_mesh=4320"};
-// Tian's stage with couplings that an explicit method stands.
+// Tian's stage with couplings for which an explicit method is stable.
 const std::vector<std::string> kStage{"gearbox.motor_coupling_damping_N_m_s_rad=5",
                                       "gearbox.load_coupling_damping_N_m_s_rad=5",
                                       "gearbox.pinion_bearing_damping_N_s_m=1800",
@@ -34,7 +35,7 @@ const std::vector<std::string> kStage{"gearbox.motor_coupling_damping_N_m_s_rad=
                                       "numerics.integrator=rk4",
                                       "sensor.low_pass_Hz=4000"};
 
-// The effects that a scene may have more of, one after the other.
+// The effects that a scene may have in addition, one after the other.
 const std::vector<Case> kTrainEffects{
     {"none", {}},
     {"inertial-terms", {"effects.inertial_terms=true"}},
@@ -62,7 +63,7 @@ std::vector<std::string> joined(std::vector<std::string> first,
     return first;
 }
 
-// A tile of one study, marched mesh by mesh as mc does.
+// A tile of one study, integrated one mesh period at a time as in mc.
 class Tile {
   public:
     Tile(const std::string& study, const std::vector<std::string>& overrides)
@@ -149,7 +150,7 @@ int main(int argc, char** argv) {
     add("translational", "published/liang-fig-5-8.toml", kTrain, {"gearbox.mesh_error"});
     add("rotations", "published/liang-fig-5-8.toml", joined(kTrain, {"effects.motion=torsional"}),
         {"effects.gravity", "effects.inertial", "gearbox.mesh_error"});
-    // Rotations feel weight only where the planets do not balance each other.
+    // Weight acts on rotations only where the planets do not balance each other.
     add("rotations-unbalanced", "published/liang-fig-5-8.toml",
         joined(kTrain, {"effects.motion=torsional", "gearbox.planets=3",
                         "gearbox.planet_positions_deg=[0,90,180]"}),

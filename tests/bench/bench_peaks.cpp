@@ -1,7 +1,6 @@
-// What this processor does at most, which the shares in README.md are of: fused multiply-adds of
-// doubles, loads and stores of registers, by width.
-//
-//     bench_peaks [ROUNDS]
+// Prints this processor's peak rates, to which the shares in README.md refer: fused multiply-adds
+// of doubles, loads and stores of registers, by width.
+// Usage: bench_peaks [ROUNDS]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ struct Peak {
     std::function<double(Width)> rate;
 };
 
-// Medians over interleaved rounds, 1e9 a second.
+// Prints medians over interleaved rounds, in 1e9 per second.
 void print_peaks(int rounds) {
     const std::vector<Peak> peaks{{"fused multiply-adds", gearpod::bench::fma_rate_double},
                                   {"loads", gearpod::bench::load_rate},

@@ -1,11 +1,9 @@
-// How far rank 0 carries: a study's batches with gearboxes that take no time, or a given one, on as
-// many ranks as there are, through the code of `run` into a checkpoint on the disk.
-//
-//   mpirun --oversubscribe -n 8 bench_ranks STUDY.toml OUT.h5 MILLISECONDS [SECTION.KEY=VALUE ...]
-//
-// OUT.h5.part is made and removed. What rank 0 needs is the processor time of the thread that talks
-// and writes, which no other program on the machine adds to; batches a second are by the wall
-// clock.
+// Measures how many ranks rank 0 can serve: batches whose realizations take no time, or a given
+// time, on all ranks, through the code of `run` into a checkpoint on the disk.
+// Usage: mpirun --oversubscribe -n 8 bench_ranks STUDY.toml OUT.h5 MILLISECONDS [SECTION.KEY=VALUE
+// ...] OUT.h5.part is created and removed. The cost of rank 0 is the processor time of the thread
+// that communicates and writes, which other programs on the machine do not increase. Batches per
+// second are by wall time.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -31,7 +29,7 @@ double own_processor_s() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Rows of the right shape, of which every number differs.
+// Rows of the right shape; all their numbers differ.
 BatchComputers rows_at_once(const RowShape& shape, std::chrono::microseconds each) {
     return [=]() -> BatchComputer {
         return [=](const Batch& batch, Seconds&) {

@@ -1,4 +1,4 @@
-// The scenes that are measured: Liang's gearbox as in studies/reference-10k.toml, or one like it.
+// Scenes for benchmarks: Liang's gearbox as in studies/reference-10k.toml, and variants of it.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@ namespace gearpod::bench {
 std::unique_ptr<mc::Scene> study_scene(const std::string& study,
                                        const std::vector<std::string>& overrides);
 
-// Of studies/reference-10k.toml with so many planets (3, 4 or 6): other teeth where Liang's do not
-// mesh with that many.
+// Scene of studies/reference-10k.toml with so many planets (3, 4 or 6). Uses other tooth counts
+// where Liang's do not mesh with that many.
 std::unique_ptr<mc::Scene> reference_scene(int planets, std::vector<std::string> overrides = {});
 
 }  // namespace gearpod::bench

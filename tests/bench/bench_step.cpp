@@ -1,10 +1,8 @@
-// Steps of gearboxes marching in lockstep: how many a second, and what share of the fused
-// multiply-adds that the core is capable of they take.
-//
-//     bench_step [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
-//
-// A round marches a mesh period and then measures the peak; times are this thread's processor time,
-// and what is shown is their median over the rounds.
+// Measures time steps of realizations integrated in lockstep: steps per second, and their share of
+// the core's peak of fused multiply-adds.
+// Usage: bench_step [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
+// A round integrates one mesh period and then measures the peak. Times are this thread's processor
+// time; the result is their median over the rounds.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -48,7 +46,7 @@ struct Setting {
     }
 };
 
-// A tile that marches one mesh period after the other.
+// A tile that is integrated one mesh period after the other.
 template <int W>
 class Tile {
   public:
@@ -59,12 +57,12 @@ class Tile {
           state_(lockstep::rest_state(scene.plan(), inputs_)),
           record_(lockstep::make_record(scene.plan(), W, false)) {}
 
-    // Seconds of processor time.
+    // Time of one mesh period in seconds of processor time.
     double mesh_s() {
         const double start = mc::thread_processor_s();
         (*march_)({}, state_, record_);
         const double seconds = mc::thread_processor_s() - start;
-        rotation_.remove(state_);  // or it would grow, from mesh period to mesh period
+        rotation_.remove(state_);  // otherwise it grows from mesh period to mesh period
         return seconds;
     }
 
@@ -87,7 +85,7 @@ std::function<double()> mesh_of(const mc::Scene& scene, int lanes) {
                         : std::function<double()>(mesh.operator()<1>());
 }
 
-// Nothing of a method whose operations are not counted.
+// Operations of one step, or nothing for a method whose operations are not counted.
 std::optional<Operations> operations(const mc::Scene& scene, const Setting& setting) {
     if (setting.integrator == "rk4") {
         return rk4_operations(scene.plan());

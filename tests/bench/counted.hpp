@@ -1,8 +1,7 @@
-// A number that counts what is done to it. The step's templates run on it as they run on doubles,
-// so the count is of the very operations that the kernels are written in.
-//
-// Include it before any header whose templates call std::fma: they find the overload below only if
-// it is declared first.
+// A number type that counts arithmetic operations. The step's templates run on it as on doubles, so
+// the count is that of the operations in the kernels.
+// Include this header before any header whose templates call std::fma: they find the overload below
+// only if it is declared first.
 #pragma once
 
 #include <cmath>
@@ -13,9 +12,10 @@ struct Operations {
     long fma = 0, multiply = 0, add = 0, divide = 0;
 
     long instructions() const { return fma + multiply + add + divide; }
-    // Arithmetic operations; a fused multiply-add is two.
+    // Arithmetic operations; a fused multiply-add counts as two.
     long flop() const { return 2 * fma + multiply + add + divide; }
-    // Negations are not counted: they become part of a fused multiply-add or of a subtraction.
+    // Operations so far. Negations are not counted: they become part of a fused multiply-add or of
+    // a subtraction.
     static Operations& done() {
         static Operations all;
         return all;

@@ -1,5 +1,5 @@
-// Built with contraction: here the compiler is to fuse. And without vectorization: chains of one
-// number are to stay what they are.
+// Measures the peak rate of fused multiply-adds. Built with contraction, so that the compiler
+// fuses, and without vectorization, so that scalar chains stay scalar.
 #include "fma_peak.hpp"
 
 #include <cstring>
@@ -10,17 +10,17 @@
 namespace gearpod::bench {
 namespace {
 
-// Twelve chains keep the pipes busy: two begin in a cycle, and each takes 4 or 5. With the two
+// Twelve chains keep the pipelines busy: two begin in a cycle, and each takes 4 or 5. With the two
 // constants they fit the sixteen registers of x86-64-v3.
 constexpr int kChains = 12;
 constexpr long kRounds = 60'000;
 
-// Vector: a vector of so many Real, or one.
+// Vector is a vector of so many Real, or one.
 template <class Real, class Vector>
 GEARPOD_INLINE Real chains() {
     Vector sum[kChains];
     Vector factor = Vector{} + Real(0.5), change = Vector{} + Real(0.25);
-    asm("" : "+x"(factor), "+x"(change));  // no constants to the compiler
+    asm("" : "+x"(factor), "+x"(change));  // hides the constants from the compiler
     for (int c = 0; c < kChains; ++c) {
         sum[c] = change + Real(c);
     }

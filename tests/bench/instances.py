@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""What a study costs against how many gearboxes it has: whole runs on one thread.
+"""Cost of a study against its number of gearboxes: whole runs on one thread.
 
     tests/bench/instances.py [--rounds 2] [--most 8000] [--study studies/reference-10k.toml]
                              [--program build/gearpod]
 
-A round runs the study with 1/32, 1/16, ..., 1/1 of the most graded gearboxes, each with a quarter as
-many healthy ones for the thresholds, and then `report` on the results, which is the share of
-detection rates, curves and their intervals. Prints processor seconds (of the fastest round, which other
-programs disturbed least), the straight line of least relative deviations through those without
-detection, and what share each phase of a run has in them.
+A round runs the study with 1/32, 1/16, ..., 1/1 of the largest number of graded gearboxes, each
+with a quarter as many healthy ones for the thresholds. It then runs `report` on the results, whose
+time is that of detection rates, curves and their intervals. Prints processor seconds of the fastest
+round (least disturbed by other programs), the straight line of least relative deviations through
+the times without detection, and the share of each phase of a run.
 """
 import argparse
 import re
@@ -26,7 +26,7 @@ def processor_s() -> float:
 
 
 def call(command: list[str]) -> tuple[float, str]:
-    """Processor seconds of a program and what it prints."""
+    """Returns processor seconds and output of a program."""
     start = processor_s()
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -42,7 +42,7 @@ def number_in(pattern: str, text: str) -> float:
 
 
 def run(options: argparse.Namespace, graded: int, folder: str) -> dict[str, float]:
-    """Seconds of a run, of detection alone, and of the phases."""
+    """Returns seconds of a run, of detection alone, and of the phases."""
     results = folder + "/r.h5"
     command = [options.program, "run", options.study, "--out", results]
     command += ["--instances", str(graded), "--set", "numerics.threads=1"]

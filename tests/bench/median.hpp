@@ -1,4 +1,4 @@
-// The middle one of some measurements.
+// Median of a list of measurements.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 
 namespace gearpod::bench {
 
-// Of an even number the larger of the two in the middle; not of none.
+// Upper median: the larger of the two middle values when the count is even. Requires at least one
+// value.
 inline double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

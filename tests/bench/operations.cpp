@@ -12,7 +12,7 @@
 
 namespace gearpod::bench {
 
-// As lockstep/integrators/march_state.hpp has it for doubles.
+// Same as advance() of lockstep/integrators/march_state.hpp for doubles.
 inline Counted advance(Counted sum, Counted h, Counted rate, lockstep::NoRest, int) {
     return std::fma(h, rate, sum);
 }
@@ -26,7 +26,7 @@ struct CountedState {
     return {};
 }
 
-// Of step `i`. The values do not matter: no kernel branches on them.
+// Counts step `i`. The values have no influence: no kernel branches on them.
 template <class Integrator, class Model>
 Operations operations_of(const lockstep::MarchPlan& plan, int planets, int i) {
     typename Model::Lanes lanes{};
@@ -58,7 +58,7 @@ Operations of_planetary(const lockstep::MarchPlan& plan, int i) {
     return operations_of<Integrator, Model>(plan, layout.planets, i);
 }
 
-// A filter's channel takes up two rows of two numbers, two rows of four, and three inputs each.
+// A filter channel takes two rows of two numbers, two rows of four, and three inputs each.
 void add_filter(int channels, Operations& sum) {
     sum.fma += channels * (2 * 2 + 2 * 4 + 4 * 2);
     sum.multiply += channels * 4;
@@ -80,7 +80,7 @@ Operations central_difference_operations(const lockstep::MarchPlan& plan) {
     return of_planetary<lockstep::CentralDifference>(plan, i);
 }
 
-// In the order of lockstep/integrators/generalized_alpha.hpp and implicit_stage.hpp.
+// Same order as lockstep/integrators/generalized_alpha.hpp and implicit_stage.hpp.
 Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
                                         const dynamics::GearboxInputs& inputs) {
     const auto lanes =
@@ -89,7 +89,7 @@ Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
     const long entries = lanes.lu.lower.size() + lanes.lu.upper.size();
     Operations sum;
     sum.multiply += 1 + 3;                     // h and the stage's span
-    sum.multiply += 2 * degrees;               // what is known of the stage
+    sum.multiply += 2 * degrees;               // known part of the stage
     sum.fma += 3 * degrees;                    //
     sum.multiply += pairs;                     // damping of the meshes
     sum.fma += 2 * lanes.coupling.size();      // free forces
@@ -98,16 +98,16 @@ Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
     sum.fma += 3 * pairs * lanes.row_entries;  // deflections
     sum.multiply += 2 * pairs;                 // loads
     sum.fma += 3 * pairs;                      //
-    for (long i = 0; i < pairs; ++i) {         // the meshes' elimination
+    for (long i = 0; i < pairs; ++i) {         // elimination of the meshes
         const long below = pairs - i - 1;
         sum.divide += 1;
         sum.multiply += 2 + below;
         sum.fma += 2 + below + below * below + 1 + i;
     }
-    sum.fma += pairs * lanes.row_entries;  // forces back to the motions
-    sum.multiply += 5 * degrees;           // the step's end
+    sum.fma += pairs * lanes.row_entries;  // mesh forces back to the degrees of freedom
+    sum.multiply += 5 * degrees;           // end of the step
     sum.fma += 7 * degrees;                //
-    sum.multiply += 8 * sources;           // what the sensor hears
+    sum.multiply += 8 * sources;           // sensor input
     sum.fma += 4 * sources;                //
     add_filter(plan.channels(), sum);
     return sum;

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""How well `describe` predicts the time and the memory of `run`: both, in turns, for shipped studies.
+"""Compares the time and memory that `describe` predicts with those of `run`, for shipped studies.
 
     tests/bench/prediction.py [--rounds 1] [--program build/gearpod] [STUDY.toml ...]
 
-Without names all studies that run, which takes about ten minutes a round on two processors. A round
-describes each study, runs it and describes it again, so that a machine whose load changes is looked
-at from both sides: the forecast is the mean of the two. Time is that of the program by the wall
-clock, memory the most that it had (VmHWM), and a ratio is what was predicted over what a run took.
-Prints every round, and at the end the medians by study and how many of them lie in 0.77 to 1.3.
+The default is all studies that run, about ten minutes per round on two processors. A round
+describes each study, runs it and describes it again, to compensate for a varying load of the
+machine; the forecast is the mean of both. Time is wall time, memory the peak of the program
+(VmHWM), and a ratio is prediction over measurement. Prints every round and finally the medians by
+study and the share of them within 0.77 to 1.3.
 """
 import argparse
 import glob
@@ -23,7 +23,7 @@ LOWEST, HIGHEST = 0.77, 1.3
 
 
 def finished(command: list[str]) -> tuple[str, float, float]:
-    """Standard output, seconds, megabytes."""
+    """Returns standard output, seconds and megabytes."""
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
         start = time.perf_counter()
         child = subprocess.Popen(command, stdout=output, stderr=errors)
@@ -38,7 +38,7 @@ def finished(command: list[str]) -> tuple[str, float, float]:
 
 
 def forecast(program: str, study: str) -> tuple[float, float, float]:
-    """Seconds and megabytes that `describe` predicts, and the seconds that it took."""
+    """Seconds and megabytes predicted by `describe`, and the seconds that it took."""
     text, seconds, _ = finished([program, "describe", study])
     predicted_s = re.search(r"estimated time +([\d.]+) s", text)
     predicted_MB = re.search(r"estimated memory +([\d.]+) MB", text)
@@ -48,7 +48,7 @@ def forecast(program: str, study: str) -> tuple[float, float, float]:
 
 
 def runs(study: str) -> bool:
-    """Whether a study has gears with teeth; the others have modes only."""
+    """True if a study has gears with teeth; the others have modes only."""
     with open(study, encoding="utf-8") as text:
         return re.search(r"^(sun|pinion)_teeth", text.read(), re.MULTILINE) is not None
 

@@ -1,17 +1,16 @@
 #!/usr/bin/python3
-"""What a sampling plan does to the scatter of thresholds, detection rates and a90 at equal cost.
+"""Effect of a sampling plan on the scatter of thresholds, detection rates and a90 at equal cost.
 
     tests/bench/sampling_plans.py STUDY.toml [--plans plain,sobol] [--seeds 100] [--instances 210]
         [--healthy 120] [--feature NAME] [--jobs 2] [--program build/gearpod] [--set KEY=VALUE ...]
 
-Runs the study once a seed and plan, all with as many gearboxes, and prints for every noise level the
-variance over the seeds of the threshold, of the false-alarm rate that it has among the healthy
-gearboxes of all runs, of Pd at the size where plain draws find about half, of Pd of all sizes
-together (the mean of its variances) and of a90; beside the first plan's variances the ratios, the
-first plan's over the other's: how many times as many gearboxes the first would take. A ratio of
-variances from n seeds each has a 95 % interval of F(n - 1, n - 1) about it, printed once. Covered is
-how often the interval of Pd holds the share that its run's threshold detects among the gearboxes of
-all runs.
+Runs the study once per seed and plan with equal numbers of gearboxes. For every noise level it
+prints variances over the seeds: of the threshold, of its false-alarm rate among the healthy
+gearboxes of all runs, of Pd at the size where the plain plan detects about half, of Pd of all sizes
+together (mean of the variances), and of a90. The ratio of the first plan's variances to another's
+is the factor in gearboxes that the first plan would need. A ratio of variances from n seeds each
+has a 95 % interval of F(n - 1, n - 1), printed once. "Covered" is the frequency with which the
+interval of Pd contains the share that the run's threshold detects among the gearboxes of all runs.
 """
 import argparse
 import concurrent.futures
@@ -47,7 +46,7 @@ def finished(command: list[str]) -> None:
 
 
 def one_run(args: argparse.Namespace, plan: str, seed: int, folder: str) -> dict:
-    """By (feature, level): threshold, pd by size, their bounds, a90, healthy values."""
+    """Results by (feature, level): threshold, pd by size, their bounds, a90, healthy values."""
     out = os.path.join(folder, f"{plan}-{seed}.h5")
     settings = [f"--set={setting}" for setting in args.set]
     finished(
@@ -98,15 +97,15 @@ def size_found(sizes: np.ndarray, tested: np.ndarray, detected: np.ndarray) -> f
 
 
 def alarm_rates(runs: list[dict], key: tuple, pool: np.ndarray) -> np.ndarray:
-    """Of every run's threshold among some gearboxes."""
+    """False-alarm rates of every run's threshold among some gearboxes."""
     ordered = np.sort(pool[np.isfinite(pool)])
     below = np.searchsorted(ordered, [run[key]["threshold"] for run in runs]) / len(ordered)
     return below if runs[0][key]["alarm"] == "low" else 1 - below
 
 
 def covered(runs: list[dict], key: tuple, pools: list[np.ndarray]) -> float:
-    """Percent of the intervals of Pd, where it is not 0 or 1, that hold what their run's own
-    threshold detects among the gearboxes of all runs."""
+    """Percentage of the intervals of Pd, where it is not 0 or 1, that contain the share which
+    their run's threshold detects among the gearboxes of all runs."""
     held = []
     for size, pool in enumerate(pools):
         rates = alarm_rates(runs, key, pool)

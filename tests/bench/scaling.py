@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""How much faster two threads, and two ranks, are than one: interleaved rounds, medians.
+"""Speed of two threads, and of two ranks, relative to one: interleaved rounds, medians.
 
     tests/bench/scaling.py [--rounds 3] [--instances 8000] [--study studies/reference-10k.toml]
                            [--program build/gearpod]
 
 A round runs the study with one thread and with two, and under mpirun with one rank and with two of
-one thread each. Prints the wall clock of every run and the medians of the ratios within a round.
+one thread each. Prints the wall time of every run and the medians of the ratios within a round.
 """
 import argparse
 import os

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Nanoseconds of a step and gearbox, and its share of the peak, in tables: runs bench_step.
+"""Nanoseconds per step and realization, and share of the peak, in tables: runs bench_step.
 
     tests/bench/steps.py [--repetitions 3] [--program build/tests/bench/bench_step] [--json FILE]
 
-Every case is measured in so many turns, taken in random order, each the median of its mesh periods; the
-fastest turn counts, which other programs disturbed least. --json: tabulates what bench_step has
-written with --benchmark_format=json instead of running it.
+Every case is measured several times in random order; each result is the median of its mesh periods.
+The fastest result counts, which other programs disturbed least. --json tabulates output of
+bench_step with --benchmark_format=json instead of running it.
 """
 import argparse
 import json
@@ -18,7 +18,7 @@ METHODS = ["rk4", "central-difference", "generalized-alpha", "sdirk3"]
 
 
 def setting_of(name: str) -> tuple[str, ...]:
-    """(method, planets, motion, precision, instruction set, lanes)"""
+    """Returns (method, planets, motion, precision, instruction set, lanes)."""
     method, planets, motion, precision, instructions, lanes = name.split("/")[:6]
     return method, planets[2:], motion, precision, instructions, lanes[6:]
 

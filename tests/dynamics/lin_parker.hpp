@@ -1,4 +1,4 @@
-// Bodies of Lin and Parker's gearbox (1999), as in Liang (2016), Table 4.2: carrier, ring, sun,
+// Bodies of Lin and Parker's gearbox (1999) from Liang (2016), Table 4.2: carrier, ring, sun,
 // planet.
 #pragma once
 

@@ -1,4 +1,5 @@
-// The fixed-shaft gearbox of Tian (2004): its matrices, its lockstep accelerations and its statics.
+// Checks the fixed-shaft gearbox of Tian (2004): its matrices, its lockstep accelerations and its
+// statics.
 #include <catch2/catch.hpp>
 #include <random>
 #include <vector>
@@ -40,8 +41,8 @@ FixedShaftInputs random_inputs(std::mt19937& engine) {
     return in;
 }
 
-// Tian's Eqs. 4.1-4.8 as printed, but for the mesh force on the gear (Eq. 4.4), which must oppose
-// that on the pinion: accelerations of x1 y1 x2 y2 and of the angles of motor, pinion, gear, load.
+// Tian's Eqs. 4.1-4.8 as printed, except the mesh force on the gear (Eq. 4.4), which must oppose
+// that on the pinion. Accelerations of x1 y1 x2 y2 and of the angles of motor, pinion, gear, load.
 Eigen::VectorXd printed_equations(const FixedShaftLayout& layout, const FixedShaftInputs& in,
                                   double k_t, double c_t, const Eigen::VectorXd& q,
                                   const Eigen::VectorXd& v) {
@@ -68,7 +69,9 @@ Eigen::VectorXd printed_equations(const FixedShaftLayout& layout, const FixedSha
 
 }  // namespace
 
-TEST_CASE("The fixed-shaft matrices and lanes are Tian's equations less the train's speeding up") {
+TEST_CASE(
+    "The fixed-shaft matrices and lanes are Tian's equations minus the acceleration of the whole "
+    "train") {
     std::mt19937 engine(7);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (const auto damping :
@@ -112,7 +115,7 @@ TEST_CASE("The fixed-shaft matrices and lanes are Tian's equations less the trai
             for (int d = 0; d < 8; ++d) {
                 printed(d) *= radius[d];
             }
-            // The rest is the same acceleration of all four rotations.
+            // The difference is the same acceleration of all four rotations.
             const Eigen::VectorXd rest = printed - al;
             CHECK(rest.head<4>().norm() < 1e-12 * printed.norm());
             for (int d = 5; d < 8; ++d) {
@@ -122,7 +125,7 @@ TEST_CASE("The fixed-shaft matrices and lanes are Tian's equations less the trai
     }
 }
 
-TEST_CASE("Stiffness and damping of every gearbox kind are symmetric and free for the rigid turn") {
+TEST_CASE("Stiffness and damping of every gearbox kind are symmetric and zero for rigid rotation") {
     std::mt19937 engine(3);
     PlanetaryLayout planetary;
     planetary.planets = 4;
@@ -158,9 +161,9 @@ TEST_CASE("Stiffness and damping of every gearbox kind are symmetric and free fo
         const Eigen::VectorXd energy =
             modes(m.stiffness, Eigen::MatrixXd::Identity(m.mass.rows(), m.mass.rows())).squares;
         CHECK(energy.minCoeff() > -1e-14 * largest);
-        CHECK(energy(1) > 1e-9 * largest);  // nothing else is free
+        CHECK(energy(1) > 1e-9 * largest);  // no other motion is free
 
-        // The springs by name are the same matrices; mesh rows are those of the pairs.
+        // The springs by name give the same matrices; mesh rows are those of the pairs.
         GearboxMatrices sum = zero_matrices(degrees_of_freedom(layout));
         for (const SpringDamper& spring : spring_dampers(layout, inputs, k)) {
             add(sum, spring);
@@ -175,9 +178,10 @@ TEST_CASE("Stiffness and damping of every gearbox kind are symmetric and free fo
     }
 }
 
-TEST_CASE("Torques out of balance load the mesh with what speeds up the train behind it") {
-    // As Tian's Table 4.1: 11.9 N m drive, 48.8 N m brake. Motor and pinion slow down together with
-    // the acceleration s of the pitch line; the mesh carries the rest of the motor's force.
+TEST_CASE("Unbalanced torques load the mesh with the inertia force of the driven side") {
+    // Torques of Tian's Table 4.1: 11.9 N m drive, 48.8 N m brake. Motor and pinion slow down
+    // together with the acceleration s of the pitch line; the mesh carries the remaining motor
+    // force.
     const FixedShaftLayout layout = layout_of(MeshDamping::proportional);
     std::mt19937 engine(4);
     FixedShaftInputs in = random_inputs(engine);

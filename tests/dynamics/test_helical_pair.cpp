@@ -1,5 +1,5 @@
-// Park's 12-DOF pair matrices against the entries that the paper prints legibly, and their plane
-// reduction against the planetary model.
+// Checks Park's 12-DOF pair matrices against the entries that the paper prints legibly, and their
+// plane reduction against the planetary model.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -28,8 +28,8 @@ void check_row(const PairMatrix& k, int row, std::initializer_list<double> print
     }
 }
 
-// Rigid motion of both gears: translation t and rotation w about the central gear's centre, the
-// other gear's centre at (a, 0, 0).
+// Rigid motion of both gears: translation t and rotation w about the central gear's centre; the
+// other gear's centre is at (a, 0, 0).
 PairVector rigid(const Eigen::Vector3d& t, const Eigen::Vector3d& w, double a, bool planet_first) {
     const Eigen::Vector3d arm(a, 0, 0);
     Eigen::Matrix<double, 6, 1> centre, planet;
@@ -79,7 +79,7 @@ TEST_CASE("The planet-ring matrix has the printed rows of (A2)") {
                -c2 * sin_om * sin_om, 0, kRing * c2 * sin_om * sin_om, -kRing * c2 * half_sin_2om});
 }
 
-TEST_CASE("Both matrices are symmetric, of rank one, and rigid motion costs nothing") {
+TEST_CASE("Both matrices are symmetric, of rank one, and rigid motion needs no energy") {
     const PairVector sun = sun_planet_deflection(kPair, kSun, kPlanet);
     const PairVector ring = planet_ring_deflection(kPair, kPlanet, kRing);
     for (const bool planet_first : {false, true}) {
@@ -95,7 +95,7 @@ TEST_CASE("Both matrices are symmetric, of rank one, and rigid motion costs noth
             CHECK(std::abs(v.dot(rigid(axis, none, axes, planet_first))) < 1e-15);
             CHECK(std::abs(v.dot(rigid(none, axis, axes, planet_first))) < 1e-15);
         }
-        // Rolling on each other's pitch circles.
+        // The gears roll on each other's pitch circles.
         PairVector roll = PairVector::Zero();
         roll(5) = planet_first ? 1 / kPlanet : 1 / kSun;
         roll(11) = planet_first ? 1 / kRing : -1 / kPlanet;
@@ -103,7 +103,7 @@ TEST_CASE("Both matrices are symmetric, of rank one, and rigid motion costs noth
     }
 }
 
-TEST_CASE("In the plane the pair is the planetary model's spur pair of the transverse angle") {
+TEST_CASE("In the plane the pair equals the planetary model's spur pair at the transverse angle") {
     PlanetaryLayout layout;
     layout.planets = 1;
     layout.pressure_angle_rad = kPhi;
@@ -126,7 +126,7 @@ TEST_CASE("In the plane the pair is the planetary model's spur pair of the trans
     const int ring_motions[] = {p, p + 1, p + 2, r, r + 1, r + 2};
     for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 6; ++j) {
-            // u = base radius times rotation.
+            // Convention: u = base radius times rotation.
             const auto scale = [&](int index, double first, double second) {
                 return index == 2 ? base * first : index == 5 ? base * second : 1.0;
             };

@@ -1,12 +1,11 @@
-// How planets share the load where one pin is off its place: the closed form for planets on stiff
-// paths, with a sun that floats and with one that is held.
-//
-// Planet n carries F_n at both meshes. With a held ring and carrier, 1/K = 1/k_s + 1/k_r +
-// 4 cos^2 a / k_p and a pin that is ahead by e,
-//     F_n / K = s + (sun's motion along its mesh) - 2 e_n cos a:
-// a sun that floats on three planets finds the place where all carry the same; on four it leaves
-// a quarter of what the pin asks for on every planet, in turn less and more; held, all of it but
-// the mean.
+// Checks how planets share the load where one pin has a position error, against the closed form for
+// planets on stiff paths with a floating and with a fixed sun.
+// Planet n carries F_n at both meshes. With a fixed ring and carrier, 1/K = 1/k_s + 1/k_r + 4 cos^2
+// a / k_p and a pin ahead by e,
+// F_n / K = s + (sun's motion along its mesh) - 2 e_n cos a.
+// A floating sun on three planets moves so that all carry the same load. On four planets a quarter
+// of the pin error's effect remains on every planet, with alternating signs. A fixed sun leaves all
+// of it except the mean.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -41,7 +40,7 @@ Loads loads(int planets, double sun_bearing, double planet_bearing, double tange
     in.support_stiffness_N_m = kRigid;
     in.force_N[sun] = 1000.0 * planets;
     in.force_N[carrier] = -2.0 * std::cos(kAngle) * in.force_N[sun];
-    // Planet 2's pin.
+    // The pin of planet 2.
     const double psi = layout.planet_angle(1);
     in.own[1].pin_x_m = radial_m * std::cos(psi) - tangential_m * std::sin(psi);
     in.own[1].pin_y_m = radial_m * std::sin(psi) + tangential_m * std::cos(psi);
@@ -63,7 +62,7 @@ double path_stiffness(double planet_bearing) {
 
 }  // namespace
 
-TEST_CASE("A sun that floats on three planets shares the load whatever the pins") {
+TEST_CASE("A floating sun on three planets equalizes the load for any pin position") {
     for (const double bearing : {1e8, 1e12}) {
         const Loads found = loads(3, 1.0, bearing, 20e-6, 10e-6);
         for (const double load : found.sun) {
@@ -83,7 +82,7 @@ TEST_CASE("On four planets a floating sun leaves a quarter of a pin's error on e
                 path_stiffness(bearing) * 2.0 * tangential * std::cos(kAngle) / 4.0;
             for (int n = 0; n < 4; ++n) {
                 INFO("bearing " << bearing << ", planet " << n + 1);
-                // A pin ahead of its place hides from the load; so does the opposite planet.
+                // A pin that is ahead carries less load; the opposite planet does, too.
                 const double expected = 1000.0 + (n % 2 == 1 ? -moved : moved);
                 CHECK(found.sun[static_cast<std::size_t>(n)] == Approx(expected).epsilon(1e-4));
                 CHECK(found.ring[static_cast<std::size_t>(n)] == Approx(expected).epsilon(1e-4));
@@ -92,7 +91,7 @@ TEST_CASE("On four planets a floating sun leaves a quarter of a pin's error on e
     }
 }
 
-TEST_CASE("A held sun leaves a pin's error on its planet, but for the mean") {
+TEST_CASE("A fixed sun leaves a pin's error on its planet, except the mean") {
     for (const int planets : {3, 4, 5}) {
         const double tangential = 2e-6;
         const Loads found = loads(planets, kRigid, 1e9, tangential, 0.0);
@@ -104,7 +103,7 @@ TEST_CASE("A held sun leaves a pin's error on its planet, but for the mean") {
     }
 }
 
-TEST_CASE("A pin that is off radially moves no load from planet to planet") {
+TEST_CASE("A radial pin error transfers no load between planets") {
     const Loads found = loads(4, kRigid, 1e8, 0.0, 50e-6);
     for (const double load : found.sun) {
         CHECK(load == Approx(1000.0).epsilon(1e-4));

@@ -1,6 +1,6 @@
-// A train whose carrier drives presses the other flanks together. The model runs its mirror image
-// instead (gears/power_flow.hpp); here is the real one, with springs along the other flanks' line
-// of action, assembled by hand.
+// Checks a train whose carrier drives, so that the other flanks are in contact. The model computes
+// its mirror image (gears/power_flow.hpp). This test assembles the real train, with springs along
+// the other flanks' line of action.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -30,8 +30,8 @@ struct Coast {
     std::vector<Eigen::VectorXd> rows;  // of the pairs
 };
 
-// Planets at -psi; the flanks' normals have turned from pi/2 -+ alpha to pi/2 +- alpha, and a pair
-// is pressed together by negative rotation of its central gear.
+// Planets are at -psi. The flanks' normals turn from pi/2 -+ alpha to pi/2 +- alpha, and a negative
+// rotation of its central gear loads a pair.
 Coast coast_flanks(const PlanetaryInputs& in) {
     Coast model;
     const auto add = [&](const Eigen::VectorXd& v, double k) {
@@ -73,7 +73,7 @@ Coast coast_flanks(const PlanetaryInputs& in) {
 
 }  // namespace
 
-TEST_CASE("The carrier-driven train on its own flanks is the model's mirror image") {
+TEST_CASE("The carrier-driven train on its real flanks is the model's mirror image") {
     PlanetaryLayout layout;
     layout.planets = 3;
     layout.pressure_angle_rad = kAlpha;
@@ -92,13 +92,13 @@ TEST_CASE("The carrier-driven train on its own flanks is the model's mirror imag
     for (std::size_t i = 0; i < ours.size(); ++i) {
         CHECK(ours[i] == Approx(theirs[i]).epsilon(1e-9));
     }
-    // The same shape, reflected: x as it is, y and u reversed.
+    // The reflected shape has the same x, with y and u reversed.
     const Eigen::VectorXd q = static_equilibrium(model), mirrored = static_equilibrium(flanks);
     CHECK(q.norm() > 1e-6);
     for (int i = 0; i < 18; ++i) {
         CHECK(mirrored(i) == Approx(i % 3 == 0 ? q(i) : -q(i)).margin(1e-9 * q.norm()));
     }
-    // Both press their flanks together with the same forces.
+    // Both have the same contact forces.
     for (int pair = 0; pair < 6; ++pair) {
         const Eigen::VectorXd row =
             pair < 3 ? sun_planet_row(layout, pair) : ring_planet_row(layout, pair - 3);

@@ -1,4 +1,4 @@
-// Natural frequencies of Lin and Parker's planetary gears, published in their Table 2 and by
+// Checks natural frequencies of Lin and Parker's planetary gears, published in their Table 2 and by
 // Liang (2016), Tables 4.2 and 4.3.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -29,7 +29,8 @@ std::vector<double> frequencies(const PlanetaryLayout& layout, const PlanetaryIn
 }  // namespace
 
 TEST_CASE(
-    "Lin and Parker's natural frequencies come out within 0.4 Hz, with their multiplicities") {
+    "Lin and Parker's natural frequencies are reproduced within 0.4 Hz, with their "
+    "multiplicities") {
     // Rotational modes are single, translational double, planet modes (N - 3)-fold.
     const std::map<int, std::vector<double>> rotational{
         {3, {0, 1475.7, 1930.3, 2658.3, 7462.8, 11775.3}},
@@ -59,7 +60,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Rigid planet bearings turn the full model's rotations into the torsional model's") {
+TEST_CASE("Rigid planet bearings reduce the full model's rotations to the torsional model's") {
     PlanetaryLayout layout = lin_parker_layout(4);
     PlanetaryInputs stiff = lin_parker_inputs();
     stiff.bearing_stiffness_N_m[planet] = 1e15;

@@ -1,5 +1,5 @@
-// The lockstep kernels' accelerations against M q'' = f - (C + G) q' - (K + K_c) q, assembled from
-// spring rows, and the statics of a loaded train.
+// Checks the lockstep kernels' accelerations against M q'' = f - (C + G) q' - (K + K_c) q assembled
+// from spring rows, and the statics of a loaded train.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -104,7 +104,7 @@ PlanetaryLayout layout_of(int planets, Motion motion, bool inertial, MeshDamping
     return layout;
 }
 
-// Profile shift lets either mesh work at an angle of its own.
+// Profile shift gives each mesh its own working pressure angle.
 PlanetaryLayout shifted(PlanetaryLayout layout) {
     layout.sun_working_angle_rad = 25 * std::numbers::pi / 180;
     layout.ring_working_angle_rad = 17 * std::numbers::pi / 180;
@@ -132,8 +132,8 @@ TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 
     }
 }
 
-TEST_CASE("At rest every planet carries the same share and the held ring takes its reaction") {
-    // Z_s/Z_p/Z_r = 19/31/81: base radii and centre distance of module 3.175 mm.
+TEST_CASE("At rest every planet carries the same share and the fixed ring takes its reaction") {
+    // Base radii and centre distance of Z_s/Z_p/Z_r = 19/31/81 at module 3.175 mm.
     PlanetaryLayout layout =
         layout_of(4, Motion::translational_torsional, false, MeshDamping::ratio);
     std::mt19937 engine(1);
@@ -157,7 +157,7 @@ TEST_CASE("At rest every planet carries the same share and the held ring takes i
     CHECK(reaction == Approx(-torque / r_s).epsilon(1e-9));
 }
 
-// 27/35/99 teeth: base radii add up to the centre distance times the cosines of both working
+// The base radii of 27/35/99 teeth add up to the centre distance times the cosines of both working
 // angles.
 TEST_CASE("Shifted gears balance the carrier's torque at their own working angles") {
     for (const Motion motion : {Motion::translational_torsional, Motion::torsional}) {
@@ -187,7 +187,7 @@ TEST_CASE("Shifted gears balance the carrier's torque at their own working angle
     }
 }
 
-TEST_CASE("A free train turns past its held member without deflecting a spring") {
+TEST_CASE("A free train rotates past its fixed member without deflecting a spring") {
     std::mt19937 engine(2);
     using gearpod::gears::FixedMember;
     for (const auto fixed : {FixedMember::ring, FixedMember::sun, FixedMember::carrier}) {

@@ -1,4 +1,5 @@
-// Park's transmission errors over the models' motions: none sees the train turn as a mechanism.
+// Checks Park's transmission errors over the models' degrees of freedom: rigid rotation of the
+// train gives none.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Closed forms of the condition indicators.
+// Checks the condition indicators against closed forms.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -44,7 +44,7 @@ TEST_CASE("FM4, M6A and M8A of a normal difference signal are 3, 15 and 105") {
     CHECK(te_m8a(input) == m8a(input));
 }
 
-TEST_CASE("Moments of a sine are 3/2, 5/2 and 35/8, whatever its size and mean") {
+TEST_CASE("Moments of a sine are 3/2, 5/2 and 35/8, for any amplitude and mean") {
     auto values = sine(7.0, 3, 1000);
     for (double& value : values) {
         value += 11.0;
@@ -59,7 +59,7 @@ TEST_CASE("A single shock in n samples has FM4 near n") {
     difference[400] = 1.0;
     FeatureInput input;
     input.sensor.difference = difference;
-    // p (1-p)^4 + (1-p) p^4 over (p (1-p))^2 with p = 1/n.
+    // Kurtosis of one shock: p (1-p)^4 + (1-p) p^4 over (p (1-p))^2 with p = 1/n.
     const double p = 1e-3, q = 1.0 - p;
     CHECK(fm4(input) == Approx((p * std::pow(q, 4) + q * std::pow(p, 4)) / (p * q * p * q)));
 }
@@ -74,8 +74,8 @@ TEST_CASE("The crest factor of a sine is the root of two, about its mean") {
     CHECK(crest_factor(input) == Approx(std::sqrt(2.0)));
 }
 
-TEST_CASE("Energy ratio, sideband index and level read amplitudes off") {
-    // Mesh order 20: 2 at 20, 0.3 at 19, 0.1 at 21, and 0.5 at order 7 beside them.
+TEST_CASE("Energy ratio, sideband index and level match the given amplitudes") {
+    // Mesh order 20: 2 at 20, 0.3 at 19, 0.1 at 21, and in addition 0.5 at order 7.
     const int n = 800;
     const auto mesh = sine(2.0, 20, n), low = sine(0.3, 19, n), high = sine(0.1, 21, n);
     std::vector<double> regular(n);
@@ -98,7 +98,7 @@ TEST_CASE("Energy ratio, sideband index and level read amplitudes off") {
     CHECK(sideband_level(input) == Approx(0.4 / std::sqrt(0.5 * (4.0 + 0.09 + 0.01 + 0.25))));
 }
 
-TEST_CASE("NA4 and NB4 are a kurtosis while nothing changes and rise with the square of energy") {
+TEST_CASE("NA4 and NB4 are a kurtosis in steady state and rise with the square of energy") {
     const auto record = normal_sample(100000);
     std::vector<double> louder(record);
     for (double& value : louder) {
@@ -116,7 +116,7 @@ TEST_CASE("NA4 and NB4 are a kurtosis while nothing changes and rise with the sq
     CHECK(na4(input) == Approx(16.0 * healthy));
 }
 
-TEST_CASE("NSDS sums what stands above the healthy spectrum") {
+TEST_CASE("NSDS sums the spectrum above the healthy one") {
     const std::vector<double> healthy{9.0, 1.0, 2.0, 1.0};
     const std::vector<double> now{0.0, 3.0, 1.0, 1.5};
     FeatureInput input;
@@ -127,7 +127,7 @@ TEST_CASE("NSDS sums what stands above the healthy spectrum") {
     CHECK(nsds(input) == Approx(2.5 / 4.0));
 }
 
-TEST_CASE("Windows of the sun and the ring look at their own teeth") {
+TEST_CASE("Windows of the sun and the ring cover their own teeth") {
     std::vector<double> even(19, 2.0), odd(19, 2.0);
     odd[3] = 5.0;
     FeatureInput input;

@@ -49,7 +49,7 @@ TEST_CASE("A square wave has kurtosis 1, normal noise 3") {
     for (double& value : noise) {
         value = normal(engine);
     }
-    // Standard error sqrt(24/n) = 0.008.
+    // The standard error is sqrt(24/n) = 0.008.
     CHECK(te_kurtosis(te_input(noise)) == Approx(3.0).margin(0.03));
 }
 
@@ -59,12 +59,12 @@ TEST_CASE("The frequency centre is the amplitude-weighted mean order without the
     amplitude[31] = 3.0;
     amplitude[62] = 1.0;
     CHECK(te_fc(te_input({}, amplitude)) == Approx((31.0 * 3.0 + 62.0) / 4.0));
-    // Sidebands of a local fault at low orders pull it down.
+    // Sidebands of a local fault at low orders lower it.
     amplitude[1] = 1.0;
     CHECK(te_fc(te_input({}, amplitude)) == Approx((31.0 * 3.0 + 62.0 + 1.0) / 5.0));
 }
 
-TEST_CASE("FM0 is peak-to-peak over the mesh harmonics that lie below the Nyquist order") {
+TEST_CASE("FM0 is peak-to-peak over the mesh harmonics below the Nyquist order") {
     const int points = 31 * 8;  // Nyquist order 124 = 4 * 31: harmonics 1 to 3 count
     const std::vector<double> x = sine(2.0, 31, points);
     std::vector<double> amplitude(points / 2 + 1, 0.0);
@@ -78,7 +78,7 @@ TEST_CASE("FM0 is peak-to-peak over the mesh harmonics that lie below the Nyquis
     CHECK(te_fm0(input) == Approx(2.0));  // a pure sine: 2 A / A
 }
 
-TEST_CASE("Features of an exactly constant signal do not exist") {
+TEST_CASE("Features of an exactly constant signal have no value") {
     const std::vector<double> zero(31 * 8, 0.0);
     const std::vector<double> none(31 * 4 + 1, 0.0);
     CHECK(std::isnan(te_kurtosis(te_input(zero))));

@@ -24,7 +24,7 @@ TEST_CASE("The median is the middle value, or the mean of the middle two") {
     CHECK(std::isnan(median({})));
 }
 
-TEST_CASE("The window ratio reads Liang's tooth RMS values of Fig. 5.8 as 76/39") {
+TEST_CASE("The window ratio of Liang's tooth RMS values of Fig. 5.8 is 76/39") {
     std::vector<double> rms(31, 39.0);
     rms[8] = 76.0;
     CHECK(window_ratio(teeth(rms)) == Approx(76.0 / 39.0));
@@ -32,9 +32,9 @@ TEST_CASE("The window ratio reads Liang's tooth RMS values of Fig. 5.8 as 76/39"
 }
 
 TEST_CASE("The window score compares the worst tooth with the spread of the others") {
-    // Others 1..5: median 3, absolute deviations 2 1 0 1 2, MAD 1.
+    // The others are 1..5: median 3, absolute deviations 2 1 0 1 2, MAD 1.
     CHECK(window_z(teeth({1.0, 2.0, 10.0, 3.0, 4.0, 5.0})) == Approx(7.0 / 1.4826));
-    // The worst tooth does not enter the spread, however far out it is.
+    // The worst tooth does not enter the spread, however large it is.
     CHECK(window_z(teeth({1.0, 2.0, 1e6, 3.0, 4.0, 5.0})) == Approx((1e6 - 3.0) / 1.4826));
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("The window score of normal teeth is in standard deviations") {
     CHECK(window_z(teeth(rms)) == Approx(10.0).epsilon(0.02));
 }
 
-TEST_CASE("Teeth alike to the last bit give a finite score") {
+TEST_CASE("Teeth equal to the last bit give a finite score") {
     CHECK(window_z(teeth(std::vector<double>(31, 39.0))) == 0.0);
     std::vector<double> rms(31, 39.0);
     rms[3] = 39.0 * (1.0 + 1e-15);

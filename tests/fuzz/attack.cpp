@@ -1,7 +1,7 @@
-// Attacks the built program with mutated studies, damaged and resealed files, hostile signals and
-// files in two roles: no signal, no hang, no memory above 2 GB, no exit code but the contract's, no
-// number that is none among those of a success, no input written over.
-//   attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS [MOST]
+// Attacks the built program with mutated studies, damaged files with valid checksums, hostile
+// signals and files in two roles. Checks: no signal, no hang, no memory above 2 GB, only documented
+// exit codes, no NaN or infinity among the numbers of a success, no input overwritten.
+// Usage: attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS [MOST]
 #include "attack.hpp"
 
 #include <fcntl.h>
@@ -58,7 +58,7 @@ struct Ending {
     std::_Exit(127);
 }
 
-// Both streams go into `log`.
+// Runs the program; both output streams go into `log`.
 Ending call(const std::string& program, const std::vector<std::string>& arguments,
             const std::string& log) {
     std::vector<char*> words{const_cast<char*>(program.c_str())};
@@ -93,7 +93,7 @@ bool names_no_number(std::string text) {
     return text.find(" nan ") != std::string::npos || text.find(" inf ") != std::string::npos;
 }
 
-// What is wrong with the ending, or "".
+// Description of a violated promise, or "".
 std::string verdict(const Ending& ending, const Attack& attack) {
     if (ending.hung) {
         return "does not end";
@@ -126,7 +126,7 @@ const std::map<std::string, Maker> kKinds{
     {"checkpoint", attack_by_checkpoint}, {"signal", attack_by_signal},
     {"table", attack_by_table},           {"roles", attack_by_roles}};
 
-// Attacks first, first + 1, ... by several threads, until the time is over or all are tried.
+// Runs attacks first, first + 1, ... in several threads until the time is over or all are done.
 class Campaign {
   public:
     Campaign(const Arsenal& arsenal, Maker make, std::uint64_t first, std::uint64_t most,
@@ -205,7 +205,7 @@ class Campaign {
     std::map<int, std::uint64_t> codes_;
 };
 
-// Genuine files, by the program itself; false if it does not make them.
+// Creates valid files with the program itself. Returns false if it fails.
 bool arm(Arsenal& arsenal) {
     const std::string at = arsenal.folder + "/genuine";
     fs::create_directory(at);

@@ -1,4 +1,4 @@
-// Attacks on the built program: what is given to it, and what it must not answer.
+// Attacks on the built program: inputs and required properties of the outcome.
 #pragma once
 
 #include <cstdint>
@@ -8,27 +8,27 @@
 
 namespace gearpod::test {
 
-// One call of the program, and what it finds in its folder.
+// One call of the program and the files in its folder.
 struct Attack {
     std::vector<std::string> arguments;
-    bool prints_numbers = true;            // of which none may be infinite when it ends well
-    std::vector<std::string> inputs = {};  // files that it must leave as they are
+    bool prints_numbers = true;            // all of them must be finite in a success
+    std::vector<std::string> inputs = {};  // files that must stay unchanged
 };
 
-// A folder with a study, results, a checkpoint, and recordings, all small and genuine, that attacks
-// are made from; made once by the program itself.
+// A folder with a study, results, a checkpoint and recordings, all small and valid, from which
+// attacks are made. The program creates them once.
 struct Arsenal {
     std::string program, folder;
-    std::vector<std::string> studies;                           // texts
-    std::string small_study;                                    // its path
-    std::string results, checkpoint, csv, hdf5, mat, wav, uff;  // bytes of genuine files
-    std::vector<std::string> inspections;                       // tables of sizes and answers
+    std::vector<std::string> studies;                           // study texts
+    std::string small_study;                                    // path
+    std::string results, checkpoint, csv, hdf5, mat, wav, uff;  // bytes of valid files
+    std::vector<std::string> inspections;                       // tables of sizes and outcomes
 };
 
-// Writes a MAT file of a sensor's signal and a transmission error; its bytes.
+// Writes a MAT file of a sensor's signal and a transmission error, and returns its bytes.
 std::string genuine_mat(const std::string& path);
 
-// Writes the files of attack `number` of a kind into `folder`. The same for the same number.
+// Writes the files of attack `number` of a kind into `folder`. Deterministic for a given number.
 Attack attack_by_study(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 Attack attack_by_results(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,

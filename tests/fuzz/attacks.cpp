@@ -41,7 +41,7 @@ void write(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// Bits flipped, numbers put in their places, stretches cleared, copied, cut off or added.
+// Bytes with flipped bits, replaced numbers, and stretches cleared, copied, cut off or inserted.
 std::string damaged(std::string bytes, Dice& dice) {
     const std::size_t times = 1 + dice.below(6);
     for (std::size_t i = 0; i < times && bytes.size() > 16; ++i) {
@@ -72,7 +72,7 @@ std::string damaged(std::string bytes, Dice& dice) {
     return bytes;
 }
 
-// Numbers of a dataset exchanged for others, or another number of them.
+// Replaces numbers of a dataset, or changes their count.
 void exchange(hid_t root, const std::string& name, Dice& dice) {
     mc::Numbers numbers = mc::read_numbers(root, name, std::size_t{1} << 24);
     if (dice.below(3) == 0) {
@@ -123,7 +123,7 @@ void edit(hid_t root, const Arsenal& arsenal, std::uint64_t number, Dice& dice) 
     }
 }
 
-// Rows of numbers, some of them hostile, at a rate and a speed that may be.
+// Rows of numbers, some of them hostile, with a sampling rate and a speed that may be hostile, too.
 std::string hostile_csv(Dice& dice) {
     constexpr std::array kColumns{"time", "mesh_phase", "speed_rpm", "sensor", "te"};
     constexpr std::array kNames{"time", "te", "sensor", "mesh_phase", "speed_rpm", "", "1", "x"};
@@ -214,7 +214,7 @@ Attack attack_by_results(const Arsenal& arsenal, const std::string& folder, std:
         case 2:
             return {{"report", path, "--by", "torque_N_m"}};
         default:
-            return {{"report", path, "--json", "-"}, false};  // it quotes the mutated study
+            return {{"report", path, "--json", "-"}, false};  // the output quotes the mutated study
     }
 }
 
@@ -253,7 +253,7 @@ Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::
     return attack;
 }
 
-// Tables of inspections, and lists of recordings, some of which are there.
+// Tables of inspections, and lists of recordings, some of which exist.
 Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
     const std::string path = folder + "/t.csv";
@@ -262,7 +262,7 @@ Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::u
                                       "--link=loglog",      "--bounds=wald", "--size-scale=log",
                                       "--size-scale=linear"};
         write(path, damaged(dice.one_of(arsenal.inspections), dice));
-        Attack attack{{"pod", path, "--json", "-"}, false};  // it quotes the table's names
+        Attack attack{{"pod", path, "--json", "-"}, false};  // the output quotes the table's names
         for (std::size_t i = 0; i < dice.below(3); ++i) {
             attack.arguments.emplace_back(dice.one_of(kOptions));
         }
@@ -279,7 +279,7 @@ Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::u
             false};
 }
 
-// The same file in two roles, by its name or by a link.
+// The same file in two roles, by name or by link.
 Attack attack_by_roles(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
     const std::string study = folder + "/s.toml", results = folder + "/r.h5",

@@ -1,6 +1,8 @@
-// Garbled study files: whatever is read, no crash, no hang, and nothing accepted that is nonsense.
-//   fuzz_studies SEED SECONDS
-// Processes of our own try one file after another; one that dies or sticks names its file.
+// Reads mutated study files in child processes. Checks: no crash, no hang, no accepted file with
+// invalid values.
+// Usage: fuzz_studies SEED SECONDS
+// Child processes try one file after another; the number of the current file is known if one dies
+// or hangs.
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -32,11 +34,11 @@ using namespace gearpod;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLongest_s = 25.0;       // for one file; 10 s on an idle machine
-constexpr std::uint64_t kSceneEvery = 5;  // of the accepted files, so many are looked at in full
+constexpr std::uint64_t kSceneEvery = 5;  // one in so many accepted files is built in full
 
-// What a process tells, readable after its death.
+// State of a child process, readable after its death.
 struct Shared {
-    std::atomic<std::uint64_t> number;  // the file at work
+    std::atomic<std::uint64_t> number;  // number of the current file
     std::atomic<std::uint64_t> tried, accepted, scenes;
 };
 
@@ -50,7 +52,8 @@ std::vector<std::string> study_texts() {
     return texts;
 }
 
-// Nothing that cannot be: numbers that are none, or beyond the ranges that the schema states.
+// Description of an invalid value: not a number, or outside the schema's range. Empty if there is
+// none.
 std::string nonsense(const mc::Study& study) {
     for (const mc::Key& key : mc::schema()) {
         const auto* access = std::get_if<mc::NumberAccess>(&key.access);
@@ -98,7 +101,7 @@ std::string reason_for_failure(const std::string& text, Shared& shared) {
     if (!bad.empty() || shared.accepted % kSceneEvery != 0) {
         return bad;
     }
-    // What `describe` does.
+    // Repeats what `describe` does.
     try {
         if (reading.study->gearbox.has_teeth() && reading.study->gearbox.module_m) {
             const mc::Scene scene(mc::resolve_numerics(*reading.study).study);
@@ -112,7 +115,7 @@ std::string reason_for_failure(const std::string& text, Shared& shared) {
 // Tries files first, first + step, ... until killed; prints and exits with 1 at a failure.
 [[noreturn]] void try_files(const std::vector<std::string>& studies, std::uint64_t first,
                             std::uint64_t step, Shared& shared) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they map far more
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they map far more memory
     const rlim_t memory = rlim_t{2} << 30;
     const rlimit limit{memory, memory};
     setrlimit(RLIMIT_DATA, &limit);
@@ -147,7 +150,7 @@ Child start(const std::vector<std::string>& studies, std::uint64_t first, std::u
     return {pid, shared};
 }
 
-// Whether the child is well; says what it died of or sticks at.
+// Returns false and prints the cause if the child died or hangs.
 bool is_well(Child& child, const std::vector<std::string>& studies) {
     int status = 0;
     const bool died = waitpid(child.pid, &status, WNOHANG) == child.pid;

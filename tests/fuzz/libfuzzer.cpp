@@ -1,5 +1,5 @@
-// Readers under libFuzzer, one a program (GEARPOD_FUZZ_READER). What is read may be refused in the
-// reader's own words and nothing else may happen.
+// Runs the readers under libFuzzer, one per program (GEARPOD_FUZZ_READER). Input may be refused
+// with the reader's own exception; any other outcome is a failure.
 #include <unistd.h>
 
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace {
 using namespace gearpod;
 using namespace gearpod::mc;
 
-// A file with these bytes, one for all calls; HDF5 wants one with a name. Fastest in memory:
+// A file with these bytes, reused by all calls; HDF5 needs a named file. Fastest in memory:
 // TMPDIR=/dev/shm.
 class InputFile {
   public:
@@ -47,7 +47,7 @@ const std::string& file_of(const std::string& bytes) {
     return file.with(bytes);
 }
 
-// Its resolved text reads to the same study.
+// Reads a study and checks that its resolved text gives the same study.
 [[maybe_unused]] void study(const std::string& text) {
     const StudyReading reading = read_study_text(text, "fuzz.toml");
     if (!reading.study) {
@@ -62,7 +62,7 @@ const std::string& file_of(const std::string& bytes) {
     }
 }
 
-// The study in a small genuine results file (GEARPOD_RESULTS) exchanged, and the file sealed again.
+// Replaces the study of a small valid results file (GEARPOD_RESULTS) and updates its checksum.
 [[maybe_unused]] void embedded(const std::string& text) {
     static const std::string genuine = [] {
         const char* const path = std::getenv("GEARPOD_RESULTS");
@@ -80,7 +80,7 @@ const std::string& file_of(const std::string& bytes) {
             write_text(root, ".", "study", text);
         });
     } catch (const Hdf5Error&) {
-        return;  // a text that HDF5 does not hold
+        return;  // HDF5 cannot hold this text
     }
     try {
         Results results = read_frame(path);

@@ -166,7 +166,7 @@ class Mutator {
             lines_[at] = lines_[at].substr(0, equals + 1) + " " + value;
         }
     }
-    // Numbers that ascend, from few to more than there may be.
+    // Ascending numbers, from a few to more than allowed.
     std::string long_list() {
         const std::size_t count = std::size_t{1} << below(13);
         std::string list = "[0";
@@ -175,7 +175,7 @@ class Mutator {
         }
         return list + "]";
     }
-    // A header or a key of many parts, a value of many brackets.
+    // A header or key of many parts, or a value with many brackets.
     std::string nested() {
         const std::size_t depth = std::size_t{1} << below(17);
         const std::size_t kind = below(4);

@@ -1,4 +1,4 @@
-// Study files that somebody or something has garbled.
+// Mutated study files.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace gearpod::test {
 
-// One to four mutations of one of `studies`, the same for the same number: lines that are dropped,
-// doubled, moved to another section; keys misspelt; values exchanged for others of the file, for
-// numbers at the edge of what is possible, for other types; lists of thousands, dots and brackets
-// nested; bytes flipped, cut off or put in.
+// One to four mutations of one of `studies`, deterministic for a given number. Lines are dropped,
+// doubled or moved to another section. Keys are misspelt. Values are replaced by others of the
+// file, by extreme numbers or by other types. Lists of thousands, nested dots and brackets are
+// inserted. Bytes are flipped, cut off or inserted.
 std::string mutated(const std::vector<std::string>& studies, std::uint64_t number);
 
 }  // namespace gearpod::test

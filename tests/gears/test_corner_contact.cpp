@@ -1,4 +1,5 @@
-// Gap outside the path of contact against involutes that are turned into each other point by point.
+// Checks the gap outside the path of contact against involutes that are rotated into each other
+// point by point.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
@@ -23,7 +24,7 @@ Gear gear(int teeth, bool internal = false, double shift = 0) {
     return g;
 }
 
-// A complex number is a point; O_1 lies at 0, the pitch point on the real axis.
+// A point as a complex number; O_1 lies at 0, the pitch point on the real axis.
 using Point = std::complex<double>;
 
 class TurnedFlanks {
@@ -50,8 +51,8 @@ class TurnedFlanks {
     }
 
   private:
-    // The flank's point at a radius, from its gear's centre, while the pair touches at the pitch
-    // point: the string's tangent point and its free length.
+    // The flank's point at a radius, from its gear's centre, while the pair is in contact at the
+    // pitch point: tangent point and free length of the string.
     Point unwound(const Gear& gear, double radius) const {
         const double base = gear.base_radius();
         const double length = std::sqrt(radius * radius - base * base);
@@ -87,7 +88,8 @@ TEST_CASE("corner gap is zero on the path and continuous at its ends") {
     }
 }
 
-// The prototype's kinematics of the 19/31 pair: 7,100 to 12,700 um at one length of the path.
+// Source: the prototype's kinematics of the 19/31 pair, 7,100 to 12,700 um at one length of the
+// path.
 TEST_CASE("corner gap of an external pair grows as published with the square of the distance") {
     const MeshGeometry mesh(gear(19), gear(31));
     const double length = mesh.contact_ratio();
@@ -99,9 +101,9 @@ TEST_CASE("corner gap of an external pair grows as published with the square of 
     }
 }
 
-// Both flanks as strings unwound from their base circles through the pitch point, turned about
+// Both flanks as strings unwound from their base circles through the pitch point, rotated about
 // their centres: the corner of one and the point of the other at the same radius.
-TEST_CASE("corner gap is what unwound flanks leave between them") {
+TEST_CASE("corner gap equals the gap between unwound flanks") {
     for (const auto& [one, two] :
          {std::pair{gear(19), gear(31)}, std::pair{gear(31), gear(81, true)},
           std::pair{gear(23), gear(17, false, 0.4)}}) {
@@ -117,7 +119,7 @@ TEST_CASE("corner gap is what unwound flanks leave between them") {
     }
 }
 
-TEST_CASE("reach is where the corner gap has a given size") {
+TEST_CASE("reach is the distance at which the corner gap has a given size") {
     for (const bool internal : {false, true}) {
         const MeshGeometry mesh(gear(31), internal ? gear(81, true) : gear(43));
         const CornerReach reach = corner_reach(mesh, 10e-6);

@@ -20,9 +20,9 @@ Gear internal(int teeth) {
     return {teeth, true, kModule, kPressureAngle};
 }
 
-// arccos(N1 cos a0 / O1B): the pressure angle on gear 1 where gear 2's tip circle cuts the line of
-// action, as printed in Tian (2004), Eq. 2.50 (side = +1) and Liang (2016), Eq. 2.2.13 (side = -1);
-// lengths in half modules.
+// Pressure angle arccos(N1 cos a0 / O1B) on gear 1 where gear 2's tip circle intersects the line of
+// action, as printed in Tian (2004), Eq. 2.50 (side = +1) and Liang (2016), Eq. 2.2.13 (side = -1).
+// Lengths are in half modules.
 double printed_start_angle(double n1, double n2, int side) {
     const double tip = n2 + side * 2, centre = n2 + side * n1, cosine = std::cos(kPressureAngle);
     const double angle = std::acos(n2 * cosine / tip) - kPressureAngle;
@@ -74,7 +74,7 @@ TEST_CASE("the ring-planet pair of 31 and 81 teeth has contact ratio 1.9") {
     CHECK(MeshGeometry(external(31), internal(81)).contact_ratio() == Approx(1.9).margin(0.05));
 }
 
-TEST_CASE("pitch points lie where Liang's Eqs. 2.3.5 and 2.3.6 put them") {
+TEST_CASE("pitch points match Liang's Eqs. 2.3.5 and 2.3.6") {
     const double slope = std::tan(kPressureAngle);
     CHECK(MeshGeometry(external(31), internal(81)).pitch_position() ==
           Approx((slope - std::tan(printed_start_angle(31, 81, -1))) * 31 / (2 * kPi)));
@@ -82,7 +82,7 @@ TEST_CASE("pitch points lie where Liang's Eqs. 2.3.5 and 2.3.6 put them") {
           Approx((slope - std::tan(printed_start_angle(19, 31, 1))) * 19 / (2 * kPi)));
 }
 
-TEST_CASE("at the pitch point both teeth are touched on their pitch circles") {
+TEST_CASE("at the pitch point both teeth are in contact on their pitch circles") {
     for (const bool ring : {false, true}) {
         const Gear second = ring ? internal(81) : external(48);
         const MeshGeometry mesh(external(31), second);
@@ -104,7 +104,7 @@ TEST_CASE("contact ends where gear 1's tip circle leaves the line of action") {
     CHECK(sun.base_radius() * std::hypot(1, roll) == Approx(sun.tip_radius()));
 }
 
-TEST_CASE("pairs that would touch below a base circle are refused") {
+TEST_CASE("pairs with contact below a base circle are refused") {
     CHECK(mesh_problems(external(12), external(100)).size() == 1);
     CHECK_THROWS_AS(MeshGeometry(external(12), external(100)), std::invalid_argument);
     CHECK_THROWS_AS(MeshGeometry(internal(81), external(31)), std::invalid_argument);

@@ -36,7 +36,7 @@ TEST_CASE("Park's phases 68/3 and -16/3 of counter-clockwise planets are 2/3 eac
 
 TEST_CASE(
     "Yang's planets are in phase and their ring meshes half a mesh later than their sun meshes") {
-    // Yang (2022), Table 3.
+    // Source: Yang (2022), Table 3.
     for (int n = 0; n < 4; ++n) {
         CHECK(sun_mesh_phase(kYang, n) == 0);
         CHECK(ring_mesh_phase(kYang, n) == 0);
@@ -44,12 +44,11 @@ TEST_CASE(
     CHECK(ring_to_sun_phase(kYang) == 0.5);
 }
 
-TEST_CASE(
-    "the ring-to-sun phase follows from laying out a planet's flanks around its pitch circle") {
+TEST_CASE("the ring-to-sun phase follows from a planet's flanks laid out around its pitch circle") {
     for (int teeth = 12; teeth < 60; ++teeth) {
-        // Angles in pitches: trailing flanks at whole numbers, leading ones half a pitch ahead; the
-        // sun's pitch point at 0, the ring's half a turn away. How far until a leading flank
-        // reaches it:
+        // Angles in pitches: trailing flanks at integers, leading ones half a pitch ahead; the
+        // sun's pitch point at 0, the ring's half a turn away. Computes the distance until a
+        // leading flank reaches it.
         const double wait = teeth / 2.0 - 0.5;
         CHECK(ring_to_sun_phase({19, teeth, 19 + 2 * teeth, 3}) == wait - std::floor(wait));
     }
@@ -71,7 +70,7 @@ TEST_CASE("Yang's characteristic frequencies follow from the sun's 25 Hz") {
 }
 
 TEST_CASE("mesh frequencies are Kahraman's for each fixed member") {
-    // Liang (2016), Eq. 2.3.9.
+    // Source: Liang (2016), Eq. 2.3.9.
     const double s = 19, r = 81;
     const auto frequency = [](FixedMember fixed, Member given) {
         return mesh_frequency(kLiang, train_speeds(kLiang, fixed, given, 3));
@@ -83,9 +82,9 @@ TEST_CASE("mesh frequencies are Kahraman's for each fixed member") {
 }
 
 TEST_CASE(
-    "half a planet turn holds 15.5 meshes with the carrier fixed, 12.56 at the same sun speed with "
+    "half a planet turn has 15.5 meshes with the carrier fixed, 12.56 at the same sun speed with "
     "the ring fixed") {
-    // Liang (2016), Figs. 2.8 and 2.11.
+    // Source: Liang (2016), Figs. 2.8 and 2.11.
     const Speeds standing = train_speeds(kLiang, FixedMember::carrier, Member::sun, 1);
     const double half_turn = 0.5 / std::abs(standing.planet);
     CHECK(half_turn * mesh_frequency(kLiang, standing) == Approx(15.5));
@@ -93,7 +92,7 @@ TEST_CASE(
     CHECK(half_turn * mesh_frequency(kLiang, turning) == Approx(12.56).margin(0.0051));
 }
 
-TEST_CASE("no tooth slips: every member's pitch line moves with its mate's") {
+TEST_CASE("no tooth slips: the pitch line velocities of mating gears are equal") {
     for (const FixedMember fixed : {FixedMember::ring, FixedMember::sun, FixedMember::carrier}) {
         const Member given = fixed == FixedMember::ring ? Member::carrier : Member::ring;
         const Speeds v = train_speeds(kLiang, fixed, given, -7);
@@ -105,19 +104,19 @@ TEST_CASE("no tooth slips: every member's pitch line moves with its mate's") {
                     std::invalid_argument);
 }
 
-TEST_CASE("a carrier turn meets every tooth of the fixed gear once") {
+TEST_CASE("one carrier turn meets every tooth of the fixed gear once") {
     CHECK(meshes_per_carrier_turn(kLiang, FixedMember::ring) == 81);
     CHECK(meshes_per_carrier_turn(kLiang, FixedMember::sun) == 19);
     CHECK_FALSE(meshes_per_carrier_turn(kLiang, FixedMember::carrier).has_value());
 }
 
-TEST_CASE("the sources' trains can be assembled and broken ones say why") {
+TEST_CASE("the published trains can be assembled, and invalid ones give the reasons") {
     for (const auto& train : {kLiang, kPark, kYang, kYangRig})
         CHECK(assembly_problems(train).empty());
     CHECK(assembly_problems({19, 31, 82, 4}).size() == 2);  // ring, spacing
-    // Liang's Table 4.3 has modes for 3 and 5 such planets, which no gearbox can hold: 100 / 3 is
-    // no integer, and axes 50 sin 36 = 29.4 modules apart leave no room for tip circles of 33
-    // modules.
+    // Liang's Table 4.3 has modes for 3 and 5 such planets, which cannot be assembled. The number
+    // 100 / 3 is no integer, and axes 50 sin 36 = 29.4 modules apart leave no room for tip circles
+    // of 33 modules.
     CHECK(assembly_problems({19, 31, 81, 3}).size() == 1);
     const auto crowded = assembly_problems({19, 31, 81, 5});
     REQUIRE(crowded.size() == 1);

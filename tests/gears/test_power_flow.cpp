@@ -1,4 +1,4 @@
-// Park's six working conditions: directions, torques in balance and transmission errors.
+// Checks Park's six working conditions: directions, balanced torques and transmission errors.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,7 @@ double of(const Members& v, Member m) {
 
 }  // namespace
 
-TEST_CASE("Speed decreases or increases, along or against the input, as Park's Table I says") {
+TEST_CASE("Speed decreases or increases, along or against the input, as in Park's Table I") {
     const bool decreases[] = {true, false, true, false, true, false};
     const bool same_direction[] = {true, true, true, true, false, false};
     for (int i = 0; i < 6; ++i) {
@@ -39,7 +39,7 @@ TEST_CASE("Speed decreases or increases, along or against the input, as Park's T
         const Speeds s = driven_speeds(kPark, flow, flow.input, 3.0);
         const double ratio = of(s, output_member(flow)) / of(s, flow.input);
         CHECK(std::abs(of(s, flow.input)) == Approx(3.0));
-        // With the carrier fixed, the ring drives the smaller sun.
+        // The ring drives the smaller sun with the carrier fixed.
         CHECK((std::abs(ratio) < 1) == decreases[i]);
         CHECK((ratio > 0) == same_direction[i]);
     }
@@ -61,7 +61,7 @@ TEST_CASE("Power enters at the input, leaves at the output, and none is lost") {
     }
 }
 
-TEST_CASE("Transmission errors are those printed for conditions 2, 4 and 6, and their reverses") {
+TEST_CASE("Transmission errors match those printed for conditions 2, 4 and 6, and their reverses") {
     const double zs = 16, zr = 68;
     const auto weights = [](int condition) {
         return transmission_error_weights(kPark, kConditions[condition - 1]);
@@ -83,7 +83,7 @@ TEST_CASE("Transmission errors are those printed for conditions 2, 4 and 6, and 
     CHECK(w5.sun == Approx(zs / zr));
 }
 
-TEST_CASE("Rigid rotation is no transmission error") {
+TEST_CASE("Rigid rotation gives no transmission error") {
     for (const PowerFlow& flow : kConditions) {
         const Speeds s = driven_speeds(kPark, flow, flow.input, 5.0);
         const Members w = transmission_error_weights(kPark, flow);
@@ -91,7 +91,7 @@ TEST_CASE("Rigid rotation is no transmission error") {
     }
 }
 
-TEST_CASE("A train driven by its carrier turns the planets the other way round") {
+TEST_CASE("A train driven by its carrier reverses the rotation of the planets") {
     for (const FixedMember fixed : {FixedMember::ring, FixedMember::sun}) {
         const Member geared = fixed == FixedMember::ring ? Member::sun : Member::ring;
         const Speeds by_gear = driven_speeds(kPark, {fixed, geared}, geared, 1.0);
@@ -104,8 +104,9 @@ TEST_CASE("A train driven by its carrier turns the planets the other way round")
     }
 }
 
-TEST_CASE("Phases of the mirrored train are those of its mirrored planets in the other sense") {
-    // Real train: positive sense, planets at -psi. Its mirror image: negative sense, at psi.
+TEST_CASE(
+    "Phases of the mirrored train equal those of its mirrored planets in the opposite sense") {
+    // Real train: positive sense, planets at -psi. Mirror image: negative sense, planets at psi.
     PlanetaryTrain mirrored{
         16, 26, 68, 3, {0, 2 * std::numbers::pi * 25 / 84, 2 * std::numbers::pi * 51 / 84}};
     PlanetaryTrain real = mirrored;
@@ -122,7 +123,7 @@ TEST_CASE("Phases of the mirrored train are those of its mirrored planets in the
     }
 }
 
-TEST_CASE("A held member has no speed to be given") {
+TEST_CASE("A fixed member accepts no speed") {
     CHECK_THROWS_AS(driven_speeds(kPark, {FixedMember::ring, Member::sun}, Member::ring, 1.0),
                     std::invalid_argument);
 }

@@ -1,4 +1,4 @@
-// Gears that do not mesh, and standard teeth.
+// Checks gears that do not mesh, and standard teeth.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -35,7 +35,7 @@ bool says(const std::vector<std::string>& problems, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the inverse of the involute is its inverse") {
+TEST_CASE("the inverse of the involute function inverts it") {
     for (const double degrees : {0.01, 1.0, 15.0, 20.0, 45.0, 80.0}) {
         CHECK(inverse_involute(involute(degrees * kDegree)) ==
               Approx(degrees * kDegree).epsilon(1e-9));
@@ -66,7 +66,7 @@ TEST_CASE("standard gears at the standard distance keep every bit") {
     CHECK(set.tip_shortening == 0);
 }
 
-TEST_CASE("shifts that cancel leave distance and pressure angle, but move the pitch point") {
+TEST_CASE("shifts that cancel keep distance and pressure angle, but move the pitch point") {
     const MeshGeometry standard(gear(19), gear(31)), shifted(gear(19, 0.3), gear(31, -0.3));
     CHECK(shifted.working_pressure_angle() == standard.working_pressure_angle());
     CHECK(shifted.centre_distance() == standard.centre_distance());
@@ -75,7 +75,7 @@ TEST_CASE("shifts that cancel leave distance and pressure angle, but move the pi
     CHECK(shifted.contact_ratio() < standard.contact_ratio());
 }
 
-TEST_CASE("what is not drawn of a set's shifts follows without backlash") {
+TEST_CASE("missing values of a set's shifts follow from zero backlash") {
     const Gear ring = gear(-99);
     const WorkingShifts set = working_shifts(gear(27), gear(35), &ring, {{}, {}, {}, 63e-3});
     REQUIRE(set.centre_distance_m);
@@ -90,8 +90,9 @@ TEST_CASE("what is not drawn of a set's shifts follows without backlash") {
     CHECK(fuller.ring == 0.1);
 }
 
-// KISSsoft's report on the second stage of the NREL 5 MW gearbox (test_working_pair.cpp): shifts
-// 0.3890, 0.5039 and 0.1171 at 584 mm. Any two of the shifts give the third and the distance.
+// Source: KISSsoft's report on the second stage of the NREL 5 MW gearbox (test_working_pair.cpp),
+// shifts 0.3890, 0.5039 and 0.1171 at 584 mm. Any two of the shifts give the third and the
+// distance.
 TEST_CASE("two shifts of a set give the third and the centre distance") {
     const auto standard = [](int teeth) {
         Gear coarse = gear(teeth);
@@ -109,20 +110,20 @@ TEST_CASE("two shifts of a set give the third and the centre distance") {
         CHECK(set.second == Approx(0.5039).margin(2e-4));
         CHECK(set.ring == Approx(0.1171).margin(2e-4));
     }
-    // The distance and the ring's shift give the others.
+    // The other shifts follow from the distance and the ring's shift.
     const WorkingShifts set = working_shifts(sun, planet, &ring, {{}, {}, 0.1171, 0.584});
     CHECK(set.first == Approx(0.3890).margin(2e-4));
     CHECK(set.second == Approx(0.5039).margin(2e-4));
 }
 
-TEST_CASE("whatever is drawn of a set's shifts without its distance, no mesh has backlash") {
+TEST_CASE("any given shifts of a set without a distance give meshes without backlash") {
     const Gear ring = gear(-99);
     constexpr std::optional<double> kNone;
     for (const std::optional<double>& first : {kNone, std::optional(0.3)})
         for (const std::optional<double>& second : {kNone, std::optional(-0.1)})
             for (const std::optional<double>& outer : {kNone, std::optional(0.4)}) {
                 if (first && second && outer)
-                    continue;  // fixes more than there is
+                    continue;  // overdetermined
                 const WorkingShifts set =
                     working_shifts(gear(27), gear(35), &ring, {first, second, outer, {}});
                 CHECK(set.first == first.value_or(set.first));
@@ -137,8 +138,8 @@ TEST_CASE("whatever is drawn of a set's shifts without its distance, no mesh has
             }
 }
 
-TEST_CASE("teeth are as thick as the pitch circle's spaces leave them room") {
-    // Half of the pitch and 2 x m tan a0 more (ISO 21771), of internal teeth, too.
+TEST_CASE("teeth are as thick as the spaces of the mating gear on the pitch circle") {
+    // Half of the pitch plus 2 x m tan a0 (ISO 21771), for internal teeth, too.
     for (const int teeth : {23, -71})
         for (const double shift : {-0.2, 0.0, 0.4}) {
             const Gear one = gear(teeth, shift);
@@ -148,7 +149,7 @@ TEST_CASE("teeth are as thick as the pitch circle's spaces leave them room") {
         }
 }
 
-TEST_CASE("gears that cannot be cut or meshed are refused with the numbers that show it") {
+TEST_CASE("gears that cannot be cut or meshed are refused with the relevant numbers") {
     CHECK(says(undercut_problems(gear(10)),
                "10 teeth are undercut with a profile shift of 0 (shift by 0.215"));
     CHECK(undercut_problems(gear(14)).empty());
@@ -159,7 +160,7 @@ TEST_CASE("gears that cannot be cut or meshed are refused with the numbers that 
     CHECK(says(gear_problems(inside_out), "does not lie outside the root circle, 55 mm"));
     CHECK(says(gear_problems(gear(-60, -2)), "the spaces between 60 internal teeth close"));
 
-    // At a distance that is too small, too large, below that of the base circles.
+    // The distance is too small, too large, or below that of the base circles.
     CHECK(says(mesh_problems(gear(30), gear(40), 69.5e-3), "mm thicker than the pitch"));
     CHECK(says(mesh_problems(gear(30), gear(40), 65e-3), "base circles, 65.7785 mm"));
     CHECK(says(mesh_problems(gear(30), gear(40), 73e-3), "the contact ratio of 30 against 40"));
@@ -169,22 +170,24 @@ TEST_CASE("gears that cannot be cut or meshed are refused with the numbers that 
                "the tips of 30 teeth run 0.1000 mm into the root circle of 40 teeth (let the tip "
                "diameter be 65 mm)"));
     CHECK(says(mesh_problems(gear(18), gear(-60)), "reach below the base circle of 18 teeth"));
-    // KHK gear technical reference: without shift tips pass where the tooth numbers differ by 9.
+    // Source: KHK gear technical reference; without shift tips pass where the tooth numbers differ
+    // by 9.
     CHECK(says(mesh_problems(gear(52), gear(-60)), "overlap those of the 60 internal teeth"));
     CHECK(mesh_problems(gear(52), gear(-61)).empty());
 }
 
-TEST_CASE("planets that would touch are refused by their own tip circles") {
+TEST_CASE("planets that would overlap are refused by their own tip circles") {
     const PlanetaryTrain train{27, 35, 99, 5};
     CHECK(says(assembly_problems(train, {31.5, 37.1}), "axes 37.03 modules apart, tip diameter"));
     CHECK(!says(assembly_problems(train, {31.5, 37.0}), "touch"));
-    // However small they are.
+    // The rule holds for any small value.
     CHECK(!says(assembly_problems(train, {31.5, 1e-9}), "touch"));
     CHECK(!says(assembly_problems(train, {31.5, 0.0}), "touch"));
 }
 
-// Bell 206B: 126 places for four planets; DSTG's description has them at 88.57 and 91.43 degrees.
-TEST_CASE("planets that cannot be spaced equally go to the nearest places") {
+// Source: Bell 206B, 126 positions for four planets; DSTG's description has them at 88.57 and 91.43
+// degrees.
+TEST_CASE("planets that cannot be spaced equally take the nearest positions") {
     PlanetaryTrain train{27, 35, 99, 4};
     train.positions_rad = nearest_positions(train);
     const PlanetPlaces at = planet_places(train);
@@ -196,8 +199,8 @@ TEST_CASE("planets that cannot be spaced equally go to the nearest places") {
     CHECK(planet_places(equal).place == std::vector<int>{0, 25, 50, 75});
 }
 
-// Turns a planet in small steps and watches its flanks cross the line between the axes.
-TEST_CASE("the ring mesh follows the sun mesh as the planet's flanks do") {
+// Rotates a planet in small steps and detects when its flanks cross the line between the axes.
+TEST_CASE("the phase of the ring mesh relative to the sun mesh follows from the planet's flanks") {
     const Gear ring = gear(-99);
     const WorkingShifts set = working_shifts(gear(27), gear(35), &ring, {0.4, {}, {}, 63e-3});
     const Gear planet = gear(35, set.second);
@@ -206,8 +209,8 @@ TEST_CASE("the ring mesh follows the sun mesh as the planet's flanks do") {
     const double pitch = 2 * std::numbers::pi / 35;
     const double half_at_sun = planet.half_angle_at(planet.base_radius() / std::cos(sun_angle));
     const double half_at_ring = planet.half_angle_at(planet.base_radius() / std::cos(ring_angle));
-    // The sun lies at the angle 0, the ring's contact at pi; the planet turns in the positive
-    // sense. At turn 0 a trailing flank is at 0, so a tooth's middle is half a tooth ahead.
+    // The sun lies at the angle 0, the ring's contact at pi; the planet rotates in the positive
+    // sense. A trailing flank is at 0 at turn 0, so the middle of a tooth is half a tooth ahead.
     double later = -1;
     for (int tooth = 0; tooth < 35; ++tooth) {
         const double leading = half_at_sun + tooth * pitch + half_at_ring;

@@ -1,4 +1,4 @@
-// Tolerances of ISO 1328, and random gears that keep them as often as is said.
+// Checks tolerances of ISO 1328, and the rate at which random gears meet them.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kAngle = 20 * std::numbers::pi / 180;
 
-// With other random numbers than those that the scales were found with.
+// Random gears from other random numbers than those used to determine the scales.
 class RandomGears {
   public:
     WaveNumbers waves() {
@@ -32,9 +32,9 @@ class RandomGears {
 
 }  // namespace
 
-TEST_CASE("The formulas give the standard's tables at the means of its ranges") {
-    // Diameters of 50 to 125 mm, modules of 2 to 3.5 mm, um: ISO 1328-1:1995, Tables 1 to 3 and
-    // ISO 1328-2:1997, Table B.1, rounded to 0.5 um below 10 and to 1 um above.
+TEST_CASE("The formulas reproduce the standard's tables at the means of its ranges") {
+    // Diameters of 50 to 125 mm, modules of 2 to 3.5 mm, in um. Sources: ISO 1328-1:1995, Tables 1
+    // to 3 and ISO 1328-2:1997, Table B.1, rounded to 0.5 um below 10 and to 1 um above.
     const double m = std::sqrt(2.0 * 3.5) * 1e-3, d = std::sqrt(50.0 * 125.0) * 1e-3;
     const auto rounded = [](double value_m) {
         const double um = 1e6 * value_m;
@@ -50,12 +50,14 @@ TEST_CASE("The formulas give the standard's tables at the means of its ranges") 
     CHECK(rounded(seven.cumulative_pitch) == 38.0);
 }
 
-TEST_CASE("A toothing off its axis runs out by twice its distance, and drifts as it turns") {
+TEST_CASE(
+    "An eccentric gear has a runout of twice its eccentricity, and deviations that vary over the "
+    "turn") {
     constexpr int kTeeth = 360;
     DeviationScales scales;
     scales.eccentricity = 10e-6;
     WaveNumbers numbers;
-    numbers.centre[0] = std::numbers::sqrt2;  // so the distance is the scale
+    numbers.centre[0] = std::numbers::sqrt2;  // so that the eccentricity equals the scale
     const auto along = wave_deviations(kTeeth, kAngle, scales, numbers, 1);
     const auto against = wave_deviations(kTeeth, kAngle, scales, numbers, -1);
     const ToothTolerances found = measured_deviations(kAngle, along.index_m, against.index_m);
@@ -68,7 +70,7 @@ TEST_CASE("A toothing off its axis runs out by twice its distance, and drifts as
     }
 }
 
-TEST_CASE("Waves turn the teeth about the axis: no probe on both flanks sees them") {
+TEST_CASE("Waves rotate the teeth about the axis: a probe on both flanks does not detect them") {
     constexpr int kTeeth = 400;
     DeviationScales scales;
     scales.waves = 5e-6;
@@ -88,7 +90,7 @@ TEST_CASE("Waves turn the teeth about the axis: no probe on both flanks sees the
     CHECK(std::sqrt(squares) == Approx(5e-6).epsilon(0.1));
 }
 
-TEST_CASE("Nine gears in ten keep each tolerance of their grade") {
+TEST_CASE("Nine gears in ten meet each tolerance of their grade") {
     struct Case {
         double module_mm;
         int teeth;

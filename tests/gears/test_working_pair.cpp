@@ -1,4 +1,4 @@
-// Geometry of shifted gears against sets worked out elsewhere, to the digits printed there.
+// Checks the geometry of shifted gears against published sets, to the printed digits.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -28,7 +28,7 @@ Gear with(Gear gear, double shift, double shortening = 0) {
     return gear;
 }
 
-// The pair of a drawing; lengths in mm.
+// A gear pair as on a drawing; lengths in mm.
 struct Set {
     Set(Gear one, Gear two, DrawnShifts drawn)
         : shifts(working_shifts(one, two, nullptr, drawn)),
@@ -47,7 +47,7 @@ struct Set {
     MeshGeometry mesh;
 };
 
-// A planetary stage from its sun's shift and the centre distance; the rest follows.
+// A planetary stage defined by its sun's shift and the centre distance.
 struct Stage {
     Stage(int sun, int planet, int ring, double module_mm, double sun_shift, double distance_mm)
         : shifts(shifts_of(sun, planet, ring, module_mm, sun_shift, distance_mm)),
@@ -73,7 +73,7 @@ double thickness_mm(const Gear& gear) {
     return 1e3 * gear.thickness_at(gear.tip_radius());
 }
 
-// KISSsoft prints three decimals and does not always round the last one.
+// Tolerance for KISSsoft's three decimals, the last of which is not always rounded.
 constexpr double kLast = 1e-3;
 
 double contact_diameter_mm(const MeshGeometry& mesh, int which, double tau) {
@@ -82,8 +82,9 @@ double contact_diameter_mm(const MeshGeometry& mesh, int which, double tau) {
 
 }  // namespace
 
-// KHK gear technical reference, calculation of a profile shifted spur gear (1), a = 56.4999.
-TEST_CASE("a pair of 12 and 24 teeth shifted by 0.6 and 0.36 is KHK's") {
+// Source: KHK gear technical reference, calculation of a profile shifted spur gear (1), a =
+// 56.4999.
+TEST_CASE("a pair of 12 and 24 teeth shifted by 0.6 and 0.36 matches KHK's") {
     const Set set(standard(12, 3), standard(24, 3), {0.6, 0.36});
     CHECK(set.angle() == Approx(26.0886).margin(5e-5));
     CHECK(involute(set.mesh.working_pressure_angle()) == Approx(0.034316).margin(5e-7));
@@ -97,7 +98,7 @@ TEST_CASE("a pair of 12 and 24 teeth shifted by 0.6 and 0.36 is KHK's") {
     CHECK(set.mesh.backlash() == Approx(0).margin(1e-15));
 }
 
-// bolsover.com, utilities for Alibre, profile shifted external spur gears.
+// Source: bolsover.com, utilities for Alibre, profile shifted external spur gears.
 TEST_CASE("12 and 24 teeth at a centre distance of 56.5 mm have a contact ratio of 1.202") {
     const Set set(standard(12, 3), standard(24, 3), {0.6, {}, {}, 56.5e-3});
     CHECK(set.shifts.first + set.shifts.second == Approx(0.960).margin(5e-4));
@@ -107,9 +108,10 @@ TEST_CASE("12 and 24 teeth at a centre distance of 56.5 mm have a contact ratio 
     CHECK(2e3 * set.mesh.gear(2).base_radius() == Approx(67.6579).margin(5e-5));
 }
 
-// KHK gear technical reference (SDP/SI, T-42), calculation of a profile shifted internal gear (1):
-// x_2 = 0.5 in its count, in which an internal gear's shift moves its teeth outwards.
-TEST_CASE("16 teeth in an internal gear of 24 are KHK's") {
+// Source: KHK gear technical reference (SDP/SI, T-42), calculation of a profile shifted internal
+// gear (1): x_2 = 0.5 in its convention, in which an internal gear's shift moves its teeth
+// outwards.
+TEST_CASE("16 teeth in an internal gear of 24 match KHK's") {
     const Gear pinion = standard(16, 3), ring = with(standard(-24, 3), -0.5);
     CHECK(tight_working_angle(pinion, ring) / kDegree == Approx(31.0937).margin(5e-5));
     CHECK(involute(tight_working_angle(pinion, ring)) == Approx(0.060401).margin(5e-7));
@@ -120,9 +122,9 @@ TEST_CASE("16 teeth in an internal gear of 24 are KHK's") {
     CHECK(2e3 * ring.root_radius() == Approx(82.500).margin(5e-4));
 }
 
-// A calculation sheet after ISO 21771, Eq. 62: helical gears of 31 and 30 teeth, m_n = 3.5 mm, in
-// their transverse plane.
-TEST_CASE("31 and 30 helical teeth at 116.5 mm need the sum of shifts that ISO 21771 finds") {
+// Source: a calculation sheet after ISO 21771, Eq. 62: helical gears of 31 and 30 teeth, m_n = 3.5
+// mm, in their transverse plane.
+TEST_CASE("31 and 30 helical teeth at 116.5 mm require the sum of shifts of ISO 21771") {
     const double module = 2 * 114.3447280708 / 61;
     const Gear one = standard(31, module, 21.2990642859), two = standard(30, module, 21.2990642859);
     CHECK(involute(one.pressure_angle_rad) == Approx(0.01812609488).epsilon(1e-9));
@@ -132,9 +134,9 @@ TEST_CASE("31 and 30 helical teeth at 116.5 mm need the sum of shifts that ISO 2
     CHECK(tight_shift_sum(one, two, 116.5e-3) * module / 3.5 == Approx(0.6518771312).epsilon(1e-8));
 }
 
-// KHK gear technical reference, calculation of a profile shifted helical gear in the normal system:
-// m_n = 3 mm, helix 30 degrees. KHK cuts decimals off.
-TEST_CASE("12 and 60 helical teeth shifted by 0.09809 in the normal plane are KHK's") {
+// Source: KHK gear technical reference, calculation of a profile shifted helical gear in the normal
+// system: m_n = 3 mm, helix 30 degrees. KHK truncates decimals.
+TEST_CASE("12 and 60 helical teeth shifted by 0.09809 in the normal plane match KHK's") {
     const double c = std::cos(30 * kDegree);
     const auto helical = [&](int teeth) {
         Gear gear = standard(teeth, 3 / c, std::atan(std::tan(20 * kDegree) / c) / kDegree);
@@ -159,8 +161,8 @@ TEST_CASE("12 and 60 helical teeth shifted by 0.09809 in the normal plane are KH
     CHECK(set.root(2) == Approx(200.346).margin(kLast));
 }
 
-// The same in the transverse system: m_t = 3 mm, 20 degrees in the transverse plane.
-TEST_CASE("12 and 60 helical teeth shifted by 0.34462 in the transverse plane are KHK's") {
+// Source: the same in the transverse system: m_t = 3 mm, 20 degrees in the transverse plane.
+TEST_CASE("12 and 60 helical teeth shifted by 0.34462 in the transverse plane match KHK's") {
     const Set set(standard(12, 3), standard(60, 3), {0.34462, 0});
     CHECK(involute(set.mesh.working_pressure_angle()) == Approx(0.0183886).margin(5e-8));
     CHECK(set.angle() == Approx(21.3975).margin(5e-5));
@@ -175,7 +177,7 @@ TEST_CASE("12 and 60 helical teeth shifted by 0.34462 in the transverse plane ar
     CHECK(set.root(2) == Approx(172.500).margin(5e-4));
 }
 
-// FVA information sheet 2/IV: FZG test gears, type C.
+// Source: FVA information sheet 2/IV, FZG test gears, type C.
 TEST_CASE("FZG's test gears of type C work at 22.44 degrees") {
     const Set set(standard(16, 4.5), standard(24, 4.5), {0.1817, 0.1715, {}, 91.5e-3});
     CHECK(set.angle() == Approx(22.44).margin(5e-3));
@@ -186,13 +188,13 @@ TEST_CASE("FZG's test gears of type C work at 22.44 degrees") {
     CHECK(set.mesh.contact_ratio() == Approx(1.44).margin(5e-3));
 }
 
-// Kos, Analysis of planetary transmissions (University of Ljubljana, LECAD): test run.
-TEST_CASE("a stage of 21, 43 and 108 teeth is Ljubljana's") {
+// Source: Kos, Analysis of planetary transmissions (University of Ljubljana, LECAD): test run.
+TEST_CASE("a stage of 21, 43 and 108 teeth matches Ljubljana's") {
     const Stage stage(21, 43, 108, 1.75, 0.4380, 56.8);
     CHECK(stage.shifts.second == Approx(0.0426).margin(5e-5));
     CHECK(stage.shifts.ring == Approx(0.0000).margin(5e-5));
     const Gear &sun = stage.sun_mesh.gear(1), &planet = stage.sun_mesh.gear(2);
-    // The sun's shift, of four digits, leaves 2e-4 of them.
+    // The sun's shift has four digits, which leaves an error of 2e-4.
     CHECK(2e3 * sun.tip_radius() == Approx(41.7008).margin(2e-4));
     CHECK(2e3 * planet.tip_radius() == Approx(78.8170).margin(2e-4));
     // The span over k teeth, W_k: k - 1 base pitches and a tooth on the base circle.
@@ -202,9 +204,9 @@ TEST_CASE("a stage of 21, 43 and 108 teeth is Ljubljana's") {
           Approx(24.3530).margin(1e-4));
 }
 
-// KISSsoft 03/2017 reports on the stages of the NREL 5 MW reference gearbox (Nejad et al. 2016),
-// kept in the repository gfsReboucas/Drivetrain.
-TEST_CASE("the first stage of a 5 MW wind turbine, 19/17/56 teeth, is KISSsoft's") {
+// Source: KISSsoft 03/2017 reports on the stages of the NREL 5 MW reference gearbox (Nejad et al.
+// 2016), kept in the repository gfsReboucas/Drivetrain.
+TEST_CASE("the first stage of a 5 MW wind turbine, 19/17/56 teeth, matches KISSsoft's") {
     const Stage stage(19, 17, 56, 45, 0.617, 863);
     const MeshGeometry &sun = stage.sun_mesh, &ring = stage.ring_mesh;
     CHECK(sun.working_pressure_angle() / kDegree == Approx(28.118).margin(kLast));
@@ -226,7 +228,7 @@ TEST_CASE("the first stage of a 5 MW wind turbine, 19/17/56 teeth, is KISSsoft's
     CHECK(1e3 * ring.tip_clearance(2) == Approx(12.213).margin(kLast));
     CHECK(sun.contact_ratio() == Approx(1.115).margin(kLast));
     CHECK(ring.contact_ratio() == Approx(1.278).margin(kLast));
-    // Where the tips begin and cease to touch, d_Nf, and single contact, d_B and d_D.
+    // Start and end of tip contact, d_Nf, and of single contact, d_B and d_D.
     CHECK(contact_diameter_mm(sun, 1, 0) == Approx(845.350).margin(kLast));
     CHECK(contact_diameter_mm(sun, 2, sun.contact_ratio()) == Approx(762.541).margin(kLast));
     CHECK(contact_diameter_mm(ring, 1, 0) == Approx(749.170).margin(kLast));
@@ -238,12 +240,12 @@ TEST_CASE("the first stage of a 5 MW wind turbine, 19/17/56 teeth, is KISSsoft's
     CHECK(thickness_mm(sun.gear(1)) == Approx(32.599).margin(kLast));
     CHECK(thickness_mm(sun.gear(2)) == Approx(26.588).margin(kLast));
     CHECK(thickness_mm(ring.gear(2)) == Approx(38.407).margin(kLast));
-    // The root form diameters that a rack of ISO 53, profile A cuts.
+    // Root form diameters that a rack of ISO 53, profile A cuts.
     CHECK(2e3 * sun.gear(1).form_radius() == Approx(825.979).margin(kLast));
     CHECK(2e3 * sun.gear(2).form_radius() == Approx(748.795).margin(kLast));
 }
 
-TEST_CASE("the second stage of a 5 MW wind turbine, 18/36/93 teeth, is KISSsoft's") {
+TEST_CASE("the second stage of a 5 MW wind turbine, 18/36/93 teeth, matches KISSsoft's") {
     const Stage stage(18, 36, 93, 21, 0.389, 584);
     const MeshGeometry &sun = stage.sun_mesh, &ring = stage.ring_mesh;
     CHECK(sun.working_pressure_angle() / kDegree == Approx(24.169).margin(kLast));

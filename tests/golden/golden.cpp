@@ -98,7 +98,7 @@ Curves from_json(const Golden& golden) {
     return curves;
 }
 
-// The file as the program writes it; gone when this is.
+// The program's results file; the destructor removes it.
 class ResultsFile {
   public:
     explicit ResultsFile(const Golden& golden)
@@ -145,7 +145,7 @@ std::vector<double> every(const std::vector<double>& values, int stride) {
     return some;
 }
 
-// Largest minus smallest finite value; the magnitude where they are all alike.
+// Largest minus smallest finite value, or the magnitude where all are equal.
 double spread(const std::vector<double>& values) {
     double low = INFINITY, high = -INFINITY;
     for (const double value : values) {

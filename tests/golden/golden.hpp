@@ -1,5 +1,5 @@
-// Golden curves: what the built program prints or writes for a study, kept as a table under curves/
-// so that a change of any curve shows. README of tests/ has the commands.
+// Golden curves: output of the built program for a study, kept as a table under curves/ so that a
+// change of any curve is detected. The README of tests/ has the commands.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace gearpod::golden {
 
-// Columns of equal length under their names.
+// Columns of equal length with their names.
 struct Curves {
     std::vector<std::string> names;
     std::vector<std::vector<double>> columns;
 };
 
-// Where the program leaves the numbers.
+// Source of the numbers among the program's outputs.
 enum class Source {
     csv,     // standard output, as CSV with a header
     json,    // standard output, arrays of a JSON object
@@ -21,14 +21,14 @@ enum class Source {
 };
 
 struct Golden {
-    std::string name;     // curves/<name>.csv
+    std::string name;     // name of curves/<name>.csv
     std::string command;  // arguments of gearpod, from the project's top folder
     Source source = Source::csv;
     // Columns, JSON keys or dataset paths to keep; all columns of a CSV if empty. A dataset's
-    // values follow each other row by row.
+    // values are stored row by row.
     std::vector<std::string> columns;
-    int stride = 1;  // every so many values
-    // Allowed difference, as a share of the column's spread (largest minus smallest value).
+    int stride = 1;  // keeps one in so many values
+    // Allowed difference as a fraction of the column's spread (largest minus smallest value).
     double tolerance = 0;
 };
 
@@ -39,12 +39,12 @@ const std::vector<Golden>& goldens();
 Curves compute(const Golden& golden);
 
 std::string curves_path(const Golden& golden);
-// The kept curves. Throws std::runtime_error if the file cannot be read.
+// Reads the kept curves. Throws std::runtime_error if the file cannot be read.
 Curves read_curves(const Golden& golden);
 void write_curves(const Golden& golden, const Curves& curves);
 
-// What differs by more than the tolerance, a line a column; empty if nothing does. Values that are
-// not numbers agree with each other only.
+// Differences above the tolerance, one line per column; empty if there are none. NaN equals only
+// NaN.
 std::string differences(const Curves& kept, const Curves& now, double tolerance);
 
 }  // namespace gearpod::golden

@@ -1,4 +1,4 @@
-// Writes the golden curves again, all or the named ones: make_golden [NAME ...]
+// Rewrites the golden curves, all or the named ones: make_golden [NAME ...]
 #include <fmt/format.h>
 
 #include <algorithm>

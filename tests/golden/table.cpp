@@ -1,12 +1,13 @@
-// The table of golden curves. A new one is a line here and `make_golden NAME`.
+// Table of golden curves. To add one, add a line here and run `make_golden NAME`.
 #include "tests/golden/golden.hpp"
 
 namespace gearpod::golden {
 namespace {
 
-// Curves of faulty teeth are fitted to 1e-8 of the healthy tooth pair.
+// Tolerance of curves of faulty teeth, which are fitted to 1e-8 of the healthy tooth pair.
 constexpr double kFitted = 5e-8;
-// Signals and features go through the march, whose steps and orbit have tolerances of their own.
+// Tolerance of signals and features, which include the errors of time integration and of the
+// periodic orbit.
 constexpr double kMarched = 1e-6;
 
 }  // namespace

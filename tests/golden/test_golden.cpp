@@ -6,14 +6,14 @@
 
 using namespace gearpod::golden;
 
-TEST_CASE("Every golden curve is what the program gives") {
+TEST_CASE("Every golden curve equals the program's output") {
     for (const Golden& golden : goldens()) {
         INFO(golden.name << ": gearpod " << golden.command);
         CHECK(differences(read_curves(golden), compute(golden), golden.tolerance) == "");
     }
 }
 
-TEST_CASE("Golden curves have names of their own and a tolerance below a percent") {
+TEST_CASE("Golden curves have unique names and a tolerance below a percent") {
     std::set<std::string> names;
     for (const Golden& golden : goldens()) {
         CHECK(names.insert(golden.name).second);
@@ -22,7 +22,7 @@ TEST_CASE("Golden curves have names of their own and a tolerance below a percent
     }
 }
 
-TEST_CASE("A golden curve notices a value, a length and a column that changed, and nothing less") {
+TEST_CASE("A golden curve detects a changed value, length and column, and no smaller change") {
     const Curves kept{{"phase", "k"}, {{0, 0.5, 1}, {3e8, -5e8, 4e8}}};
     Curves now = kept;
     CHECK(differences(kept, now, 1e-6) == "");

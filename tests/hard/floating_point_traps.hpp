@@ -1,4 +1,4 @@
-// Floating-point exceptions as faults, glibc's feenableexcept. New threads inherit them.
+// Floating-point exceptions as faults by glibc's feenableexcept. New threads inherit them.
 #pragma once
 
 #include <cfenv>
@@ -7,7 +7,7 @@ namespace gearpod::test {
 
 inline constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-// Traps as long as it lives.
+// Enables traps during its lifetime.
 class FloatingPointTraps {
   public:
     FloatingPointTraps() : before_(fegetexcept()) {
@@ -28,7 +28,8 @@ class FloatingPointTraps {
     int before_;
 };
 
-// No traps as long as it lives: a gearbox that is meant to diverge overflows before it is retired.
+// Disables traps during its lifetime: a realization that is meant to diverge overflows before it is
+// retired.
 class ExpectedOverflow {
   public:
     ExpectedOverflow() : before_(fedisableexcept(FE_ALL_EXCEPT)) {}

@@ -1,6 +1,6 @@
-// The hard cases run with floating-point traps: an invalid operation, a division by zero or an
-// overflow anywhere in the program's own code, or in threads that a test starts, ends the test
-// program with SIGFPE (floating_point_traps.hpp).
+// Runs the hard cases with floating-point traps (floating_point_traps.hpp). An invalid operation, a
+// division by zero or an overflow ends the test program with SIGFPE. This applies to the program's
+// own code and to threads that a test starts.
 #include "tests/hard/floating_point_traps.hpp"
 
 namespace {

@@ -1,4 +1,5 @@
-// A start far from equilibrium: a linear train has one orbit, and every start leads to it.
+// Checks a start far from equilibrium: a linear train has one periodic orbit, to which every start
+// converges.
 #include <catch2/catch.hpp>
 
 #include "dynamics/gearbox_matrices.hpp"
@@ -13,8 +14,8 @@ using namespace gearpod::lockstep;
 
 namespace {
 
-// The record of the mesh period that follows `meshes` others, from displacements `q` and velocities
-// `v`, the rigid rotation at rest.
+// Record of the mesh period that follows `meshes` others, from displacements `q` and velocities
+// `v`, without velocity of the rigid rotation.
 MeshRecord from_afar(const MarchPlan& plan, const dynamics::GearboxInputs& in,
                      const machine::AlignedVector& q, const machine::AlignedVector& v, int meshes) {
     const auto degrees = dynamics::degrees_of_freedom(plan.layout);
@@ -58,7 +59,7 @@ void check_same(const machine::AlignedVector& a, const machine::AlignedVector& b
 }  // namespace
 
 TEST_CASE(
-    "From a tenth of a millimetre off, Liang's train comes to the orbit that the tile finds") {
+    "From a tenth of a millimetre away, Liang's train converges to the tile's periodic orbit") {
     const auto& train = test::LiangTrain::instance();
     MarchPlan plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
     plan.integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
@@ -79,7 +80,7 @@ TEST_CASE(
     check_same(tile.records[0].acceleration, record.acceleration, 1e-7);
 }
 
-TEST_CASE("Tian's stiff gearbox forgets a far start with an L-stable method") {
+TEST_CASE("Tian's stiff gearbox converges from a far start with an L-stable method") {
     const auto& gearbox = test::TianGearbox::instance();
     const MarchPlan plan = gearbox.plan(24, 240, Integrator::sdirk3);
     const std::vector<dynamics::GearboxInputs> inputs{gearbox.inputs()};
@@ -87,8 +88,9 @@ TEST_CASE("Tian's stiff gearbox forgets a far start with an L-stable method") {
     settings.with_motion = true;
     const TileResult tile = run_tile<1>(plan, inputs, gearbox.no_fault(1), settings);
     REQUIRE(tile.status[0] == LaneStatus::ok);
-    // Teeth 20 um further into each other, bearings off by 10 um. The couplings keep their twist:
-    // they creep at k / c = 0.09 1/s, 6000 mesh periods for a factor of e.
+    // Initial mesh deflection is increased by 20 um and bearing displacements by 10 um. The
+    // couplings keep their twist: they relax at k / c = 0.09 1/s, 6000 mesh periods for a factor of
+    // e.
     const auto& motion = tile.records[0].motion;
     machine::AlignedVector q(motion.begin(), motion.begin() + dynamics::fixed_shaft_motions);
     const machine::AlignedVector v(q.size(), 0.0);

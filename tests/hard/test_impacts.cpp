@@ -1,4 +1,5 @@
-// Light load near the resonance of the mesh: teeth part and hit each other every few periods.
+// Checks light load near the resonance of the mesh: teeth lose contact and collide every few
+// periods.
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -10,7 +11,7 @@ using test::PairOfMasses;
 
 namespace {
 
-// Load over stiffness is 0.1 um; the flanks' error swings by 0.5 um close to resonance.
+// Load over stiffness is 0.1 um; the flanks' error has an amplitude of 0.5 um close to resonance.
 constexpr double kRest_m = 1e-7, kError_m = 5e-7;
 
 PairOfMasses rattling(Integrator integrator, double of_resonance, int steps) {
@@ -35,7 +36,7 @@ PairOfMasses rattling(Integrator integrator, double of_resonance, int steps) {
 
 }  // namespace
 
-TEST_CASE("However the teeth hit each other, in the mean they carry the load") {
+TEST_CASE("For any sequence of impacts the mean contact force carries the load") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                      Integrator::central_difference);
     for (const double of_resonance : {0.9, 1.0, 1.15}) {
@@ -62,7 +63,7 @@ TEST_CASE("However the teeth hit each other, in the mean they carry the load") {
         }
         apart /= kMeshes * kSteps;
         impulse /= kMeshes * kSteps;
-        // What the load's impulse is short of the contact's is in the motion.
+        // The difference of the load's and the contact's impulse equals the change of momentum.
         const double motion =
             PairOfMasses::kMass * (masses.rate() - before) / (kMeshes * masses.in.mesh_period_s);
         INFO("integrator " << static_cast<int>(integrator) << ", " << of_resonance

@@ -1,5 +1,5 @@
-// A million mesh periods without damping: what is left of the motion is what each method's
-// amplification factor R leaves of it, z_n = R(i w h)^n z_0, in size and in phase.
+// Checks a million mesh periods without damping: amplitude and phase follow each method's
+// amplification factor R, z_n = R(i w h)^n z_0.
 #include <catch2/catch.hpp>
 #include <complex>
 #include <numbers>
@@ -16,7 +16,7 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// R(z) of the methods.
+// Amplification factor R(z) of the methods.
 Complex amplification(Integrator integrator, Complex z) {
     switch (integrator) {
         case Integrator::newmark:  // average acceleration: the trapezoidal rule
@@ -29,14 +29,14 @@ Complex amplification(Integrator integrator, Complex z) {
             const Complex s3 = (z + z * (Alexander::k31 * s1 + Alexander::k32 * s2)) / below;
             return 1.0 + Alexander::k31 * s1 + Alexander::k32 * s2 + x * s3;
         }
-        case Integrator::central_difference:  // a turn by phi, sin(phi / 2) = |z| / 2
+        case Integrator::central_difference:  // a rotation by phi, sin(phi / 2) = |z| / 2
             return std::polar(1.0, 2.0 * std::asin(0.5 * z.imag()));
         default:
             return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)));
     }
 }
 
-// From d = 1 um at rest, without load and without common motion.
+// Starts from d = 1 um at rest, without load and without common motion.
 PairOfMasses swinging(int steps, double period_s, Integrator integrator) {
     PairOfMasses masses(dynamics::MeshLaw::linear, steps, period_s, 0.0, integrator);
     masses.plan.grid = make_phase_grid(1, steps, {});
@@ -58,7 +58,7 @@ void march_meshes(PairOfMasses& masses, long meshes) {
 
 }  // namespace
 
-TEST_CASE("After a million undamped mesh periods the motion is what the method's theory leaves") {
+TEST_CASE("After a million undamped mesh periods the motion follows the method's theory") {
     const auto [integrator, meshes] =
         GENERATE(std::pair{Integrator::newmark, 1'000'000L}, std::pair{Integrator::rk4, 1'000'000L},
                  std::pair{Integrator::sdirk3, 20'000L},
@@ -76,24 +76,25 @@ TEST_CASE("After a million undamped mesh periods the motion is what the method's
     INFO("integrator " << static_cast<int>(integrator) << ", |R|^n = " << size);
     const Complex expected = 1e-6 * size * std::polar(1.0, phase);
     CHECK(masses.deflection() == Approx(expected.real()).margin(1e-6 * 1e-6 * size));
-    // Central differences turn on an ellipse: their conserved energy has v^2 (1 - (w h)^2 / 4).
+    // The states of central differences lie on an ellipse: their conserved energy has v^2 (1 - (w
+    // h)^2 / 4).
     const double axis =
         integrator == Integrator::central_difference ? std::sqrt(1.0 - kAngle * kAngle / 4) : 1.0;
     CHECK(-axis * masses.rate() / w == Approx(expected.imag()).margin(1e-6 * 1e-6 * size));
     const double energy = std::pow(masses.deflection(), 2) + std::pow(axis * masses.rate() / w, 2);
     CHECK(energy == Approx(1e-12 * size * size).epsilon(1e-8));
     if (integrator == Integrator::newmark) {
-        CHECK(std::abs(r) == Approx(1.0).epsilon(1e-15));  // it keeps the energy
+        CHECK(std::abs(r) == Approx(1.0).epsilon(1e-15));  // conserves the energy
     }
     CHECK(masses.momentum() == Approx(0.0).margin(1e-12 * w * 1e-6));
 }
 
-TEST_CASE("A million mesh periods of changing stiffness neither gain nor lose motion") {
+TEST_CASE("A million mesh periods of changing stiffness neither add nor remove energy") {
     const auto integrator =
         GENERATE(Integrator::newmark, Integrator::rk4, Integrator::central_difference);
     constexpr int kSteps = 24;
     PairOfMasses masses(dynamics::MeshLaw::linear, kSteps, 1.0);
-    // 0.7 half waves a mesh, away from the resonances of Meissner's equation.
+    // A mesh period of 0.7 half waves is away from the resonances of Meissner's equation.
     const double period = 0.7 * std::numbers::pi / masses.natural_rad_s();
     masses = swinging(kSteps, period, integrator);
     auto& k = masses.plan.nodes.stiffness;

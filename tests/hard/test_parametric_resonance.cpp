@@ -1,5 +1,5 @@
-// Parametric resonance: the mesh stiffness, steady in the mean, makes a motion grow. Whether it
-// does is decided by Floquet multipliers that are computed here by other means than the march's.
+// Checks parametric resonance: periodic mesh stiffness makes a motion grow. Floquet multipliers
+// decide this; they are computed here independently of the program's time integration.
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -46,7 +46,7 @@ PairOfMasses pair_of(const Meissner& m, int steps, Integrator integrator) {
     for (std::size_t i = 0; i < nodes; ++i) {
         masses.plan.nodes.stiffness[2 * i] = m.stiffness[i < nodes / 2 ? 0 : 1];
     }
-    // Nothing but the deflection: the pair's common motion rests.
+    // Only the deflection moves; the pair's common motion is zero.
     constexpr double kSum = PairOfMasses::kSun + PairOfMasses::kPlanet;
     masses.state.q[2] = 1e-6 * PairOfMasses::kPlanet / kSum;
     masses.state.q[3] = 1e-6 * PairOfMasses::kSun / kSum;
@@ -57,7 +57,7 @@ double size_of(const PairOfMasses& masses) {
     return std::hypot(masses.deflection(), masses.rate() / masses.natural_rad_s());
 }
 
-// Growth a period over the second half of `meshes`, when the fastest growing motion is alone.
+// Growth per period over the second half of `meshes`, when the fastest growing motion dominates.
 double marched_growth(PairOfMasses masses, int meshes) {
     double half_way = 0.0;
     for (int mesh = 0; mesh < meshes; ++mesh) {
@@ -69,7 +69,8 @@ double marched_growth(PairOfMasses masses, int meshes) {
     return std::pow(size_of(masses) / half_way, 2.0 / meshes);
 }
 
-// Liang's rotations (carrier, ring, sun, planets) from their energies, none of it the library's.
+// Equations of Liang's rotations (carrier, ring, sun, planets) from their energies, independent of
+// the library.
 class LiangRotations {
   public:
     explicit LiangRotations(const dynamics::PlanetaryInputs& in) : in_(in) {
@@ -80,7 +81,7 @@ class LiangRotations {
         mass_.tail(4).setConstant(in.inertia_over_r2_kg[dynamics::planet]);
     }
 
-    // Largest |multiplier| but for the rotation of the whole train, which is exactly 1 twice.
+    // Largest |multiplier| apart from the rotation of the whole train, which is exactly 1 twice.
     double largest_multiplier(int pieces) const {
         std::vector<double> cuts = contact_transitions(LiangTrain::instance().pairs);
         for (int i = 0; i <= pieces; ++i) {
@@ -106,7 +107,7 @@ class LiangRotations {
     using Vector = Eigen::Matrix<double, 7, 1>;
     using Matrix = Eigen::Matrix<double, 7, 7>;
 
-    // Displacements in units of 1e-4 s times the velocities.
+    // The state holds displacements in units of 1e-4 s times the velocities.
     Eigen::MatrixXd system(double phase) const {
         const auto& train = LiangTrain::instance();
         Matrix stiffness = Matrix::Zero(), damping = Matrix::Zero();
@@ -142,12 +143,13 @@ class LiangRotations {
 TEST_CASE("A pair grows or decays by the multiplier of Meissner's equation") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                      Integrator::central_difference);
-    // Two thirds and four thirds of the mean; half a natural period a mesh: the main resonance.
+    // Stiffness is two thirds and four thirds of the mean, and a mesh lasts half a natural period:
+    // the main resonance.
     Meissner m{{PairOfMasses::kStiffness * 2 / 3, PairOfMasses::kStiffness * 4 / 3}, 0.0, 0.0};
     m.period_s = pi / std::sqrt(PairOfMasses::kStiffness / PairOfMasses::kMass);
     const double growth = m.undamped_multiplier();
     REQUIRE(growth > 1.1);
-    // Damping at which growth and decay balance, first without what it shifts in frequency.
+    // Damping at which growth and decay balance, first without its frequency shift.
     const double balance = 2.0 * PairOfMasses::kMass * std::log(growth) / m.period_s;
     for (const double share : {0.0, 0.9, 0.98, 1.02, 1.1}) {
         m.damping_N_s_m = share * balance;
@@ -186,7 +188,8 @@ TEST_CASE("Away from its resonances a pair is stable although its stiffness chan
     }
 }
 
-TEST_CASE("Liang's rotations: the tile settles or diverges as independent multipliers say") {
+TEST_CASE(
+    "Liang's rotations: convergence or divergence of the tile matches independent multipliers") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = train.plan(24, 600, dynamics::Motion::torsional);
     int stable = 0, unstable = 0;

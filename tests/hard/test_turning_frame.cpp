@@ -1,4 +1,4 @@
-// Speeds at which the turning carrier frame itself loses stability, and those just below.
+// Checks speeds just above and just below the critical speed of the rotating carrier frame.
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -21,7 +21,7 @@ Eigen::VectorXd rigid_rotation() {
 }
 
 // Largest growth rate (1/s) of M q'' + (C + G) q' + (K - W^2 M_xy) q = 0, by eigenvalues of the
-// whole system in the turning frame; the rigid rotation is projected out.
+// whole system in the rotating frame. The rigid rotation is projected out.
 double growth_rate(const MarchPlan& plan, const dynamics::PlanetaryInputs& in) {
     std::vector<double> mean(8, 0.0);
     for (int i = 0; i < 8; ++i) {
@@ -45,13 +45,13 @@ double growth_rate(const MarchPlan& plan, const dynamics::PlanetaryInputs& in) {
     return dynamics::eigenvalues(a).real().maxCoeff();
 }
 
-// A train of weak bearings: its critical speed is within reach.
+// A train of soft bearings, so that its critical speed is low.
 dynamics::PlanetaryInputs soft_train(double carrier_rad_s) {
     const auto& train = LiangTrain::instance();
     return train.inputs(carrier_rad_s / train.inputs().carrier_speed_rad_s, 1e7);
 }
 
-// The speed between `low` and `high` at which the growth rate leaves zero.
+// The speed between `low` and `high` at which the growth rate becomes positive.
 double critical_speed_rad_s(const MarchPlan& plan, double low, double high) {
     while (high - low > 1e-4 * high) {
         const double middle = 0.5 * (low + high);
@@ -62,7 +62,7 @@ double critical_speed_rad_s(const MarchPlan& plan, double low, double high) {
 
 }  // namespace
 
-TEST_CASE("Below its critical speed a train settles, above it is reported as unstable") {
+TEST_CASE("Below its critical speed a train converges, above it is reported as unstable") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = train.plan(24, 240, dynamics::Motion::translational_torsional);
     const double critical = critical_speed_rad_s(plan, 100.0, 5000.0);
@@ -70,7 +70,7 @@ TEST_CASE("Below its critical speed a train settles, above it is reported as uns
     CHECK(critical > 200.0);
     CHECK(critical < 4000.0);
     const std::vector<double> mean = mean_stiffness(plan);
-    // To the digit the speed at which the springs give way.
+    // The criterion changes at exactly the speed at which the stiffness becomes indefinite.
     CHECK_FALSE(above_critical_speed(plan.layout, soft_train(0.999 * critical), mean));
     CHECK(above_critical_speed(plan.layout, soft_train(1.001 * critical), mean));
     for (const double share : {0.6, 1.5}) {
@@ -87,7 +87,8 @@ TEST_CASE("Below its critical speed a train settles, above it is reported as uns
     }
 }
 
-TEST_CASE("Without inertial terms no speed is critical, and stiff bearings stand 5000 rpm") {
+TEST_CASE(
+    "Without inertial terms no speed is critical, and stiff bearings are stable at 5000 rpm") {
     const auto& train = LiangTrain::instance();
     const auto fast = train.inputs(5000.0 / 8.87);
     const MarchPlan with = train.plan(24, 240, dynamics::Motion::translational_torsional);
@@ -101,8 +102,8 @@ TEST_CASE("Without inertial terms no speed is critical, and stiff bearings stand
     const std::vector<dynamics::GearboxInputs> inputs{fast};
     const TileResult tile = run_tile<1>(with, inputs, train.no_fault(1), settings);
     REQUIRE(tile.status[0] == LaneStatus::ok);
-    // The carrier's centrifugal pull r W^2 stretches every planet's bearing outwards: by
-    // m r W^2 / (k - m W^2) on the mean of the four, the meshes giving way with it.
+    // The centrifugal acceleration r W^2 of the carrier stretches every planet's bearing outwards:
+    // by m r W^2 / (k - m W^2) on the mean of the four, while the meshes yield.
     const double w = fast.carrier_speed_rad_s;
     const double m = fast.mass_kg[dynamics::planet];
     const double expected = m * 25 * LiangTrain::kModule * w * w / (1e8 - m * w * w);

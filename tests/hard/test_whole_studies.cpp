@@ -1,4 +1,5 @@
-// Hard cases as a user meets them: whole studies, their status counts, messages and exit codes.
+// Checks hard cases from a user's view: whole studies, their status counts, messages and exit
+// codes.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,7 +18,7 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-// Liang's train turning fast, so that a mesh period is short, and few gearboxes of it.
+// Liang's train at high speed, so that a mesh period is short, and few gearboxes.
 Overrides fast_train(const Overrides& more = {}) {
     Overrides all{"operation.carrier_speed_rpm=60",   "sensor.sampling_Hz=20000",
                   "sensor.encoder_sampling_Hz=20000", "ensemble.instances=7",
@@ -71,7 +72,8 @@ TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque,
     check_all_worked(stiff);
     const mc::Results undamped_mesh = results(fast_train({"gearbox.mesh_damping_ratio=0"}));
     check_all_worked(undamped_mesh);
-    // Linear: twice the torque, twice the transmission error, without noise exactly.
+    // The system is linear: twice the torque gives twice the transmission error, exactly without
+    // noise.
     const mc::Results one = results(fast_train({"operation.torque_N_m=429"}));
     const mc::Results two = results(fast_train({"operation.torque_N_m=858"}));
     const mc::Results none = results(fast_train({"operation.torque_N_m=0"}));
@@ -82,7 +84,7 @@ TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque,
         CHECK(value_of(two, "te_rms", row, 0) == Approx(2.0 * te).epsilon(1e-8));
         CHECK(value_of(none, "te_rms", row, 0) < 1e-8 * te);
     }
-    // Without noise all noise levels are the same.
+    // All noise levels are equal without noise.
     const mc::Results quiet =
         results(fast_train({"sensor.noise_m_s2=0", "sensor.encoder_noise_arcsec=0"}));
     check_all_worked(quiet);
@@ -94,7 +96,7 @@ TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque,
     }
 }
 
-TEST_CASE("Without any damping no gearbox settles, and none hangs or passes for one that did") {
+TEST_CASE("Without any damping no gearbox converges, and none hangs or counts as converged") {
     const Folder folder;
     const Outcome outcome = run_program(
         test::study("planet-crack-ideal.toml"), folder,
@@ -113,14 +115,14 @@ TEST_CASE("Without any damping no gearbox settles, and none hangs or passes for 
     }
 }
 
-TEST_CASE("A crack through the whole tooth still gives a gearbox that runs") {
-    // At 45 degrees a crack of 8.571 mm leaves Liang's planet tooth.
+TEST_CASE("A crack through the whole tooth still gives results") {
+    // A crack of 8.571 mm at 45 degrees exits Liang's planet tooth.
     const mc::Results r = results(fast_train({"fault.depth_mm=8.571"}));
     check_all_worked(r);
     CHECK(value_of(r, "window_ratio", 9, 0) > 1.5);
 }
 
-TEST_CASE("A tooth that is gone: the march lives, equilibrium does not") {
+TEST_CASE("A missing tooth: time integration succeeds, equilibrium does not exist") {
     const Folder folder;
     std::string text = tests::replaced(tests::kFixedShaftStudy, "kind = \"chip\"",
                                        "kind = \"broken\"\nbroken = 1");
@@ -142,12 +144,12 @@ TEST_CASE("A tooth that is gone: the march lives, equilibrium does not") {
     INFO(still.output);
     CHECK(still.code == 3);
     CHECK(still.mentions("has no equilibrium"));
-    // Healthy ones of the threshold sample have one.
+    // Healthy gearboxes of the threshold sample have an equilibrium.
     const mc::Results r = mc::read_results(folder.file("r.h5"));
     CHECK(r.status == std::vector<int>{0, 0, 6, 6, 6});
 }
 
-TEST_CASE("A gearbox beyond a critical speed is called that") {
+TEST_CASE("A gearbox above a critical speed is reported as such") {
     const Folder folder;
     Overrides overrides = fast_train({"operation.carrier_speed_rpm=5000"});
     for (const char* body : {"planet", "sun", "ring", "carrier"}) {
@@ -167,9 +169,10 @@ TEST_CASE("A gearbox beyond a critical speed is called that") {
     CHECK(one.mentions("critical speed of the carrier"));
 }
 
-TEST_CASE("A gearbox in parametric resonance is called that, and beside the resonance it works") {
-    // Speeds and damping of test_parametric_resonance.cpp, whose multipliers are 1.06 and 0.94. The
-    // motion that grows is far above the sensor's band, and its steps of 43 a mesh would damp it.
+TEST_CASE(
+    "A gearbox in parametric resonance is reported as such, and next to the resonance it works") {
+    // Speeds and damping of test_parametric_resonance.cpp, with multipliers 1.06 and 0.94. The
+    // growing motion is far above the sensor's band, and 43 steps per mesh would damp it.
     for (const double speedup : {200.0, 220.0}) {
         const Folder folder;
         const Outcome outcome = run_program(
@@ -185,8 +188,8 @@ TEST_CASE("A gearbox in parametric resonance is called that, and beside the reso
     }
 }
 
-TEST_CASE("Gearboxes too light for the step fail, named so; the others keep their bits") {
-    // The pilot that chooses the steps sees the first 32 gearboxes: suns 1 to 5, never the sixth.
+TEST_CASE("Gearboxes too light for the step fail with this reason; the others keep their bits") {
+    // The pilot that chooses the steps uses the first 32 gearboxes: suns 1 to 5, never the sixth.
     const auto with_sixth = [](const std::string& kg) {
         const std::string text =
             tests::replaced(test::bytes_of(test::study("planet-crack-ideal.toml")), "[random]\n",
@@ -222,7 +225,9 @@ TEST_CASE("Gearboxes too light for the step fail, named so; the others keep thei
     CHECK(failed == 7);
 }
 
-TEST_CASE("Singles give the doubles' features where stiffness vanishes, towers or turns fast") {
+TEST_CASE(
+    "Single precision gives the features of double precision at vanishing stiffness, high "
+    "stiffness and high speed") {
     struct Hard {
         double allowed;
         Overrides overrides;
@@ -233,7 +238,7 @@ TEST_CASE("Singles give the doubles' features where stiffness vanishes, towers o
          {"gearbox.planet_bearing_stiffness_N_m=1e10", "gearbox.sun_bearing_stiffness_N_m=1e10",
           "gearbox.ring_bearing_stiffness_N_m=1e10", "gearbox.carrier_bearing_stiffness_N_m=1e10"}},
         {2e-4, {"gearbox.mesh_damping_ratio=0"}},
-        // The planets' centrifugal forces are 650 times those of the teeth.
+        // The planets' centrifugal forces are 650 times the mesh forces.
         {1e-2, {"operation.torque_N_m=1e-3"}},
         {5e-3,
          {"operation.carrier_speed_rpm=5000", "sensor.sampling_Hz=2e6",
@@ -251,7 +256,7 @@ TEST_CASE("Singles give the doubles' features where stiffness vanishes, towers o
                 const double exact = value_of(doubles, feature, row, 0);
                 const double rounded = value_of(singles, feature, row, 0);
                 CHECK(rounded == Approx(exact).epsilon(scene.allowed));
-                // Healthy gearboxes have a ratio of 1.
+                // The ratio of healthy gearboxes is 1.
                 CHECK((rounded != exact || exact == 1.0));
             }
         }

@@ -1,9 +1,9 @@
-"""The house's order, read from its includes: python3 house.py TREE [FLOORS]
+"""Checks the order of the sources from their includes: python3 house.py TREE [FLOORS]
 
-Says what is wrong with the sources below TREE, a line each, and ends with 1 if anything is: an
-include that points up the floors (floors.txt) or round in a circle, a header that does not exist,
-files and folders that have grown too long, names in comments that no file has, constants that two
-sources of a folder name alike.
+Prints one line per problem of the sources below TREE and exits with 1 if there are any. Problems
+are includes against the order of floors.txt or in a circle, missing headers, files and folders that
+are too long, names of missing files in comments, and constants of one name in two sources of a
+folder.
 """
 
 import collections
@@ -13,13 +13,13 @@ import posixpath
 import re
 import sys
 
-PARTS = ("src", "analysis", "mc")  # the library's own, the lowest first
+PARTS = ("src", "analysis", "mc")  # folders of the library, the lowest first
 MOST_LINES, MOST_FILES = 400, 40
 CODE = (".cpp", ".hpp")
 SCRIPTS = (".py", ".sh", ".cmake", ".txt")
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]([^">]+)[">]')
 QUOTED = re.compile(r'\s*#\s*include\s*"')
-# What nothing in src may know of: files and messages.
+# Headers that src must not include: files and messages.
 OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|mc/|analysis/)")
 NAME = re.compile(r"[\w./*-]*[\w*]\.[ch]pp(?!\.?\w)")
 # Sources that the quick build (cmake/quick_build.cmake) compiles one by one.
@@ -45,7 +45,7 @@ class Tree:
                     if arrow.target and arrow.file.startswith(tuple(f"{p}/" for p in PARTS))]
 
     def found(self):
-        """All files but build folders and hidden ones."""
+        """Yields all files except build folders and hidden ones."""
         tops = [self.root / name for name in PARTS + ("tests", "studies", "docs")]
         yield from sorted(path for path in self.root.glob("*") if path.is_file()
                           and not path.name.startswith("."))
@@ -64,9 +64,9 @@ class Tree:
                             self.resolved(file, header) if QUOTED.match(line) else None)
 
     def resolved(self, file, header):
-        """The included file: beside the one that includes it, below src, or from the top."""
-        beside = posixpath.normpath(f"{folder(file)}/{header}")
-        places = (beside, f"src/{header}", header)
+        """Path of the included file: relative to the including one, to src, or to the top."""
+        relative = posixpath.normpath(f"{folder(file)}/{header}")
+        places = (relative, f"src/{header}", header)
         return next((place for place in places if place in self.known), None)
 
 
@@ -75,14 +75,14 @@ def folder(file):
 
 
 def module(file):
-    """A header and its source are one."""
+    """Path without extension: a header and its source are one module."""
     return file.rpartition(".")[0]
 
 
 class Floors:
     def __init__(self, text):
-        self.on = {}        # folder: what its line says it stands on
-        self.below = {}     # folder: all that it may include, itself too
+        self.on = {}        # folders below, by its line
+        self.below = {}     # all folders that it may include, with itself
         self.problems = []
         for line in text.splitlines():
             line = line.partition("#")[0].strip()
@@ -93,13 +93,13 @@ class Floors:
     def add(self, room, on):
         for other in on:
             if other not in self.below:
-                self.problems.append(f"floors: {room} stands on {other}, which has no line above")
+                self.problems.append(f"floors: {room} is after {other}, which has no line above")
         self.on[room] = [other for other in on if other in self.below]
         self.below[room] = {room}.union(*(self.below[other] for other in self.on[room]))
 
 
 def upward(tree, floors):
-    """Arrows that point up, rooms without a floor, and floors that nothing needs."""
+    """Includes against the order, folders without a line, and lines that no include needs."""
     yield from floors.problems
     rooms = {folder(file) for file in tree.files
              if file.endswith(CODE) and file.startswith(tuple(f"{p}/" for p in PARTS))}
@@ -112,16 +112,15 @@ def upward(tree, floors):
         room, other = folder(arrow.file), folder(arrow.target)
         used[room].add(other)
         if room in floors.below and other in floors.on and other not in floors.below[room]:
-            points = "up" if room in floors.below[other] else "across"
-            yield f"{text_of(arrow)}: points {points}, {room} does not stand on {other}"
+            yield f"{text_of(arrow)}: {room} may not include {other}"
     for room in sorted(rooms & set(floors.on)):
         for other in floors.on[room]:
             if other not in used[room]:
-                yield f"floors: {room} includes nothing of {other}, on which it is said to stand"
+                yield f"floors: {room} includes nothing of {other}, which is on its line"
 
 
 def unresolved(tree):
-    """Headers that do not exist, unless a build makes them; what src must not know."""
+    """Headers that do not exist, unless a build makes them; headers that src must not include."""
     recipes = "\n".join("\n".join(tree.lines(file)) for file in tree.files
                         if file.endswith(("CMakeLists.txt", ".cmake")))
     for arrow in tree.arrows:
@@ -129,11 +128,11 @@ def unresolved(tree):
         if quoted and not arrow.target and arrow.header.rpartition("/")[2] not in recipes:
             yield f"{text_of(arrow)}, which does not exist"
         if arrow.file.startswith("src/") and OUTSIDE.match(arrow.header):
-            yield f"{text_of(arrow)}: src knows neither files nor messages, nor who uses it"
+            yield f"{text_of(arrow)}: src may not include files, messages or its users"
 
 
 def shortest_circle(start, arrows):
-    """The arrows of the shortest way from a node back to itself, or none."""
+    """Includes of the shortest circle through a node, or none."""
     came, queue = {}, collections.deque([start])
     while queue:
         here = queue.popleft()
@@ -151,7 +150,7 @@ def shortest_circle(start, arrows):
 
 
 def circles(tree, node_of, what):
-    """One circle through every node that is in any; nodes of one that is shown are done."""
+    """Yields one circle through every node that is in any; nodes of a printed circle are done."""
     arrows = collections.defaultdict(dict)
     for arrow in tree.own:
         here, there = node_of(arrow.file), node_of(arrow.target)
@@ -187,7 +186,7 @@ def comment_of(file, line):
 
 
 def missing_names(tree):
-    """Names of sources in comments and READMEs: a path's end is enough, * stands for anything."""
+    """Yields names of missing sources in comments and pages; the end of a path suffices."""
     for file in tree.files:
         if not file.endswith(CODE + SCRIPTS + (".md",)):
             continue
@@ -199,7 +198,7 @@ def missing_names(tree):
 
 
 def clashing_constants(tree):
-    """The quick build compiles a folder's sources as one: constants of two need two names."""
+    """Yields constants of one name in two sources that the quick build compiles as one."""
     first = {}
     for file in tree.files:
         if not (file.endswith(".cpp") and file.startswith(tuple(f"{p}/" for p in PARTS))) \
@@ -210,7 +209,7 @@ def clashing_constants(tree):
                 place = folder(file), match.group(1)
                 other = first.setdefault(place, f"{file}:{number}")
                 if not other.startswith(f"{file}:"):
-                    yield f"{file}:{number} names {match.group(1)} as {other} does"
+                    yield f"{file}:{number} defines {match.group(1)}, which {other} defines too"
 
 
 def complaints(root, floors):
@@ -228,7 +227,7 @@ def main(arguments):
     floors = arguments[1] if len(arguments) > 1 else pathlib.Path(__file__).with_name("floors.txt")
     found = list(complaints(arguments[0],
                             Floors(pathlib.Path(floors).read_text(encoding="utf-8"))))
-    print("\n".join(found) or "the house is in order")
+    print("\n".join(found) or "the sources are in order")
     return 1 if found else 0
 
 

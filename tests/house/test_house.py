@@ -1,4 +1,4 @@
-"""That house.py sees what is wrong, on trees that are made up for it."""
+"""Checks house.py on small synthetic trees."""
 
 import pathlib
 import subprocess
@@ -13,7 +13,7 @@ src/high on src/low
 src/beside on src/low
 mc on src/high src/beside
 """
-# In order: every floor needs what it stands on.
+# A valid tree: every folder includes all folders of its line.
 SOUND = {
     "src/low/stone.hpp": "// Under brick.hpp.\n#pragma once\n#include <vector>\n",
     "src/low/stone.cpp": '#include "low/stone.hpp"\n',
@@ -27,8 +27,8 @@ SOUND = {
 
 
 class House(unittest.TestCase):
-    def said(self, changes, floors=FLOORS):
-        """What house.py says of the sound tree with other files, and its exit code."""
+    def run_on(self, changes, floors=FLOORS):
+        """Output of house.py for the valid tree with other files, and its exit code."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for name, text in ((root / "tree" / name, text)
@@ -42,29 +42,28 @@ class House(unittest.TestCase):
         return run.stdout, run.returncode
 
     def refused(self, changes, *lines, floors=FLOORS):
-        """These lines and no others are said."""
-        text, code = self.said(changes, floors)
+        """Checks that these lines and no others are printed."""
+        text, code = self.run_on(changes, floors)
         self.assertEqual(text.splitlines(), list(lines))
         self.assertEqual(code, 1)
 
     def test_a_sound_tree_passes(self):
-        self.assertEqual(self.said({}), ("the house is in order\n", 0))
+        self.assertEqual(self.run_on({}), ("the sources are in order\n", 0))
 
     def test_an_arrow_up(self):
         self.refused({"src/low/mud.cpp": '\n#include "high/clay.hpp"\n', "src/high/clay.hpp": ""},
-                     "src/low/mud.cpp:2 includes high/clay.hpp: points up, src/low does not stand "
-                     "on src/high",
+                     "src/low/mud.cpp:2 includes high/clay.hpp: src/low may not include src/high",
                      "circle of folders: src/high -> src/low -> src/high",
                      "    src/high/brick.hpp:1 includes low/stone.hpp",
                      "    src/low/mud.cpp:2 includes high/clay.hpp")
 
     def test_an_arrow_across(self):
         self.refused({"src/high/beam.cpp": '#include "beside/wall.hpp"\n'},
-                     "src/high/beam.cpp:1 includes beside/wall.hpp: points across, src/high does "
-                     "not stand on src/beside")
+                     "src/high/beam.cpp:1 includes beside/wall.hpp: src/high may not include "
+                     "src/beside")
 
-    def test_floors_that_are_passed_over(self):
-        self.assertEqual(self.said({"mc/roof.hpp": '#include "low/stone.hpp"\n'})[1], 0)
+    def test_includes_over_several_floors(self):
+        self.assertEqual(self.run_on({"mc/roof.hpp": '#include "low/stone.hpp"\n'})[1], 0)
 
     def test_a_circle_of_modules(self):
         self.refused({"src/low/a.hpp": '#include "low/b.hpp"\n',
@@ -82,23 +81,23 @@ class House(unittest.TestCase):
                      "tests/low/test_sand.cpp:1 includes ../dust.hpp, which does not exist")
 
     def test_a_header_that_the_build_makes(self):
-        self.assertEqual(self.said({"src/low/sand.cpp": '#include "made.hpp"\n',
+        self.assertEqual(self.run_on({"src/low/sand.cpp": '#include "made.hpp"\n',
                                     "src/CMakeLists.txt": "set(made generated/made.hpp)\n"})[1], 0)
 
     def test_files_and_messages_below(self):
         self.refused({"src/low/sand.cpp": "#include <mpi.h>\n#include <hdf5.h>\n"},
-                     *(f"src/low/sand.cpp:{line} includes {header}: src knows neither files nor "
-                       "messages, nor who uses it" for line, header in ((1, "mpi.h"),
+                     *(f"src/low/sand.cpp:{line} includes {header}: src may not include files, "
+                       "messages or its users" for line, header in ((1, "mpi.h"),
                                                                         (2, "hdf5.h"))))
 
     def test_a_folder_without_a_floor(self):
         self.refused({"src/shed/rake.hpp": ""}, "floors: src/shed has no line")
 
-    def test_floors_that_are_not_there(self):
+    def test_invalid_floors(self):
         self.refused({}, "floors: src/cellar holds no sources", floors=FLOORS + "src/cellar\n")
-        self.refused({}, "floors: mc stands on src/attic, which has no line above",
+        self.refused({}, "floors: mc is after src/attic, which has no line above",
                      floors=FLOORS.replace("mc on", "mc on src/attic"))
-        self.refused({}, "floors: mc includes nothing of src/low, on which it is said to stand",
+        self.refused({}, "floors: mc includes nothing of src/low, which is on its line",
                      floors=FLOORS.replace("mc on", "mc on src/low"))
 
     def test_long_files_and_full_folders(self):
@@ -106,13 +105,13 @@ class House(unittest.TestCase):
         self.refused({f"src/low/pebble_{i}.hpp": "" for i in range(39)},
                      "src/low: 41 files, at most 40")
 
-    def test_constants_that_two_sources_of_a_folder_name_alike(self):
+    def test_constants_of_one_name_in_a_folder(self):
         stone = "namespace {\nconstexpr double kWeight = 2;\n}\n"
         self.refused({"src/low/chalk.cpp": stone, "src/low/slate.cpp": stone,
                       "src/low/sand_kernel.cpp": stone, "src/beside/mortar.cpp": stone},
-                     "src/low/slate.cpp:2 names kWeight as src/low/chalk.cpp:2 does")
+                     "src/low/slate.cpp:2 defines kWeight, which src/low/chalk.cpp:2 defines too")
 
-    def test_names_that_no_file_has(self):
+    def test_names_of_missing_files(self):
         self.refused({"src/low/sand.cpp": 'const char* kept = "gone.cpp";  // As gone.hpp says.\n',
                       "src/README.md": "`low/stone.cpp`, `low/gone_*.cpp`\n"},
                      "src/README.md:1 names low/gone_*.cpp, which does not exist",

@@ -1,5 +1,5 @@
 #!/bin/sh
-# cmake --install into a prefix, which is then moved.
+# Checks cmake --install into a prefix that is then moved.
 #   check_install.sh BUILD
 set -eu
 build=$1

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Debian package: what it needs, and that its files work where they are unpacked.
+# Checks the Debian package: its dependencies, and its files where they are unpacked.
 #   check_package.sh BUILD
 set -eu
 build=$1

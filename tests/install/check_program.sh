@@ -7,8 +7,8 @@ fail() {
     exit 1
 }
 
-# A small study that the installation brings, and its page, which must come from the scripts that
-# were installed with the program: a word is changed in them, and without them there is no page.
+# A small study of the installation and its page. The page must come from the installed scripts: one
+# word in them is changed, and without them there is no page.
 check_program() {
     prefix=$1
     mkdir "$work/elsewhere"

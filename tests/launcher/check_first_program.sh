@@ -1,5 +1,6 @@
 #!/bin/sh
-# The program that has `run` alone gives what the whole one gives, and knows what it lacks.
+# Checks that the program with `run` alone gives the results of the whole one, and reports what it
+# lacks.
 #   check_first_program.sh WHOLE FIRST SOURCES
 set -eu
 whole=$1 first=$2 sources=$3
@@ -25,7 +26,7 @@ if command -v h5diff >/dev/null 2>&1; then
     done
 fi
 
-# Bad input is refused alike.
+# Bad input is refused identically.
 for arguments in "run nosuch.toml" "run $study --bogus" "run $study --set gearbox.sun_teeth=0"; do
     code=0 own=0
     # shellcheck disable=SC2086
@@ -37,7 +38,7 @@ for arguments in "run nosuch.toml" "run $study --bogus" "run $study --set gearbo
     cmp whole.txt first.txt || fail "$arguments is refused differently"
 done
 
-# What it lacks the launcher builds, but not once for each rank of a run.
+# The launcher builds missing parts, but not once for each rank of a run.
 for arguments in "describe $study" "run $study --set numerics.integrator=\"rk4\"" \
     "run $study --set numerics.verify=true" "run /dev/stdin" "--version"; do
     code=0

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The launcher where something is missing, with programs of its own making on the PATH.
+# Checks the launcher where something is missing, with fake programs on the PATH.
 #   check_launcher.sh LAUNCHER
 set -eu
 launcher=$1
@@ -11,7 +11,7 @@ fail() {
     exit 1
 }
 
-# A tree with nothing but the launcher, and a PATH with nothing but what it calls.
+# A tree with the launcher alone, and a PATH with only the programs that it calls.
 tree=$work/tree bin=$work/bin
 mkdir -p "$tree/cmake" "$bin"
 cp "$launcher" "$tree/gearpod"
@@ -24,7 +24,7 @@ fake() {
     printf '#!/bin/sh\n%s\n' "$2" >"$bin/$1"
     chmod +x "$bin/$1"
 }
-# expect CODE WORD...: the launcher's exit code, and what it says, asked for $asked.
+# Usage: expect CODE WORD... checks the launcher's exit code and output for the arguments $asked.
 asked=--version
 expect() {
     code=0
@@ -36,19 +36,19 @@ expect() {
     done
 }
 
-# Not Debian, no compiler and no cmake.
+# No Debian, no compiler and no cmake.
 expect 2 compiler gcc-c++ gxx ninja-build
 fake c++ ''
 fake ninja ''
 expect 2 cmake
 grep -q gcc-c++ "$work/said" && fail "it names a compiler that is there"
 
-# CMake misses two libraries, and says so.
+# CMake reports two missing libraries.
 fake cmake 'echo "CMake Error: gearpod is missing: fmt toml++"; exit 1'
 expect 2 "missing: fmt toml++" fmt-devel libfmt-dev tomlplusplus-devel
 grep -q eigen3-devel "$work/said" && fail "it names what is there"
 
-# It fails for another reason: that is shown.
+# CMake fails for another reason, which is shown.
 fake cmake 'echo "CMake Error: of another kind"; exit 1'
 expect 1 "of another kind" "the build failed"
 
@@ -58,13 +58,13 @@ asked=test
 expect 2 "missing: Catch2" catch2-devel
 asked=--version
 
-# All is there: the program is started.
+# The program starts if nothing is missing.
 ln -s "$(command -v chmod)" "$bin/chmod"
 fake cmake "case \$* in *gearpod_run*) name=gearpod-run;; *) name=gearpod;; esac
 mkdir -p '$tree/build'; printf '#!/bin/sh\necho started %s\n' \$name >'$tree/build/'\$name; chmod +x '$tree/build/'\$name"
 expect 0 "started gearpod"
 
-# The first study of a fresh tree: a program that has `run` alone, where the whole one will be.
+# The first study of a fresh tree: a program with `run` alone in place of the whole one.
 rm -r "$tree/build"
 asked="run study.toml"
 expect 0 "started gearpod-run"
@@ -84,7 +84,7 @@ grep -q gearpod-run "$work/said" && fail "GEARPOD_WHOLE means nothing to it"
 unset GEARPOD_WHOLE
 asked=--version
 
-# Debian: what is not installed is asked of apt-get, or named to who is not root.
+# Debian: missing packages are installed by apt-get as root, and named otherwise.
 fake dpkg-query 'case $* in *libfmt-dev*) exit 1;; esac; printf "install ok installed"'
 fake id 'echo 1000'
 rm -r "$tree/build"

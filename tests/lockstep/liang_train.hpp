@@ -1,4 +1,4 @@
-// Liang's planetary gearbox (2016, Table 4.1) as a tile needs it; module 3.175 mm.
+// Liang's planetary gearbox (2016, Table 4.1) as input of a tile; module 3.175 mm.
 #pragma once
 
 #include <cmath>
@@ -70,7 +70,7 @@ struct LiangTrain {
         return p;
     }
 
-    // Carrier at 8.87 rpm times `speedup`, 429 N m on the sun.
+    // Inputs for a carrier at 8.87 rpm times `speedup` and 429 N m on the sun.
     dynamics::PlanetaryInputs inputs(double speedup = 1.0, double bearing_N_m = 1e8) const {
         dynamics::PlanetaryInputs in;
         const double cos_a = std::cos(kAngle);
@@ -100,7 +100,8 @@ struct LiangTrain {
         return f;
     }
 
-    // A crack of the given depths on the ring side of planet 1, one a lane; 0: healthy.
+    // Curves for a crack of the given depths on the ring side of planet 1, one per lane; 0:
+    // healthy.
     lockstep::FaultCurves ring_side_cracks(const std::vector<double>& depths_m) const {
         lockstep::FaultCurves f = no_fault(static_cast<int>(depths_m.size()));
         f.pattern = lockstep::planet_fault_pattern(pairs, 0, lockstep::PlanetSide::ring, 31);

@@ -1,6 +1,6 @@
-// Two masses that press their teeth together and nothing else: the sun and the only planet of a
-// torsional train whose carrier and ring are too heavy to move and whose ring mesh is missing.
-//     d = u_s + u_p,   d'' = g - mesh force / m,   1/m = 1/m_s + 1/m_p,   g = F / m_s.
+// Two masses coupled by one tooth contact only. They are the sun and the only planet of a torsional
+// train whose carrier and ring are too heavy to move and whose ring mesh is missing.
+// Equations: d = u_s + u_p, d'' = g - mesh force / m, 1/m = 1/m_s + 1/m_p, g = F / m_s.
 #pragma once
 
 #include <cmath>
@@ -42,7 +42,7 @@ struct PairOfMasses {
         plan.low_pass_rad_s = 1000.0;
         plan.te_weight = {0.0, 0.0, 1.0, 1.0};  // d itself
         for (int body = 0; body < dynamics::body_count; ++body) {
-            in.mass_kg[body] = 1e-6;  // of a riding planet: next to nothing
+            in.mass_kg[body] = 1e-6;  // mass of a planet on the carrier: negligible
             in.inertia_over_r2_kg[body] = kHeavy;
         }
         in.inertia_over_r2_kg[dynamics::sun] = kSun;
@@ -57,10 +57,10 @@ struct PairOfMasses {
     double natural_rad_s() const { return std::sqrt(kStiffness / kMass); }
     double deflection() const { return state.q[2] + state.q[3]; }
     double rate() const { return state.v[2] + state.v[3]; }
-    // The mesh force pushes both alike, so it leaves this as it is.
+    // Total momentum, which the mesh force does not change: it acts on both equally.
     double momentum() const { return kSun * state.v[2] - kPlanet * state.v[3]; }
 
-    // d at every step of one mesh period.
+    // Integrates one mesh period and returns d at every step.
     machine::AlignedVector march() {
         const dynamics::GearboxInputs inputs = in;
         auto record = lockstep::make_record(plan, 1, false);

@@ -1,4 +1,4 @@
-// Tian's one-stage gearbox (2004, Table 4.1) as a tile needs it.
+// Tian's one-stage gearbox (2004, Table 4.1) as input of a tile.
 #pragma once
 
 #include <numbers>
@@ -53,7 +53,7 @@ struct TianGearbox {
         return p;
     }
 
-    // As printed; 11.9 and 48.8 N m are not in balance.
+    // Inputs as printed; 11.9 and 48.8 N m are not in balance.
     dynamics::FixedShaftInputs inputs() const {
         dynamics::FixedShaftInputs in;
         const double masses[] = {0.96, 2.88}, inertias[] = {4.3659e-4, 8.3602e-3};

@@ -1,4 +1,4 @@
-// The lanes' elementary functions against extended precision.
+// Checks the lanes' elementary functions against extended precision.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -10,8 +10,8 @@ using namespace gearpod::machine;
 
 namespace {
 
-// The largest error of `function` on numbers drawn evenly from a range, relative to `scale` of the
-// exact value.
+// Largest error of `function` on numbers uniform in a range, relative to `scale` of the exact
+// value.
 template <class Function, class Exact, class Scale>
 double worst_error(double low, double high, Function function, Exact exact, Scale scale) {
     std::mt19937_64 engine(3);
@@ -41,7 +41,7 @@ TEST_CASE("The lanes' exponential agrees with an extended-precision one") {
     CHECK(lane_exp(0.0) == 1.0);
 }
 
-TEST_CASE("The lanes' logarithm agrees with an extended-precision one, also where it vanishes") {
+TEST_CASE("The lanes' logarithm agrees with an extended-precision one, also where it is zero") {
     const auto exact = [](long double x) { return -std::log(x * 0x1p-64L); };
     CHECK(worst_error(1.0, 1e6, lane_minus_log, exact, kRelative) < 4e-16);
     CHECK(worst_error(0x1p60, 0x1p64, lane_minus_log, exact, kRelative) < 4e-16);

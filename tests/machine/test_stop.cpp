@@ -1,4 +1,4 @@
-// Computations leave off while somebody wishes so, and only then.
+// Checks that computations end early if and only if cancellation is requested.
 #include <atomic>
 #include <catch2/catch.hpp>
 
@@ -15,7 +15,7 @@ struct Switch final : StopWish {
     bool stop() const override { return on; }
 };
 
-TEST_CASE("Nobody leaves without a wish, and a wish ends with who had it") {
+TEST_CASE("Nothing ends without a cancellation flag, and a request ends with the flag's lifetime") {
     CHECK_NOTHROW(leave_if_stopped());
     {
         Switch wish;
@@ -26,7 +26,7 @@ TEST_CASE("Nobody leaves without a wish, and a wish ends with who had it") {
     CHECK_NOTHROW(leave_if_stopped());
 }
 
-TEST_CASE("A team leaves off between its tasks") {
+TEST_CASE("A team stops between its tasks on request") {
     Switch wish;
     std::atomic<int> done{0};
     const auto task = [&](std::size_t i) {

@@ -1,4 +1,4 @@
-// The program with kernels of other widths and instruction sets beside those of a user's build.
+// Program with kernels of other widths and instruction sets in addition to those of a user's build.
 #pragma once
 
 #include "tests/mc/program.hpp"

@@ -12,7 +12,7 @@
 
 namespace gearpod::test {
 
-// The graded gearbox of that number, alone.
+// Simulates the graded gearbox of that number alone.
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};
@@ -21,7 +21,7 @@ inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                              {.with_motion = with_motion, .with_records = true});
 }
 
-// Its sensor signal over the first `meshes` mesh periods, m/s^2.
+// Sensor signal over the first `meshes` mesh periods, in m/s^2.
 inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                          std::uint64_t number = 0) {
     const auto tile = run_one(scene, false, number);
@@ -30,7 +30,7 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
 }
 
-// Amplitudes of a signal's lines; line 0 is twice its mean.
+// Amplitudes of a signal's spectral lines; line 0 is twice its mean.
 inline std::vector<double> lines(const std::vector<double>& signal) {
     std::vector<std::complex<double>> in(signal.begin(), signal.end()), out(signal.size());
     kissfft<double> fft(signal.size(), false);
@@ -42,13 +42,13 @@ inline std::vector<double> lines(const std::vector<double>& signal) {
     return amplitudes;
 }
 
-// Of that sensor signal; line i lies at i f_m / meshes.
+// Spectral lines of that sensor signal; line i lies at i f_m / meshes.
 inline std::vector<double> spectrum(const mc::Scene& scene, int meshes, std::uint64_t number = 0) {
     return lines(sensor_signal(scene, meshes, number));
 }
 
-// Lines that must vanish do so to the tolerance at which orbit and decay count as reached (1e-10 of
-// the displacement, which is more of the acceleration).
+// Tolerance for lines that must be zero: the convergence tolerance of periodic orbit and decay
+// (1e-10 of the displacement, which is more of the acceleration).
 inline constexpr double kNothing = 1e-7;
 
 inline double largest_off_multiples_of_4(const std::vector<double>& amplitudes) {

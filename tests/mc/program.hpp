@@ -1,9 +1,10 @@
-// The built program, run as a user runs it, and what it left behind.
+// Runs the built program as a user does, and collects its output.
 #pragma once
 
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -21,7 +22,7 @@
 
 namespace gearpod::test {
 
-// A folder of its own that goes with the test.
+// Temporary folder, removed by the destructor.
 class Folder {
   public:
     Folder() {
@@ -47,11 +48,31 @@ class Folder {
     std::filesystem::path path_;
 };
 
+// Replaces every line break and the spaces around it by a single space.
+inline std::string without_line_breaks(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        const bool after_break = !out.empty() && out.back() == '\n';
+        if (c == '\n') {
+            out.erase(out.find_last_not_of(" \n") + 1);
+            out += '\n';
+        } else if (c != ' ' || !after_break) {
+            out += c;
+        }
+    }
+    std::replace(out.begin(), out.end(), '\n', ' ');
+    return out;
+}
+
 struct Outcome {
     int code = 0;
     std::string output;  // both streams
 
-    bool mentions(const std::string& text) const { return output.find(text) != std::string::npos; }
+    // True if the output contains the text, perhaps broken into several lines.
+    bool mentions(const std::string& text) const {
+        return output.find(text) != std::string::npos ||
+               without_line_breaks(output).find(text) != std::string::npos;
+    }
 };
 
 inline Outcome shell(const std::string& command) {
@@ -66,7 +87,8 @@ inline Outcome shell(const std::string& command) {
     return outcome;
 }
 
-// Before a command: with so many kB of memory. The address sanitizer's shadow takes all there is.
+// Command prefix that limits the memory to so many kB. Empty under the address sanitizer, whose
+// shadow needs all memory.
 inline std::string within_memory([[maybe_unused]] int kilobytes) {
 #ifdef __SANITIZE_ADDRESS__
     return "";
@@ -79,9 +101,9 @@ inline Outcome program(const std::string& arguments) {
     return shell(std::string(GEARPOD_PROGRAM) + " " + arguments);
 }
 
-// As a container's root may, and with more ranks than processors. Nothing in a build without MPI.
-// Open MPI unloads the modules that leave memory behind: the address sanitizer cannot tell it from
-// ours, which programs of one rank are looked at for.
+// Command prefix for that many ranks, allowed as root and with more ranks than processors; empty in
+// a build without MPI. Open MPI unloads modules that leak memory, which the address sanitizer
+// cannot attribute; programs of one rank are checked for leaks.
 inline std::string mpirun(int ranks) {
     if (std::string(GEARPOD_MPIEXEC).empty()) {
         return "";

@@ -1,4 +1,4 @@
-// Recordings in the formats of other programs, written from the formats' descriptions.
+// Recordings in the formats of other programs, written from the formats' specifications.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ inline void append_number(std::string& bytes, std::uint64_t value, int count, bo
 
 enum class WavForm { whole_8, whole_16, whole_24, whole_32, floating_32, floating_64 };
 
-// RIFF WAVE: `channels` values of one moment stand beside each other, each from -1 to 1; whole
-// numbers are rounded.
+// RIFF WAVE file: the values of all `channels` at one time are adjacent, each from -1 to 1; integer
+// formats round.
 inline std::string wav_bytes(std::span<const double> values, int channels, std::uint32_t rate_Hz,
                              WavForm form) {
     constexpr int kBits[] = {8, 16, 24, 32, 32, 64};
@@ -56,8 +56,7 @@ inline std::string wav_bytes(std::span<const double> values, int channels, std::
 
 enum class UffForm { text_single, text_double, bytes_little, bytes_big };
 
-// A universal file with one dataset 58 (58b where the values are bytes): an evenly spaced real time
-// history.
+// Universal file with one dataset 58 (58b for binary values): an evenly spaced real time history.
 inline std::string uff_bytes(std::span<const double> values, double step_s, const std::string& unit,
                              UffForm form) {
     const bool binary = form == UffForm::bytes_little || form == UffForm::bytes_big;

@@ -1,5 +1,4 @@
-// Results files that are whole, sealed, and wrong: as somebody leaves them who edits one and knows
-// the seal.
+// Results files that are complete and wrong but have a valid checksum, as after deliberate editing.
 #pragma once
 
 #include <fcntl.h>
@@ -19,7 +18,7 @@ namespace gearpod::test {
 
 inline constexpr std::uintmax_t kSealBytes = 16;
 
-// Gives the bytes of a file a seal that fits them.
+// Replaces the checksum of a file by the one of its bytes.
 inline void seal(const std::string& path) {
     const mc::Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
     if (!mc::append_seal(file.get())) {
@@ -31,7 +30,7 @@ inline void unseal(const std::string& path) {
     std::filesystem::resize_file(path, std::filesystem::file_size(path) - kSealBytes);
 }
 
-// Changes a results file through HDF5, and seals it again.
+// Changes a results file through HDF5 and updates its checksum.
 inline void edit_results(const std::string& path, const std::function<void(hid_t root)>& edit) {
     unseal(path);
     {

@@ -1,11 +1,12 @@
-// Complete studies of the other kinds of gearbox, motion and fault, which the tests vary.
+// Complete studies of the other kinds of gearbox, degrees of freedom and fault, for variation in
+// tests.
 #pragma once
 
 #include <string>
 
 namespace gearpod::tests {
 
-// The sections that end every example.
+// The sections at the end of every example.
 inline const std::string kVibrationSections = R"([sensor]
 sampling_Hz = 50000
 low_pass_Hz = 10000
@@ -16,7 +17,7 @@ threshold_instances = 2
 seed = 1
 )";
 
-// Tian (2004), Table 4.1; a chip as in section 3.2.
+// Source: Tian (2004), Table 4.1; a chip as in section 3.2.
 inline const std::string kFixedShaftStudy = R"(title = "fixed-shaft"
 [gearbox]
 kind = "fixed-shaft"
@@ -56,7 +57,8 @@ chip_mm = 8
 chip_height_mm = 2
 )" + kVibrationSections;
 
-// Park et al. (2016): 16/26/68, the carrier drives; a planet tooth that loses stiffness.
+// Source: Park et al. (2016), 16/26/68 with the carrier driving; a planet tooth that loses
+// stiffness.
 inline const std::string kQuasiStaticStudy = R"(title = "quasi-static"
 [gearbox]
 kind = "planetary"
@@ -100,7 +102,7 @@ threshold_instances = 4
 seed = 3
 )";
 
-// Yang et al. (2022), Tables 1 and 2.
+// Source: Yang et al. (2022), Tables 1 and 2.
 inline const std::string kSpatialCrackStudy = R"(title = "spatial crack"
 [gearbox]
 kind = "planetary"

@@ -1,4 +1,4 @@
-// A complete planetary study that the tests vary.
+// A complete planetary study for variation in tests.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace gearpod::tests {
 
-// Liang (2016), Tables 3.1 and 4.1; a crack on the ring side of a planet tooth.
+// Source: Liang (2016), Tables 3.1 and 4.1; a crack on the ring side of a planet tooth.
 inline const std::string kExampleStudy = R"(title = "example"
 
 [gearbox]
@@ -59,8 +59,8 @@ threshold_instances = 50
 seed = 7
 )";
 
-// With these its meshes are short and it settles soon: without damping of its bearings it takes
-// more mesh periods to settle than it is looked at.
+// Overrides for short meshes and fast convergence. Without damping of its bearings the example
+// would exceed the allowed number of run-in mesh periods.
 inline const std::vector<std::string> kFast{
     "operation.carrier_speed_rpm=200",           "sensor.sampling_Hz=5000",
     "gearbox.planet_bearing_damping_N_s_m=5000", "gearbox.sun_bearing_damping_N_s_m=5000",

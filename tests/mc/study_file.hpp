@@ -1,4 +1,4 @@
-// Shipped studies as tests use them.
+// Reads shipped studies for tests.
 #pragma once
 
 #include <bit>

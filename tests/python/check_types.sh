@@ -1,5 +1,6 @@
 #!/bin/sh
-# The Python package's types: check_types.sh SOURCES. Ends with 77 without mypy (Debian: mypy).
+# Checks the types of the Python package: check_types.sh SOURCES. Exits with 77 without mypy
+# (Debian: mypy).
 set -eu
 if ! command -v mypy > /dev/null; then
     echo "skipped: mypy is not there (Debian: mypy)"

@@ -1,7 +1,8 @@
-"""The notebook's cells, one after the other: python3 test_notebook.py PROGRAM SOURCES
+"""Runs the notebook's cells in order: python3 test_notebook.py PROGRAM SOURCES
 
-In a copy of the studies' folder, by a kernel of a fresh virtual environment that has the package installed without the
-network (without python3-venv by the system's, with the package's folder in its path). Ends with 77 without nbclient, a kernel, pandas, matplotlib or h5py (Debian:
+Uses a copy of the studies' folder and a kernel of a fresh virtual environment with the package
+installed without the network. Without python3-venv it uses the system's kernel with the package's
+folder in its path. Exits with 77 without nbclient, a kernel, pandas, matplotlib or h5py (Debian:
 python3-nbclient, python3-ipykernel, python3-pandas, python3-matplotlib, python3-h5py).
 """
 
@@ -31,7 +32,8 @@ PACKAGE = SOURCES / "analysis" / "python"
 
 
 def fresh_kernel(place):
-    """The name of a kernel that runs in a new environment; as pip builds a package in its folder, from a copy of it."""
+    """Name of a kernel in a new environment. The package is built from a copy, because pip
+    writes into its folder."""
     made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", place / "venv"],
                           capture_output=True, check=False)
     if made.returncode != 0:
@@ -48,7 +50,7 @@ def fresh_kernel(place):
 
 
 class Notebook(unittest.TestCase):
-    def test_every_cell_runs_and_shows_what_it_says(self):
+    def test_every_cell_runs_and_shows_its_output(self):
         notebook = nbformat.read(NOTEBOOK, as_version=4)
         nbformat.validate(notebook)
         for cell in notebook.cells:
@@ -68,7 +70,7 @@ class Notebook(unittest.TestCase):
         self.assertEqual(figures, 4)
         said = "\n".join(texts)
         self.assertIn("gearpod results", said)
-        self.assertIn("'window_ratio')", said)  # smallest fault, found by it
+        self.assertIn("'window_ratio')", said)  # smallest fault and its feature
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""The Python package: python3 test_package.py PROGRAM SOURCES
+"""Checks the Python package: python3 test_package.py PROGRAM SOURCES
 
-PROGRAM is gearpod, SOURCES its sources. Ends with 77 without h5py (Debian: python3-h5py).
+PROGRAM is gearpod, SOURCES its sources. Exits with 77 without h5py (Debian: python3-h5py).
 """
 
 import os
@@ -40,7 +40,7 @@ class Package(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def test_values_are_those_of_the_file(self):
+    def test_values_match_the_file(self):
         results = self.results
         self.assertEqual(len(results), 200)
         self.assertEqual(results.reference, 1.0)
@@ -53,7 +53,7 @@ class Package(unittest.TestCase):
         self.assertIn("noise_levels = [0, 1]", results.study)
         self.assertEqual(results.units["fault_depth_m"], "m")
 
-    def test_rates_are_those_of_the_values(self):
+    def test_rates_follow_from_the_values(self):
         rates = self.results.detection_columns()
         graded = self.results.rows("graded")
         for i in range(len(rates["feature"])):
@@ -75,7 +75,7 @@ class Package(unittest.TestCase):
         np.testing.assert_array_equal(frame["te_fc"], self.results.feature("te_fc", 1.0))
         self.assertEqual(set(self.results.detection()["noise_level"]), {0.0, 1.0})
 
-    def test_signals_of_a_gearbox_give_its_features(self):
+    def test_signals_give_the_features(self):
         row = int(self.results.rows("graded")[-1])
         computed = self.results.signals(row)
         te = computed["te"] - np.mean(computed["te"])
@@ -87,7 +87,7 @@ class Package(unittest.TestCase):
         with self.assertRaises(IndexError):
             self.results.signals(200)
 
-    def test_what_is_wrong_is_said(self):
+    def test_errors_are_reported(self):
         with self.assertRaisesRegex(KeyError, "there are .*te_fc"):
             self.results.feature("te_xx")
         with self.assertRaisesRegex(KeyError, "there are 0, 1"):
@@ -134,7 +134,7 @@ class Package(unittest.TestCase):
                             ({"uniform": [1, 2]}, "{ uniform = [1, 2] }")):
             self.assertEqual(toml_value(value), text)
 
-    def test_pip_installs_it_without_the_network(self):
+    def test_pip_installs_without_network(self):
         place = pathlib.Path(self.folder.name, "environment")
         made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", place],
                               capture_output=True, check=False)

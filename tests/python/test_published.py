@@ -1,6 +1,6 @@
-"""Published figures beside this program's numbers: python3 test_published.py PROGRAM SOURCES
+"""Compares published figures with this program's numbers: python3 test_published.py PROGRAM SOURCES
 
-PROGRAM is gearpod, SOURCES its sources. Ends with 77 without h5py or matplotlib.
+PROGRAM is gearpod, SOURCES its sources. Exits with 77 without h5py or matplotlib.
 """
 
 import csv
@@ -24,8 +24,8 @@ except ImportError as error:
 matplotlib.use("agg")
 from gearpod import published  # noqa: E402
 
-# Largest share by which a number may be off its published one, where it is off at all;
-# studies/README.md says why.
+# Largest accepted relative difference from a published number, where there is a difference;
+# studies/README.md explains each.
 OFF = {"liang-fig-5-8": 0.18, "tian-fig-4-4": 0.17, "tian-fig-4-5": 0.25, "park-fig-11": 0.06}
 
 
@@ -56,7 +56,7 @@ class Published(unittest.TestCase):
                     self.assertGreater(file.stat().st_size, 5000)
                 self.assertIn(figure["name"], self.said)
 
-    def test_numbers_are_the_published_ones_or_as_far_off_as_is_said(self):
+    def test_numbers_match_within_stated_differences(self):
         compared = 0
         for row in self.rows:
             if row["published"]:
@@ -66,7 +66,7 @@ class Published(unittest.TestCase):
                 compared += 1
         self.assertGreaterEqual(compared, 13)
 
-    def test_trends_are_the_published_ones(self):
+    def test_trends_match_the_published_ones(self):
         checked = 0
         for figure in published.figures():
             for panel in figure.get("panels", []):
@@ -85,7 +85,7 @@ class Published(unittest.TestCase):
             self.assertGreaterEqual(len(losses), 4)
             self.assertEqual(losses, sorted(losses), name)
 
-    def test_what_there_is_not_is_said(self):
+    def test_unknown_figures_are_reported(self):
         self.assertEqual(published.main(["none-such"]), 2)
         self.assertEqual(published.main(["--list"]), 0)
 

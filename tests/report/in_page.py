@@ -1,7 +1,8 @@
-"""What tests ask of a page within the browser, as JavaScript."""
+"""JavaScript functions for tests of a page within the browser."""
 
-# over(svg): texts of a chart whose boxes overlap by more than two pixels each way. A turned text
-# is seen as its line through the box's corners, which stays clear of its turned neighbours.
+# Function over(svg): texts of a chart whose boxes overlap by more than two pixels in both
+# directions. A rotated text is represented by the line through its box's corners, which does not
+# overlap rotated neighbours.
 OVERLAPS = """
 const over = svg => {
     const shown = [...svg.querySelectorAll('text')].filter(t => t.textContent.trim());
@@ -38,7 +39,7 @@ const over = svg => {
 };
 """
 
-# [number of texts seen, those below AA: 4.5 : 1, or 3 : 1 where they are large].
+# Returns [number of visible texts, those with contrast below AA: 4.5 : 1, or 3 : 1 for large text].
 CONTRASTS = """
 const numbers = text => (text.match(/[0-9.]+/g) || []).map(Number);
 const luminance = rgb => {

@@ -1,4 +1,4 @@
-"""Sweeps that nobody ran, as gearpod sweep --json and gearpod sweep --lives --json would say them."""
+"""Synthetic sweeps in the format of gearpod sweep --json and gearpod sweep --lives --json."""
 
 import itertools
 
@@ -17,7 +17,7 @@ VARIED = {
 
 
 def point(names, values, number, nothing):
-    """Every seventh feature is without a curve, every fourth fault is a tested size."""
+    """One point: every seventh feature is without a curve, every fourth fault is a tested size."""
     of = {"results": f"sweep/{number}.h5", "values": dict(zip(names, values)), "gearboxes": 9000,
           "failed": number % 2, "false_alarm_rate": 0.05, "confidence": 0.95,
           "shortage": None, "size_name": "fault_depth_m", "size_unit": "mm", "sizes": [1, 2, 3, 4.28],
@@ -55,7 +55,7 @@ LIVES = {
 
 
 def answers(feature, detector, found, threshold=True):
-    """Of 30 lives; without a threshold nothing is known."""
+    """Results of 30 lives; without a threshold nothing is known."""
     if not threshold:
         return {"feature": feature, "detector": detector, "threshold": None, "threshold_hours": 500,
                 "false_alarms": {"count": 0, "hours": 500, "per_1000_h": None,

@@ -1,4 +1,4 @@
-// Writes the JSON of every report case into a folder: what the page's tests read.
+// Writes the JSON of every report case into a folder, as input of the page's tests.
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-"""A page as its tests see it: elements, ids, links and words."""
+"""A parsed page for tests: elements, ids, links and words."""
 
 from html.parser import HTMLParser
 
@@ -6,7 +6,7 @@ VOID = {"meta", "link", "br", "hr", "img", "input"}
 
 
 class PageHtml(HTMLParser):
-    """Parses a page; `problems` says where its elements are not nested."""
+    """Parses a page; `problems` lists elements with wrong nesting."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)

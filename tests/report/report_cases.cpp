@@ -14,7 +14,7 @@ using namespace gearpod::mc;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// A gearbox: its fault's size in m, its bearing stiffness, a standard normal number.
+// A random gearbox: its fault's size in m, its bearing stiffness, a standard normal number.
 struct Drawn {
     double size, stiffness, normal;
 };
@@ -29,7 +29,7 @@ struct Plan {
     std::string size_name = "fault_depth_m", size_unit = "m";
 };
 
-// Grows with the fault, drowns in noise, and less so in a stiff gearbox.
+// A sensitive feature: grows with the fault and the stiffness; its scatter grows with the noise.
 double telling(const Drawn& gearbox, double noise) {
     return 4e3 * gearbox.size + (0.05 + noise) * gearbox.normal + 2e-9 * gearbox.stiffness;
 }

@@ -1,4 +1,4 @@
-// Results as a report may meet them, good and bad, without a simulation.
+// Valid and degenerate results for tests of the report, without a simulation.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ struct ReportCase {
     mc::Results results;  // with detection
 };
 
-// Of every kind: the usual; no rows, no features, no fault, no healthy gearboxes, all failed, few;
-// a feature that is constant, not a number, always or never beyond its threshold; no noise, one
-// size, a continuous size, a size that is a pure number; more features and noise levels than the
-// page has colours; an interrupted run.
+// Cases of every kind. Size of the study: the usual; no rows, no features, no fault, no healthy
+// gearboxes, all failed, few. Features: constant, not a number, always or never beyond the
+// threshold. Sizes and noise: no noise, one size, a continuous size, a size that is a pure number.
+// Others: more features and noise levels than the page has colours; an interrupted run.
 std::vector<ReportCase> report_cases();
 
 }  // namespace gearpod::tests

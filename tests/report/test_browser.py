@@ -1,7 +1,7 @@
-"""The page of a report in headless Chromium: python3 test_browser.py CASES PROGRAM SOURCES
+"""Checks a report's page in headless Chromium: python3 test_browser.py CASES PROGRAM SOURCES
 
-CASES holds the JSON that make_report_cases writes, PROGRAM is gearpod, SOURCES its sources. Ends
-with 77, which ctest shows as skipped, where the browser or its driver is missing.
+CASES holds the JSON from make_report_cases, PROGRAM is gearpod, SOURCES its sources. Exits with 77,
+which ctest shows as skipped, if the browser or its driver is missing.
 """
 
 import json
@@ -34,14 +34,14 @@ import made_sweeps  # noqa: E402
 from in_page import CONTRASTS, OVERLAPS  # noqa: E402
 
 PHONE, TABLET, DESKTOP = (390, 844), (768, 1024), (1280, 800)
-PAPER = (680, 960)  # what A4 leaves between the browser's margins, in CSS pixels
-# In a browser of its own: a small study of every kind of gearbox.
+PAPER = (680, 960)  # width of A4 between the browser's margins, in CSS pixels
+# Pages from the program: a small study of every kind of gearbox.
 STUDIES = {
     "planet": ["planet-crack-ideal.toml", "--instances", "350", "--set",
                "ensemble.threshold_instances=200"],
     "quasi_static": ["published/park-fig-13.toml"],
     "fixed_shaft": ["published/tian-fig-4-9.toml"]}
-# Of the cases made without a simulation, those whose pages differ most in what stands on them.
+# Synthetic cases whose pages differ most in their contents.
 SHOWN = ["usual", "many", "all_failed", "no_features", "none_detected", "nan_now_and_then",
          "continuous_size", "by_condition", "interrupted"]
 
@@ -105,7 +105,7 @@ class InBrowser(unittest.TestCase):
         return self.browser.execute_script(text, *arguments)
 
     def test_every_page_on_every_screen_and_on_paper(self):
-        # The last one opens what is folded away.
+        # The last step opens collapsed sections.
         checks = (self.nothing_is_logged_and_nothing_is_loaded,
                   self.the_answer_is_on_the_first_screen,
                   self.every_chart_is_drawn_and_its_text_stays_on_it,
@@ -163,7 +163,7 @@ class InBrowser(unittest.TestCase):
                 .map(e => e.outerHTML.slice(0, 80));""")
         self.assertEqual(outside, [])
 
-    def test_the_table_and_what_is_left_out_are_on_the_first_screen(self):
+    def test_the_table_and_the_omissions_are_on_the_first_screen(self):
         for screen in (PHONE, DESKTOP):
             self.open("planet", screen)
             for part in (".answer", "#answer table", "#limits + ul li"):
@@ -185,7 +185,7 @@ class InBrowser(unittest.TestCase):
         regions = [n for n in nodes if n.get("role", {}).get("value") in ("main", "navigation")]
         self.assertEqual(len(regions), 2)
 
-    def test_text_stands_out_from_what_is_behind_it(self):
+    def test_text_contrasts_with_its_background(self):
         for name in self.pages:
             for dark in (False, True):
                 with self.subTest(page=name, dark=dark):
@@ -195,7 +195,7 @@ class InBrowser(unittest.TestCase):
                     self.assertGreater(seen, 5)
                     self.assertEqual(weak, [])
 
-    def test_the_keyboard_goes_through_the_page_in_order(self):
+    def test_keyboard_focus_follows_the_page_order(self):
         for name in self.pages:
             with self.subTest(page=name):
                 self.goes_through(name)
@@ -218,7 +218,7 @@ class InBrowser(unittest.TestCase):
             self.assertNotEqual(self.script(
                 "return getComputedStyle(document.activeElement).outlineStyle"), "none")
         self.assertEqual(reached, [str(i) for i in range(len(wanted))])
-        self.assertEqual(wanted[0], "A")  # past the header with one key
+        self.assertEqual(wanted[0], "A")  # skips the header with one key
 
     def test_a_dark_screen_has_light_text(self):
         self.open("planet", DESKTOP, dark=True)

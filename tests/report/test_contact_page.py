@@ -1,6 +1,6 @@
-"""Contact of the teeth on a report's page: python3 test_contact_page.py CASES PROGRAM SOURCES
+"""Checks tooth contact on a report's page: python3 test_contact_page.py CASES PROGRAM SOURCES
 
-CASES holds the JSON that make_report_cases writes, SOURCES gearpod's sources.
+CASES holds the JSON from make_report_cases, SOURCES gearpod's sources.
 """
 
 import json
@@ -40,7 +40,7 @@ class ContactOfTheTeeth(unittest.TestCase):
                      words.percent(0.0)):
             self.assertIn(" ".join(part.split()), table)
 
-    def test_teeth_that_cannot_part_have_none(self):
+    def test_teeth_that_cannot_separate_have_no_share(self):
         self.assertNotIn("out of contact", page_of(None))
         data = json.loads((CASES / "usual.json").read_text())
         data.pop("contact_loss", None)

@@ -1,4 +1,4 @@
-// The gearboxes that a report computes again, against those that the program simulates.
+// Checks the gearboxes that a report recomputes against those that the program simulates.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// A study's scene and its results with what a report makes of them.
+// A study's scene, its results and the report's examples.
 struct Example {
     explicit Example(const std::string& name, const std::string& overrides = "") {
         const std::string file = folder.file("r.h5");
@@ -47,7 +47,7 @@ const std::vector<double>& column(const mc::Simulation& simulation, const std::s
     throw std::runtime_error("no column " + name);
 }
 
-// Amplitude of the signal's part of one frequency, cycles per `signal.size()` samples.
+// Amplitude of one frequency component of the signal, in cycles per `signal.size()` samples.
 double line(const std::vector<double>& signal, double cycles) {
     std::complex<double> sum = 0.0;
     const double turn = 2.0 * std::numbers::pi * cycles / static_cast<double>(signal.size());
@@ -70,7 +70,7 @@ TEST_CASE("The examples are the first healthy and the first worst gearbox, bit f
     CHECK(example.gearbox(1)["size"] == 4.28e-3);
     for (const std::size_t i : {0, 1}) {
         CHECK(example.gearbox(i)["same_bits"] == true);
-        // window_ratio is the largest tooth rms over the median one.
+        // Feature window_ratio is the largest tooth rms over the median one.
         std::vector<double> rms = example.gearbox(i)["tooth_rms"]["noisy"];
         REQUIRE(rms.size() == 31);
         std::sort(rms.begin(), rms.end());
@@ -78,11 +78,11 @@ TEST_CASE("The examples are the first healthy and the first worst gearbox, bit f
         CHECK(example.gearbox(i)["features"][5]["value"].get<double>() ==
               Approx(rms[30] / rms[15]).epsilon(1e-12));
     }
-    // The crack meets the ring once a planet turn.
+    // The crack meets the ring once per planet turn.
     CHECK(example.gearbox(1)["engagements"].size() == 1);
 }
 
-TEST_CASE("A changed feature in the file is noticed") {
+TEST_CASE("A changed feature in the file is detected") {
     Example example("published/park-fig-13.toml");
     CHECK(example.gearbox(1)["same_bits"] == true);
     CHECK(example.gearbox(1)["sensor"].is_null());
@@ -92,7 +92,7 @@ TEST_CASE("A changed feature in the file is noticed") {
     CHECK(json["examples"]["gearboxes"][1]["same_bits"] == false);
 }
 
-TEST_CASE("Signals and lines are those of the simulated gearbox") {
+TEST_CASE("Signals and lines equal those of the simulated gearbox") {
     const Example example("published/tian-fig-4-9.toml");
     const Json& gearbox = example.gearbox(1);
     const long meshes = example.scene->span_meshes();
@@ -105,7 +105,7 @@ TEST_CASE("Signals and lines are those of the simulated gearbox") {
         const auto at = std::lround(drawn["mesh"][i].get<double>() * samples);
         REQUIRE(drawn["value"][i] == sensor[static_cast<std::size_t>(at)]);
     }
-    // No peak is lost.
+    // The reduced curve contains all peaks.
     const auto turn = sensor.begin() + 19 * samples;
     CHECK(*std::max_element(drawn["value"].begin(), drawn["value"].end()) ==
           *std::max_element(sensor.begin(), turn));
@@ -120,7 +120,8 @@ TEST_CASE("Signals and lines are those of the simulated gearbox") {
     }
 }
 
-TEST_CASE("The faulty pair is healthy before and after its faulty tooth, and softer meanwhile") {
+TEST_CASE(
+    "The faulty pair is healthy before and after its faulty tooth, and less stiff in between") {
     const Example example("published/tian-fig-4-9.toml");
     const Json& stiffness = example.json["stiffness"];
     REQUIRE(stiffness["refusal"].is_null());
@@ -143,7 +144,7 @@ TEST_CASE("The faulty pair is healthy before and after its faulty tooth, and sof
         }
     }
     CHECK(loss > 0.1);
-    // One period on, the healthy pair repeats.
+    // The healthy pair repeats one period later.
     const std::size_t period = stiffness["mesh"].size();
     for (std::size_t i = 0; i + period < healthy.size(); ++i) {
         CHECK(healthy[i].get<double>() == Approx(healthy[i + period].get<double>()).epsilon(1e-6));

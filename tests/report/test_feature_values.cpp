@@ -1,4 +1,4 @@
-// What a study without thresholds prints: its features' values.
+// Checks the printed feature values of a study without thresholds.
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -10,7 +10,7 @@ using namespace gearpod;
 using test::Folder;
 using test::program;
 
-TEST_CASE("Values stand where there are no thresholds, and few gearboxes, only") {
+TEST_CASE("Values are printed only without thresholds and for few gearboxes") {
     int with = 0;
     for (const tests::ReportCase& made : tests::report_cases()) {
         INFO(made.name);
@@ -35,7 +35,7 @@ TEST_CASE("A study without noise prints the values of its file, not dashes") {
     REQUIRE(report.code == 0);
     CHECK(!report.mentions("-    "));
     CHECK(report.mentions("Feature values"));
-    // The line of each graded gearbox: row, loss of stiffness, then the four features.
+    // Line of each graded gearbox: row, loss of stiffness, then the four features.
     const mc::Results results = mc::read_results(file);
     int found = 0;
     std::istringstream lines(report.output);

@@ -1,6 +1,6 @@
-"""The page of a report as HTML: python3 test_page.py CASES PROGRAM SOURCES
+"""Checks a report's page as HTML: python3 test_page.py CASES PROGRAM SOURCES
 
-CASES holds the JSON that make_report_cases writes, PROGRAM is gearpod, SOURCES its sources.
+CASES holds the JSON from make_report_cases, PROGRAM is gearpod, SOURCES its sources.
 """
 
 import functools
@@ -94,8 +94,8 @@ class Answers(unittest.TestCase):
             f"95 % confidence by {found['feature']} at noise × 1.")
 
     def test_nothing_is_made_up(self):
-        for name, said in (("no_rows", "nothing can be said"), ("no_features", "computes no feature"),
-                           ("all_failed", "nothing can be said"),
+        for name, said in (("no_rows", "cannot be assessed"), ("no_features", "computes no feature"),
+                           ("all_failed", "cannot be assessed"),
                            ("no_fault", "No gearbox of this study has a fault"),
                            ("no_graded", "No gearbox of this study"), ("only_faulty", "no alarm threshold"),
                            ("few", "Too few healthy gearboxes for a false-alarm rate of 0.05: 5 give"),
@@ -113,10 +113,10 @@ class Answers(unittest.TestCase):
 
     def test_all_detected_is_a_tested_size(self):
         self.assertIn("A fault of 0.5 mm is found", answer("all_detected"))
-        self.assertIn("no detection curve vouches for it (te_fm0: every faulty gearbox was",
+        self.assertIn("there is no detection curve for it (te_fm0: every faulty gearbox was",
                       said("all_detected"))
 
-    def test_a_bound_of_others_names_them(self):
+    def test_a_transferred_bound_names_its_origin(self):
         data = case("usual")
         n = data["noise"]["reference"]
         found = data["reliability"]["levels"][n]["smallest_fault"]
@@ -126,32 +126,32 @@ class Answers(unittest.TestCase):
         self.assertIn("this is the bound of te_fc at noise × 5, which finds no more", text)
         self.assertIn("† the bound of te_fc at noise × 5", text)
 
-    def test_without_curves_the_rates_answer(self):
+    def test_without_curves_the_rates_give_the_result(self):
         self.assertIn("mm is found with 90 % probability", answer("too_large"))
         self.assertIn("this study has too many", said("too_large"))
 
     def test_pure_numbers_have_no_unit(self):
         self.assertIn("A fault of 0.001 is found", answer("pure_number"))
 
-    def test_an_interrupted_run_says_so(self):
-        self.assertIn("Not the whole study: 1000 of 2000 gearboxes (interrupted by SIGTERM)",
+    def test_an_interrupted_run_is_marked(self):
+        self.assertIn("Incomplete study: 1000 of 2000 gearboxes (interrupted by SIGTERM)",
                       said("interrupted"))
 
 
 class Statements(unittest.TestCase):
-    def test_values_that_are_missing_are_counted(self):
+    def test_missing_values_are_counted(self):
         self.assertIn("te_fm0 at noise × 1: 1 000", said("nan_feature"))
-        self.assertIn("1 000 of 1 000 gearboxes failed: 500 diverged, 500 did not settle",
+        self.assertIn("1 000 of 1 000 gearboxes failed: 500 diverged, 500 did not converge",
                       said("all_failed"))
-        self.assertIn("0 (diverged), 1 (not settled)", said("all_failed"))
+        self.assertIn("0 (diverged), 1 (not converged)", said("all_failed"))
 
     def test_a_constant_feature_is_named(self):
-        self.assertIn("the feature is constant there or nearly so",
+        self.assertIn("the feature is constant or nearly so",
                       said("constant_feature"))
 
-    def test_signals_that_cannot_be_made_again_are_refused(self):
+    def test_signals_that_cannot_be_recomputed_are_refused(self):
         words_ = said("study_of_another_version")
-        self.assertIn("No example signals: this program cannot build the file's study", words_)
+        self.assertIn("No example signals: this version cannot build the study in the file", words_)
         self.assertIn("gearbox.colour", words_)
 
     def test_every_detection_rate_is_on_the_page(self):
@@ -162,8 +162,8 @@ class Statements(unittest.TestCase):
                     self.assertIn(words.rate_with_bounds(cell["pd"], cell["lower"], cell["upper"]),
                                   words_)
 
-    def test_the_numerical_error_stands_beside_the_statistical_one(self):
-        self.assertIn("asked for no check of its numerical error", said("usual"))
+    def test_the_numerical_error_is_next_to_the_statistical_one(self):
+        self.assertIn("requested no check of its numerical error", said("usual"))
         data = case("usual")
         data["numerical"] = {"rung": "rk4, 400 steps", "finer": "rk4, 1600 steps", "gearboxes": 8,
                              "shares": [{"feature": feature["name"], "noise_level": level,
@@ -175,9 +175,9 @@ class Statements(unittest.TestCase):
                                             ("statistical", "numerical"))
                                         for level in data["noise"]["levels"]]}
         words_ = page(data).text()
-        self.assertIn("at most 0.0002 of a detection rate is numerical and ±0.03 is statistical",
+        self.assertIn("at most 0.0002 numerical and ±0.03 statistical",
                       words_)
-        self.assertIn("than the number of gearboxes does for: te_rms at noise × 0", words_)
+        self.assertIn("than the statistical error for: te_rms at noise × 0", words_)
 
     def test_text_is_never_markup(self):
         data = case("usual")
@@ -188,12 +188,12 @@ class Statements(unittest.TestCase):
         self.assertNotIn("<img", text)
         self.assertIn(data["title"], PageHtml(text).text())
 
-    def test_same_results_same_page(self):
+    def test_equal_results_give_equal_pages(self):
         self.assertEqual(build_page.page_html(case("usual")), case_page("usual"))
 
 
 class Numbers(unittest.TestCase):
-    def test_rates_next_to_nothing_and_to_all_keep_their_digits(self):
+    def test_rates_close_to_0_and_1_keep_their_digits(self):
         for value, text in ((0.0, "0.00"), (1e-17, "< 0.0001"), (0.00004, "< 0.0001"),
                             (0.00006, "0.0001"), (0.0029, "0.0029"), (0.25, "0.25"),
                             (0.9986, "0.9986"), (0.99994, "0.9999"), (0.99996, "> 0.9999"), (1, "1.00")):
@@ -211,7 +211,7 @@ class Numbers(unittest.TestCase):
 
 
 class Colours(unittest.TestCase):
-    """Contrast as WCAG 2.1 defines it: text 4.5 : 1, lines 3 : 1."""
+    """Contrast as defined by WCAG 2.1: text 4.5 : 1, lines 3 : 1."""
 
     @staticmethod
     def luminance(colour):
@@ -243,7 +243,7 @@ class Colours(unittest.TestCase):
 
 
 class Program(unittest.TestCase):
-    """gearpod report --html."""
+    """Pages written by gearpod report --html."""
 
     @classmethod
     def setUpClass(cls):
@@ -264,7 +264,7 @@ class Program(unittest.TestCase):
     def html(self):
         return os.path.join(self.folder.name, "r.html")
 
-    def test_page_and_json_hold_the_same(self):
+    def test_page_and_json_agree(self):
         both = self.gearpod("report", self.results, "--html", self.html(), "--json", "-")
         self.assertEqual(both.returncode, 0, both.stderr)
         written = pathlib.Path(self.html()).read_text()
@@ -274,7 +274,7 @@ class Program(unittest.TestCase):
         self.assertIn("have the same bits", words_)
         os.remove(self.html())
 
-    def test_what_is_missing_is_named_and_nothing_is_left(self):
+    def test_missing_tools_are_named_and_no_files_are_left(self):
         with tempfile.TemporaryDirectory() as fake:
             for module in ("matplotlib", "numpy"):
                 pathlib.Path(fake, module + ".py").write_text("raise ImportError")
@@ -344,7 +344,7 @@ class Program(unittest.TestCase):
         said_ = PageHtml(html).text()
         for words_ in ("B against A", "On 350 graded gearboxes that are the same in both",
                        "Different gearboxes (seed 2 and 8)", "Difference of a90 at noise",
-                       "less A"):
+                       "minus A"):
             self.assertIn(words_, said_)
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())
@@ -374,8 +374,8 @@ class Program(unittest.TestCase):
         self.assertGreater(ended, 0)
         for words_ in ("Holds for identical teeth", "the lives of other gearboxes"):
             self.assertIn(words_, data["assumptions"])
-        for words_ in (data["assumptions"], f"of {ended} cracks before the tooth goes", "Warning times",
-                       "What false alarms buy", "each of the 31 teeth in all its 81 meetings"):
+        for words_ in (data["assumptions"], f"of {ended} cracks before the tooth breaks",
+                       "Depth at detection against", "each of the 31 teeth in all its 81 meetings"):
             self.assertIn(words_, parsed.text())
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())
@@ -390,7 +390,7 @@ class Program(unittest.TestCase):
         life = {"hours": [0, 5], "depth_m": [0, 2e-3]}
         self.assertEqual([lives.depth_at_end({**life, "end_h": h}) for h in (7, 10)], [4, 2])
 
-    def test_a_page_that_cannot_be_written_is_said_first(self):
+    def test_an_unwritable_page_is_reported_first(self):
         failed = self.gearpod("report", self.results, "--html", "/nonexistent/folder/r.html")
         self.assertEqual(failed.returncode, 2)
         self.assertIn("/nonexistent/folder/r.html", failed.stderr)

@@ -1,5 +1,5 @@
-// What a report says as JSON: whatever the results, each number is one or null, and what cannot be
-// said is refused with a reason.
+// Checks a report's JSON for any results: each number is finite or null, and missing results have a
+// reason.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -38,7 +38,7 @@ void check_numbers(const Json& json) {
     }
 }
 
-// Every graded gearbox is in one cell, as tested or as failed.
+// Checks that every graded gearbox is in one cell, as tested or as failed.
 void check_cells(const Json& json, std::size_t graded) {
     for (const Json& feature : json["detection"]["features"]) {
         for (const Json& level : feature["levels"]) {
@@ -71,7 +71,7 @@ void check_roc(const Json& json) {
 
 }  // namespace
 
-TEST_CASE("Whatever the results, the JSON is whole, its numbers are finite and its counts add up") {
+TEST_CASE("For any results the JSON is complete, its numbers are finite and its counts add up") {
     for (const tests::ReportCase& each : tests::report_cases()) {
         INFO(each.name);
         const Json json = json_of(each.results);
@@ -87,14 +87,14 @@ TEST_CASE("Whatever the results, the JSON is whole, its numbers are finite and i
         CHECK(json["gearboxes"] == each.results.status.size());
         CHECK(json["failures"]["no_value"].size() == each.results.features.size());
         CHECK(json["noise"]["levels"].size() == each.results.noise_levels.size());
-        CHECK(json["examples"]["refusal"].is_string());  // no study that this program can build
+        CHECK(json["examples"]["refusal"].is_string());  // this program cannot build the study
         CHECK(json["examples"]["gearboxes"].empty());
         CHECK(json["stiffness"]["refusal"].is_string());
         CHECK_NOTHROW(json.dump());
     }
 }
 
-TEST_CASE("The smallest fault is the least that a feature's own entry vouches for") {
+TEST_CASE("The smallest fault is the least one demonstrated by a feature's own entry") {
     const Json json = case_json("usual");
     const std::size_t n = json["noise"]["reference"];
     CHECK(json["noise"]["levels"][n] == 1.0);
@@ -114,7 +114,7 @@ TEST_CASE("The smallest fault is the least that a feature's own entry vouches fo
     CHECK(found["size"] == least);
 }
 
-TEST_CASE("What is not there is null or refused, never a number") {
+TEST_CASE("Missing values are null or refused, never a number") {
     const Json failed = case_json("all_failed");
     CHECK(failed["failures"]["diverged"] == 500);
     CHECK(failed["failures"]["not_settled"] == 500);
@@ -140,7 +140,7 @@ TEST_CASE("What is not there is null or refused, never a number") {
     }
 }
 
-TEST_CASE("A feature that finds all or nothing, or is constant, has the area it must have") {
+TEST_CASE("A feature that detects all or nothing, or is constant, has the corresponding area") {
     const auto area = [](const Json& json) {
         return json["reliability"]["features"][0]["levels"][1]["auc"]["auc"].get<double>();
     };
@@ -154,7 +154,7 @@ TEST_CASE("A feature that finds all or nothing, or is constant, has the area it 
             {{"feature", "te_fm0"}, {"size", 0.5e-3}, {"from_curve", false}, {"source", nullptr}}));
 }
 
-TEST_CASE("The level that is shown first is 1, else the least noise, else the first") {
+TEST_CASE("The default noise level is 1, else the least noise, else the first") {
     CHECK(case_json("usual")["noise"]["reference"] == 1);
     CHECK(case_json("no_noise")["noise"]["reference"] == 0);
     CHECK(case_json("many")["noise"]["reference"] == 4);

@@ -1,4 +1,4 @@
-// The tables of a report as CSV: whole, rectangular, and the same numbers as the JSON.
+// Checks the tables of a report as CSV: complete, rectangular, with the numbers of the JSON.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ json report_of(const tests::ReportCase& each) {
     return mc::report_json(each.results, rows, mc::reliability_of(each.results, rows, "", 2));
 }
 
-// Fields of a line, quotes taken off.
+// Fields of a line without quotes.
 std::vector<std::string> fields(const std::string& line) {
     std::vector<std::string> out(1);
     bool quoted = false;
@@ -43,7 +43,8 @@ std::vector<std::string> fields(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("Every table of every report has as many fields a row as columns, and no empty table") {
+TEST_CASE(
+    "Every table of every report has one field per column in each row, and no table is empty") {
     for (const tests::ReportCase& each : tests::report_cases()) {
         INFO(each.name);
         const auto tables = mc::report_tables(report_of(each));
@@ -59,7 +60,7 @@ TEST_CASE("Every table of every report has as many fields a row as columns, and 
     }
 }
 
-TEST_CASE("The tables hold the report's numbers, sizes in the unit that their names say") {
+TEST_CASE("The tables hold the report's numbers, with sizes in the unit of their names") {
     const auto cases = tests::report_cases();
     const auto usual = std::find_if(cases.begin(), cases.end(),
                                     [](const auto& each) { return each.name == "usual"; });

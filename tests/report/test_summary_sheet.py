@@ -1,4 +1,4 @@
-"""The summary of a report on one sheet: python3 test_summary_sheet.py CASES PROGRAM SOURCES"""
+"""Checks the summary of a report on one sheet: python3 test_summary_sheet.py CASES PROGRAM SOURCES"""
 
 import json
 import os
@@ -33,7 +33,7 @@ def reports():
 
 
 def boxes(figure):
-    """Every text that is shown, with its box in points."""
+    """All visible texts with their boxes in points."""
     figure.set_dpi(DPI)
     figure.canvas.draw()
     renderer = figure.canvas.get_renderer()
@@ -60,7 +60,7 @@ class Sentences(unittest.TestCase):
 
 
 class Sheets(unittest.TestCase):
-    def test_everything_is_on_the_sheet_and_nothing_on_another(self):
+    def test_everything_is_on_the_sheet_without_overlap(self):
         seen = 0
         for name, report in reports():
             with self.subTest(name), warnings.catch_warnings():
@@ -83,7 +83,7 @@ class Sheets(unittest.TestCase):
                 seen += 1
         self.assertGreater(seen, 15)
 
-    def test_a_pdf_of_one_page_the_same_each_time(self):
+    def test_the_pdf_has_one_page_and_is_reproducible(self):
         shown = {name: report for name, report in reports() if name in ("usual", "no_features")}
         self.assertEqual(len(shown), 2)
         for name, report in shown.items():

@@ -1,4 +1,4 @@
-"""The page of a sweep as HTML: python3 test_sweep_page.py CASES PROGRAM SOURCES"""
+"""Checks the page of a sweep as HTML: python3 test_sweep_page.py CASES PROGRAM SOURCES"""
 
 import json
 import os
@@ -40,7 +40,7 @@ class MadeUp(unittest.TestCase):
                 self.assertNotIn("script", {tag for tag, _ in page.elements})
                 self.assertNotRegex(page.text(), r"\b(nan|None|inf)\b")
 
-    def test_a_chart_a_value_of_the_second_key(self):
+    def test_one_chart_per_value_of_the_second_key(self):
         charts = {"sweep_one": 3, "sweep_two": 9, "sweep_words": 3, "sweep_three": 12,
                   "sweep_single": 3, "sweep_nothing": 1, "sweep_unknown": 1, "sweep_silent": 0,
                   "lives_sweep_one": 4, "lives_sweep_two": 12, "lives_sweep_blind": 0}
@@ -48,14 +48,14 @@ class MadeUp(unittest.TestCase):
             self.assertEqual(parsed(name).count("svg"), wanted, name)
         self.assertIn("integrator = newmark", parsed("sweep_two").text())
 
-    def test_healthy_samples_that_are_too_few_stand_first_and_hide_no_fault(self):
+    def test_too_few_healthy_samples_come_first_and_hide_no_fault(self):
         text = parsed("sweep_unknown").text()
         self.assertEqual(text.count("Too few healthy gearboxes"), 1)
         self.assertIn("no threshold in 5 of 5 studies", text)
         self.assertNotIn("none in", text)
         self.assertLess(text.index("Too few healthy"), text.index("no threshold in"))
 
-    def test_every_answer_stands_in_the_table(self):
+    def test_every_result_is_in_the_table(self):
         html = build_page.page_html(MADE["sweep_two"])
         table = html[html.index("<tbody>"):html.index("</tbody>")]
         rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in table.split("<tr>")[1:]]
@@ -79,11 +79,11 @@ class MadeUp(unittest.TestCase):
         self.assertIn("none in any of 5 studies", parsed("sweep_nothing").text())
         self.assertIn("computes no feature", parsed("sweep_silent").text())
 
-    def test_lives_are_named_with_what_finds_them(self):
+    def test_lives_are_named_with_their_monitor(self):
         said = parsed("lives_sweep_one").text().replace("\u00a0", " ")
-        self.assertIn("change_window_ratio by single finds 100 % of the cracks before the tooth goes "
+        self.assertIn("change_window_ratio by single finds 100 % of the cracks before the tooth breaks "
                       "at interval_h = 1, 80 % at interval_h = 100", said)
-        self.assertIn("480 h before or earlier at interval_h = 100, 600 h at interval_h = 1", said)
+        self.assertIn("at least 480 h before at interval_h = 100, 600 h at interval_h = 1", said)
         html = build_page.page_html(MADE["lives_sweep_two"])
         table = html[html.index("<tbody>"):html.index("</tbody>")]
         rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in table.split("<tr>")[1:]]
@@ -100,7 +100,7 @@ class MadeUp(unittest.TestCase):
 
 
 class Program(unittest.TestCase):
-    def test_page_and_json_hold_the_same(self):
+    def test_page_and_json_agree(self):
         with tempfile.TemporaryDirectory() as folder:
             html = os.path.join(folder, "s.html")
             command = [PROGRAM, "sweep", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet",

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Small studies by two ranks of two threads each, and by one rank: the same features, and no report
-# of a sanitizer, which would end the program with a code of its own.
+# Runs small studies on two ranks of two threads each, and on one rank: equal features, and no
+# report of a sanitizer, which would end the program with a separate exit code.
 #   two_ranks.sh PROGRAM MPIEXEC STUDIES
 set -eu
 program=$1 mpiexec=$2 studies=$3
@@ -13,8 +13,8 @@ check() {
     shift
     set -- "$studies/$study" --instances 24 --set ensemble.threshold_instances=16 \
         --set numerics.threads=2 "$@"
-    # Open MPI unloads the modules that leave memory behind: nothing could tell it from ours. One
-    # rank's is looked at below.
+    # Open MPI unloads modules that leak memory, which cannot be attributed then. Leaks of one rank
+    # are checked below.
     ASAN_OPTIONS=detect_leaks=0 "$mpiexec" --oversubscribe --bind-to none -n 2 \
         "$program" run "$@" --force --out "$work/two.h5"
     "$program" run "$@" --force --out "$work/one.h5"

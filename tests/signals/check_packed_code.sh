@@ -1,7 +1,7 @@
 #!/bin/sh
-# Holds the compiler to kernels without lanes of gearboxes (src/signals): the code of OBJECT for
-# AVX-512 and AVX2 must be packed, with full-width fused multiply-adds, and must call nothing but what
-# moves memory.
+# Checks the compiler's output for kernels without lanes of gearboxes (src/signals). Code in OBJECT
+# for AVX-512 and AVX2 must be packed, with full-width fused multiply-adds, and must call only
+# functions that move memory.
 #   check_packed_code.sh OBJECT KERNEL...
 set -eu
 object=$1

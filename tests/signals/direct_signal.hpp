@@ -1,5 +1,5 @@
-// The sensor signal straight from Liang (2016), Eq. 4.3.1, sample by sample with the library's
-// functions: what the folded and the synthesized signal are compared with.
+// Reference sensor signal directly from Liang (2016), Eq. 4.3.1, sample by sample with the
+// library's functions, for comparison with the folded and the synthesized signal.
 #pragma once
 
 #include <cmath>
@@ -22,8 +22,7 @@ inline double direct_sample(const TileSignals& tile, int lane, const Timeline& t
     const double* accel = tile.accel[timeline[k % timeline.size()]];
     double y = 0.0;
     for (int n = 0; n < tile.planets; ++n) {
-        // The wrap decides the side of a jump: nudge rounding at x = 0 to the side of exact
-        // arithmetic.
+        // The wrap decides the side of a jump: round x = 0 to the side of exact arithmetic.
         double x = std::fmod(theta + 2.0 * pi * n / tile.planets, 2.0 * pi);
         if (2.0 * pi - x < 1e-12) {
             x = 0.0;

@@ -9,7 +9,7 @@
 
 namespace gearpod::signals {
 
-// `count` of eight lanes, from lane `first` on.
+// Selects `count` of eight lanes, from lane `first` on.
 inline machine::AlignedVector lanes_of(const machine::AlignedVector& eight, int first, int count) {
     machine::AlignedVector part(eight.size() / 8 * count);
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -41,7 +41,7 @@ struct RandomTile {
             signals.te.push_back(te[mesh].data());
         }
     }
-    // `count` lanes of a tile of eight, from lane `first` on.
+    // Copies `count` lanes of a tile of eight, from lane `first` on.
     RandomTile(const RandomTile& other, int first, int count)
         : RandomTile(count, other.signals.planets, other.signals.phases, other.signals.meshes()) {
         for (std::size_t mesh = 0; mesh < accel.size(); ++mesh) {
@@ -53,7 +53,8 @@ struct RandomTile {
     RandomTile& operator=(const RandomTile&) = delete;
 };
 
-// The event of a crack: meshes 1..events from mesh `first` on, in a pattern of `length` meshes.
+// Timeline of a crack event: meshes 1..events from mesh `first` on, in a pattern of `length`
+// meshes.
 inline Timeline event_timeline(int length, int first, int events) {
     Timeline timeline(length, 0);
     for (int e = 0; e < events; ++e) {

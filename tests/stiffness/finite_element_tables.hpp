@@ -1,4 +1,4 @@
-// The tables of tests/peers/fem-gear-pairs: what each holds, that folder's README.md says.
+// Tables of tests/peers/fem-gear-pairs; their contents are described in that folder's README.md.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 
 namespace finite_elements {
 
-// A line of a table, by its columns' names; cells may be empty.
+// A line of a table with cells by column name; cells may be empty.
 class Row {
   public:
     explicit Row(std::map<std::string, std::string> cells) : cells_(std::move(cells)) {}

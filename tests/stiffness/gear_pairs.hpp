@@ -1,4 +1,4 @@
-// The gear pairs of the sources and a few that reach the other branches of the geometry.
+// The gear pairs of the sources and a few that cover the other branches of the geometry.
 #pragma once
 
 #include <numbers>

@@ -60,7 +60,7 @@ LevelPair discs(const std::string& name, int z_1, int z_2, double x_1, double x_
     return pair;
 }
 
-// Stage of sun, planet and ring; `which` pair of it.
+// Pair number `which` of a stage of sun, planet and ring.
 LevelPair stage(const std::string& name, int sun, int planet, int ring, double module_m,
                 double sun_shift, double distance_m, const Material& material, bool ring_mesh) {
     gears::Gear s = rack_gear(sun, module_m, 0), p = rack_gear(planet, module_m, 0),
@@ -75,8 +75,8 @@ LevelPair stage(const std::string& name, int sun, int planet, int ring, double m
     return {name, {s, p, set.centre_distance_m}, material};
 }
 
-// NREL 5 MW reference gearbox (Nejad et al. 2016): reports of KISSsoft 03/2017 on its stages, in
-// the repository gfsReboucas/Drivetrain. The bodies are those of the finite elements.
+// Source: NREL 5 MW reference gearbox (Nejad et al. 2016), reports of KISSsoft 03/2017 on its
+// stages in the repository gfsReboucas/Drivetrain. The bodies are those of the finite elements.
 std::vector<LevelPair> nrel_pairs() {
     LevelPair sun = stage("18/36", 18, 36, 93, 21e-3, 0.389, 0.584, steel(0.55, 0), false);
     LevelPair ring = stage("36/93 internal", 18, 36, 93, 21e-3, 0.389, 0.584, steel(0.55, 0), true);
@@ -124,7 +124,7 @@ std::vector<LevelPair> element_pairs() {
 }
 
 // Twist of a body of shear modulus G and width L between two circles, as displacement along the
-// line of action by a unit force: R_b^2 |1/r_held^2 - 1/r_root^2| / (4 pi G L).
+// line of action per unit force: R_b^2 |1/r_held^2 - 1/r_root^2| / (4 pi G L).
 double twist(const gears::Gear& gear, double held_m, const Material& material) {
     const double shear = material.youngs_modulus_Pa / (2 * (1 + material.poisson_ratio));
     const double base = gear.base_radius(), root = gear.root_radius();
@@ -132,13 +132,13 @@ double twist(const gears::Gear& gear, double held_m, const Material& material) {
            (4 * pi * shear * material.face_width_m);
 }
 
-// Without a compliance that all touching pairs share.
+// Stiffness without a compliance that all pairs in contact share.
 double without(double stiffness, double compliance) {
     return 1 / (1 / stiffness - compliance);
 }
 
-// Mean over a mesh period of the rows of a case, each with the same compliance taken off: Simpson's
-// rule over those with the more pairs, and over those with fewer, times the length of their
+// Mean over a mesh period of the rows of a case, each with the same compliance removed. Simpson's
+// rule applies to the rows with more pairs and to those with fewer, times the length of their
 // stretch.
 double mean_of_rows(const LevelPair& pair, double compliance) {
     std::vector<double> more, fewer;

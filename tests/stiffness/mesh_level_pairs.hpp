@@ -1,4 +1,4 @@
-// Pairs whose mesh stiffness somebody else has computed, and the program's models of them:
+// Pairs with mesh stiffness from other programs, and the program's models of them:
 // docs/validation/mesh-stiffness-level.md.
 #pragma once
 
@@ -16,38 +16,38 @@
 namespace mesh_level {
 
 struct LevelPair {
-    std::string name;  // teeth
+    std::string name;  // tooth numbers
     gearpod::gears::MeshGeometry geometry;
     gearpod::stiffness::Material material;
     double helix_rad = 0;
-    double held_1_m = 0, held_2_m = 0;  // radii of the circles on which the bodies are held
+    double held_1_m = 0, held_2_m = 0;  // radii of the circles on which the bodies are fixed
     double force_N = 0;                 // along the line of action
     gearpod::stiffness::Profile profile = gearpod::stiffness::Profile::fillet;
     std::string elements = {};  // case of tests/peers/fem-gear-pairs; "" without finite elements
-    double report_N_m = 0;      // c_gamma_alpha that KISSsoft prints, times the face width
+    double report_N_m = 0;      // c_gamma_alpha printed by KISSsoft, times the face width
     double report_blank = 1.0;  // with this gear blank factor, C_R
 };
 
-// Steel discs with bores of a third of the root circles; the NREL 5 MW stages; the pairs of
-// tests/peers/fem-gear-pairs that have no crack.
+// All pairs: steel discs with bores of a third of the root circles; the NREL 5 MW stages; the pairs
+// of tests/peers/fem-gear-pairs without a crack.
 std::vector<LevelPair> all_pairs();
 
 std::unique_ptr<const gearpod::stiffness::MeshStiffness> model(
     const LevelPair& pair, gearpod::stiffness::FoundationModel foundation,
     gearpod::stiffness::Contact contact);
 
-// Means over a mesh period, N/m.
+// Mean over a mesh period, N/m.
 double model_mean(const LevelPair& pair, gearpod::stiffness::FoundationModel foundation,
                   gearpod::stiffness::Contact contact);
-// Elastic rings with linear contacts, without the twist of the bodies between the held circle and
-// the root.
+// Mean for elastic rings with linear contacts, without the twist of the bodies between the fixed
+// circle and the root.
 double untwisted_ring_mean(const LevelPair& pair);
-// Finite elements, whole gears in plane strain; 0 without them.
+// Mean for finite elements, whole gears in plane strain; 0 without them.
 double elements_mean(const LevelPair& pair);
 double untwisted_elements_mean(const LevelPair& pair);
 
-// Compliance along the line of action by which both gear bodies twist between the held circle and
-// the root circle, m/N.
+// Compliance along the line of action due to the twist of both gear bodies between the fixed circle
+// and the root circle, m/N.
 double twist_compliance(const LevelPair& pair);
 
 }  // namespace mesh_level

@@ -1,6 +1,5 @@
-// The closed forms of the sources as printed (corrections marked), integrated by Boost's tanh-sinh
-// rule: an evaluation that shares neither formulas nor quadrature with the code. Compliances in
-// m/N.
+// Closed forms of the sources as printed (corrections marked), integrated by Boost's tanh-sinh
+// rule. The evaluation shares neither formulas nor quadrature with the code. Compliances in m/N.
 #pragma once
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
@@ -32,8 +31,8 @@ struct Tooth {
     double Rr() const { return (N - 2.5) * module / 2; }
     double involute(double a) const { return std::sin(a) + (a2() - a) * std::cos(a); }
 
-    // The integrands of Tian, Eqs. 2.26, 2.30, 2.32 = Liang, Eqs. 2.2.6-2.2.8, with the sum of the
-    // two half thicknesses (in units of R_b) in place of 2 h_x: 3/2 = 12 / 2^3 and so on.
+    // Integrands of Tian, Eqs. 2.26, 2.30, 2.32 = Liang, Eqs. 2.2.6-2.2.8, with the sum of the two
+    // half thicknesses (in units of R_b) in place of 2 h_x: 3/2 = 12 / 2^3 and so on.
     double bending(double from, double to, double a1, double extra, bool cracked) const {
         const double c = std::cos(a1);
         return integral(
@@ -60,21 +59,21 @@ struct Tooth {
             from, to);
     }
 
-    // Tian, Eqs. 2.26, 2.30, 2.32.
+    // Source: Tian, Eqs. 2.26, 2.30, 2.32.
     gearpod::stiffness::ToothCompliance base_circle(double a1) const {
         return {bending(-a1, a2(), a1, 0, false), shear(-a1, a2(), a1, 0, false),
                 axial(-a1, a2(), a1)};
     }
 
-    // Liang, Eqs. 2.2.25-2.2.27 with their phi.
+    // Source: Liang, Eqs. 2.2.25-2.2.27 with their phi.
     gearpod::stiffness::ToothCompliance internal_tooth(double b1) const {
         const double phi = a2() + std::tan(std::acos(N * std::cos(alpha_0) / (N + 2.5)));
         return {bending(phi, b1, b1, 0, false), shear(phi, b1, b1, 0, false), axial(phi, b1, b1)};
     }
 
     double a3() const { return std::asin(Rb() * std::sin(a2()) / Rr()); }
-    // The bracket of Eqs. 3.2.13, 3.5.5 and 3.5.13: [1 - (N - 2.5) cos a1 cos a3 / (N cos a0)]^3 -
-    // (1 - cos a1 cos a2)^3.
+    // Bracket of Eqs. 3.2.13, 3.5.5 and 3.5.13: [1 - (N - 2.5) cos a1 cos a3 / (N cos a0)]^3 - (1 -
+    // cos a1 cos a2)^3.
     double straight_bending(double a1) const {
         const double c = std::cos(a1);
         const double low = 1 - (N - 2.5) * c * std::cos(a3()) / (N * std::cos(alpha_0));
@@ -85,7 +84,7 @@ struct Tooth {
         return std::cos(a2()) - (N - 2.5) / (N * std::cos(alpha_0)) * std::cos(a3());
     }
 
-    // Liang, Eqs. 3.2.13-3.2.15: root circle inside the base circle.
+    // Source: Liang, Eqs. 3.2.13-3.2.15; root circle inside the base circle.
     gearpod::stiffness::ToothCompliance root_circle(double a1) const {
         const double c = std::cos(a1), s = std::sin(a1);
         auto sum = base_circle(a1);
@@ -95,7 +94,7 @@ struct Tooth {
         return sum;
     }
 
-    // alpha_4 and alpha_5 of Eq. 3.2.21, by bisection on the radius of the involute.
+    // Angles alpha_4 and alpha_5 of Eq. 3.2.21, by bisection on the radius of the involute.
     double a5() const {
         const auto excess = [&](double a) {
             const double x = std::cos(a) - (a2() - a) * std::sin(a);
@@ -107,14 +106,15 @@ struct Tooth {
     }
     double a4() const { return std::asin(Rb() * involute(a5()) / Rr()); }
 
-    // Liang, Eqs. 3.2.18-3.2.20: root circle outside the base circle.
+    // Source: Liang, Eqs. 3.2.18-3.2.20; root circle outside the base circle.
     gearpod::stiffness::ToothCompliance root_on_involute(double a1) const {
         return {bending(-a1, a5(), a1, 0, false), shear(-a1, a5(), a1, 0, false),
                 axial(-a1, a5(), a1)};
     }
 };
 
-// A crack of Liang's section 3.5 in an external tooth; q along the crack, past the centre line too.
+// A crack of Liang's section 3.5 in an external tooth. Length q is along the crack, also past the
+// centre line.
 struct CrackedTooth {
     Tooth tooth;
     double q, v;
@@ -123,11 +123,12 @@ struct CrackedTooth {
     double root_angle() const { return root_inside_base() ? tooth.a3() : tooth.a4(); }
     double involute_start() const { return root_inside_base() ? tooth.a2() : tooth.a5(); }
     double half_depth() const { return tooth.Rr() * std::sin(root_angle()) / std::sin(v); }
-    // Height of the crack tip in units of R_b: sin a2 - q1 / R_b sin v, then -q2 / R_b sin v. Where
-    // the root lies outside the base circle Eqs. 3.5.18-3.5.25 print sin a2, which is not the root
-    // chord that the crack starts from (their own first integrals have R_r sin a4): corrected.
+    // Height of the crack tip in units of R_b: sin a2 - q1 / R_b sin v, then -q2 / R_b sin v.
+    // Correction: where the root lies outside the base circle, Eqs. 3.5.18-3.5.25 print sin a2,
+    // which is not the root chord at which the crack starts (their own first integrals have R_r sin
+    // a4).
     double height() const { return (half_depth() - q) * std::sin(v) / tooth.Rb(); }
-    // -alpha_g (conditions 1, 2) or -alpha_c (3, 4): h_x = |height| on the tip side.
+    // Boundary -alpha_g (conditions 1, 2) or -alpha_c (3, 4): h_x = |height| on the tip side.
     double boundary() const {
         const auto excess = [&](double a) { return tooth.involute(a) - std::abs(height()); };
         const auto bracket =
@@ -135,9 +136,9 @@ struct CrackedTooth {
                                        boost::math::tools::eps_tolerance<double>(52));
         return 0.5 * (bracket.first + bracket.second);
     }
-    // The first integrals of Eqs. 3.5.5-3.5.25, with the square that the bending arm lacks in
-    // print, and the shear denominator to the power 1 instead of 3. cos a_r = cos a_root - (depth
-    // below the chord) / R_r.
+    // First integrals of Eqs. 3.5.5-3.5.25, with the square that the bending arm lacks in print,
+    // and the shear denominator to the power 1 instead of 3. Angle a_r follows from cos a_r = cos
+    // a_root - (depth below the chord) / R_r.
     double lengthened(double a1, bool bending) const {
         const double below = std::min(q, 2 * half_depth() - q) * std::cos(v) / tooth.Rr();
         const double root = root_angle();
@@ -155,7 +156,7 @@ struct CrackedTooth {
             },
             root, a_r);
     }
-    // Eqs. 3.5.5-3.5.14 and 3.5.18-3.5.23: conditions 1, 2, 3. Axial: Eqs. 3.2.15, 3.2.20.
+    // Source: Eqs. 3.5.5-3.5.14 and 3.5.18-3.5.23, conditions 1, 2, 3. Axial: Eqs. 3.2.15, 3.2.20.
     gearpod::stiffness::ToothCompliance compliance(double a1) const {
         const double c = std::cos(a1), end = involute_start();
         const double law_ends = std::clamp(boundary(), -a1, end);

@@ -11,7 +11,7 @@ using namespace test_pairs;
 
 namespace {
 
-// Change of the mesh stiffness, root against base circle, averaged over [from, to] of a mesh
+// Change of the mesh stiffness from base circle to root circle, averaged over [from, to] of a mesh
 // period.
 double root_circle_change(const gears::MeshGeometry& mesh, double from, double to) {
     const AdditiveMesh root(mesh, kLiangSteel, Profile::root_circle);
@@ -32,7 +32,7 @@ TEST_CASE("Tian's mean mesh stiffness is 8.854e8 N/m and its damping coefficient
     const AdditiveMesh pair(gears::MeshGeometry(external(19), external(48)), kTianSteel,
                             Profile::base_circle);
     CHECK(mean_total(pair) == Approx(8.854e8).epsilon(0.002));
-    // Tian (2004), below Eq. 4.25: mu = c_m / k_m with c_m = 3.533e3 Ns/m.
+    // Source: Tian (2004), below Eq. 4.25, mu = c_m / k_m with c_m = 3.533e3 Ns/m.
     CHECK(3.533e3 / mean_total(pair) == Approx(3.99e-6).epsilon(0.002));
 }
 
@@ -55,38 +55,40 @@ TEST_CASE("the mean is the mesh stiffness averaged over a period") {
     CHECK(sum == Approx(mean_total(pair)).epsilon(1e-9));
 }
 
-TEST_CASE("starting teeth at the root circle takes 40 % off Liang's sun-planet mesh stiffness") {
+TEST_CASE("starting teeth at the root circle reduces Liang's sun-planet mesh stiffness by 40 %") {
     const gears::MeshGeometry mesh(external(19), external(31));
     const double c = mesh.contact_ratio();
-    // Liang (2016), section 3.2.3: about 40 %; an independent quadrature: -40.3 % on average.
+    // Source: Liang (2016), section 3.2.3, about 40 %; an independent quadrature gives -40.3 % on
+    // average.
     CHECK(root_circle_change(mesh, 0, 1) == Approx(-0.403).margin(0.0005));
     CHECK(root_circle_change(mesh, 0, c - 1) == Approx(-0.4006).margin(0.0005));
     CHECK(root_circle_change(mesh, c - 1, 1) == Approx(-0.4098).margin(0.0005));
 }
 
 TEST_CASE(
-    "starting the planet's teeth at the root circle takes 13.7 and 13.4 % off the ring-planet mesh "
-    "stiffness") {
+    "starting the planet's teeth at the root circle reduces the ring-planet mesh stiffness by 13.7 "
+    "and 13.4 %") {
     // Liang (2016), section 3.3, states about -17 % with two pairs and -23 % with one. His printed
-    // formulas do not give that, at any phase: -11.3 to -15.2 % with two pairs, -13.2 to -13.7 %
-    // with one. Module and rounding play no part (stiffness per face width is free of scale;
-    // radii 45.2 / 46.2 give -13.71 %). What was tried with an own script, double / single:
-    // dedendum 1.375 m -18.9 / -18.8 %, 1.5 m -24.0 / -24.2 %; shear left out -15.6 / -14.2 %;
-    // shear or bending of the straight part doubled or fourfold, a rigid ring, inv a0 with the
-    // wrong sign in beta_2, the ring turning the wrong way or at the planet's rate, the planet
-    // touched from the tip: some 6,000 combinations. Whatever is added to the planet's tooth lowers
-    // both zones alike, so none comes near a difference of 6 points without two or three gross
-    // errors at once. One pair is in contact during 6 % of the period only (contact ratio 1.94), a
-    // narrow notch in his Fig. 3.6, from which the two numbers were presumably read. No single
-    // error that explains them was found; the row keeps what the formulas give. Finite-element
-    // teeth so simplified drop by 16.4 and 16.6 % (test_finite_element_gears.cpp).
+    // formulas do not give this at any phase: -11.3 to -15.2 % with two pairs, -13.2 to -13.7 %
+    // with one. Module and rounding have no influence (stiffness per face width is independent of
+    // scale; radii 45.2 / 46.2 give -13.71 %).
+    // An independent script tried some 6,000 combinations, double / single: dedendum 1.375 m
+    // -18.9 / -18.8 %, 1.5 m -24.0 / -24.2 %; no shear -15.6 / -14.2 %. Others were shear or
+    // bending of the straight part doubled or fourfold, a rigid ring, inv a0 with the wrong sign in
+    // beta_2, wrong direction or rate of the ring's rotation, and contact on the planet starting at
+    // the tip. Any change of the planet's tooth lowers both zones equally, so none comes near a
+    // difference of 6 points without two or three gross errors at once. One pair is in contact
+    // during 6 % of the period only (contact ratio 1.94), a narrow notch in his Fig. 3.6, from
+    // which the two numbers were presumably read. No single error explains them; the row keeps the
+    // result of the formulas. Finite-element teeth with the same simplifications drop by 16.4
+    // and 16.6 % (test_finite_element_gears.cpp).
     const gears::MeshGeometry mesh(external(31), internal(81));
     const double c = mesh.contact_ratio();
     CHECK(root_circle_change(mesh, 0, c - 1) == Approx(-0.1371).margin(0.0005));
     CHECK(root_circle_change(mesh, c - 1, 1) == Approx(-0.1344).margin(0.0005));
 }
 
-TEST_CASE("a tooth pair is Hertz contact and two beams in series") {
+TEST_CASE("a tooth pair is a Hertz contact and two beams in series") {
     for (const auto& gear : cracked_gears()) {
         const AdditiveMesh pair(gear.geometry, kLiangSteel, gear.profile);
         const ToothProfile first(gear.geometry.gear(1), gear.profile);
@@ -102,7 +104,7 @@ TEST_CASE("a tooth pair is Hertz contact and two beams in series") {
     }
 }
 
-TEST_CASE("two pairs touch until the contact ratio's fraction, then one") {
+TEST_CASE("two pairs are in contact until the contact ratio's fraction, then one") {
     const AdditiveMesh pair(gears::MeshGeometry(external(19), external(31)), kLiangSteel,
                             Profile::root_circle);
     const double c = pair.contact_ratio();
@@ -119,7 +121,7 @@ TEST_CASE("two pairs touch until the contact ratio's fraction, then one") {
     CHECK(total_at(pair, cut, Limit::from_below) ==
           Approx(pair.tooth_pair(cut) + pair.tooth_pair(c)));
     CHECK(total_at(pair, cut, Limit::from_above) == pair.tooth_pair(cut));
-    // Limits, from phases far away and negative ones.
+    // Limits at large and at negative phases.
     CHECK(total_at(pair, 2511 + cut, Limit::from_below) ==
           Approx(total_at(pair, cut - 1e-7)).epsilon(1e-6));
     CHECK(total_at(pair, -3, Limit::from_above) == total_at(pair, 0, Limit::from_above));

@@ -28,7 +28,7 @@ TEST_CASE("the coefficients of T_3 are one") {
     CHECK(chebyshev_terms(coefficients, 1e-12) == 4);
 }
 
-TEST_CASE("values are raised to the least one asked for") {
+TEST_CASE("values are raised to a given minimum") {
     const double line[] = {0, 1};
     const std::vector<double> t{-1, -0.5, 0.5};
     std::vector<double> values(3);

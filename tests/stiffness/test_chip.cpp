@@ -16,7 +16,7 @@ const gears::MeshGeometry kTianMesh(external(19), external(48));
 constexpr double kFace = kTianSteel.face_width_m;
 constexpr double kLength = 8e-3, kDepth = 2e-3;  // Tian (2004), below Eq. 3.4: z and b
 
-// d_c of Eq. 3.3 with the contact's own angle, not through the profile.
+// Distance d_c of Eq. 3.3 with the contact's own angle, not through the profile.
 double distance(double tau) {
     const double a = kTianMesh.contact_angle(1, tau);
     const double base = kTianMesh.gear(1).base_radius();
@@ -26,13 +26,13 @@ double distance(double tau) {
 
 }  // namespace
 
-TEST_CASE("Tian's chip of 8 mm begins to be touched when the pinion has turned 22.4 degrees") {
+TEST_CASE("contact with Tian's chip of 8 mm begins when the pinion has turned 22.4 degrees") {
     const ToothChip family(kTianMesh, kFace, 1);
     const auto chip = family.at(kLength);
     REQUIRE(chip->breaks().size() == 2);
     const double begin = chip->breaks()[0];
     CHECK(begin * 360 / 19 == Approx(22.4).margin(0.05));
-    // Section 4.4: one shaft turn later at t = 0.0354 s; the pinion turns at 30 Hz.
+    // Source: section 4.4, one shaft turn later at t = 0.0354 s; the pinion speed is 30 Hz.
     CHECK((1 + begin / 19) / 30 == Approx(0.0354).margin(0.00005));
     CHECK(chip->contact_width(begin - 1e-9) == 1);
     CHECK(chip->contact_width(begin + 1e-9) == Approx(1).epsilon(1e-6));
@@ -42,7 +42,7 @@ TEST_CASE("the chip's edge is the hyperbola through Tian's two points") {
     const ToothChip family(kTianMesh, kFace, 1);
     const auto chip = family.at(kLength);
     const double height = family.tooth_height();
-    // L_c d_c = A + B d_c through (L, d_h - b) and (L - z, d_h).
+    // Hyperbola L_c d_c = A + B d_c through (L, d_h - b) and (L - z, d_h).
     const double b = ((kFace - kLength) * height - kFace * (height - kDepth)) / kDepth;
     const double a = (kFace - b) * (height - kDepth);
     double before = 1;
@@ -59,7 +59,7 @@ TEST_CASE("the chip's edge is the hyperbola through Tian's two points") {
           Approx((kFace - kLength) / kFace).epsilon(1e-12));
 }
 
-TEST_CASE("a chip lowers the Hertz stiffness of its own pair in proportion to the width, no more") {
+TEST_CASE("a chip lowers only the Hertz stiffness of its own pair, in proportion to the width") {
     const AdditiveMesh mesh(kTianMesh, kTianSteel, Profile::base_circle);
     const ToothChip family(kTianMesh, kFace, 1);
     const auto chip = family.at(kLength);
@@ -84,7 +84,7 @@ TEST_CASE("chips on either gear, external or internal, lie at its tip") {
         const double length = 4e-3;
         const auto chip = family.at(length);
         CHECK(family.problems(length).empty());
-        // Gear 1 is touched at its tip last, gear 2 first.
+        // Contact reaches the tip of gear 1 last, that of gear 2 first.
         const double tip = gear.which == 1 ? gear.geometry.contact_ratio() : 0;
         const double other = gear.geometry.contact_ratio() - tip;
         CHECK(chip->contact_width(tip) < 1 - 0.8 * length / 0.0381);
@@ -93,7 +93,7 @@ TEST_CASE("chips on either gear, external or internal, lie at its tip") {
     }
 }
 
-TEST_CASE("a chip larger than its tooth is named as such") {
+TEST_CASE("a chip larger than its tooth is reported as such") {
     const ToothChip family(kTianMesh, kFace, 1);
     CHECK(family.problems(kLength).empty());
     CHECK(family.problems(17e-3).size() == 1);

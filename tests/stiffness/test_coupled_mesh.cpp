@@ -20,7 +20,7 @@ double share_at(const MeshStiffness& mesh, double tau) {
     return share;
 }
 
-// Three pairs in contact at times: a tall pair of many teeth.
+// A tall pair of many teeth, with up to three pairs in contact.
 gears::MeshGeometry tall() {
     const auto gear = [](int teeth) {
         return gears::Gear{teeth, false, 2e-3, 20 * kDegree, 1.4, 1.65};
@@ -34,7 +34,7 @@ CoupledMeshOptions tall_options(FoundationModel foundation, Contact contact) {
 
 }  // namespace
 
-TEST_CASE("without foundation and with linear contacts the tooth pairs are springs side by side") {
+TEST_CASE("without foundation and with linear contacts the tooth pairs are springs in parallel") {
     for (const Profile profile : {Profile::base_circle, Profile::root_circle, Profile::fillet})
         for (const auto& geometry : {sun_planet(), ring_planet(), tall()}) {
             const CoupledMesh mesh(geometry, kSteel, profile, {});
@@ -47,7 +47,7 @@ TEST_CASE("without foundation and with linear contacts the tooth pairs are sprin
         }
 }
 
-TEST_CASE("faulty pairs agree with springs side by side, too") {
+TEST_CASE("faulty pairs also agree with springs in parallel") {
     const auto geometry = sun_planet();
     const CoupledMesh mesh(geometry, kSteel, Profile::fillet, {});
     const AdditiveMesh springs(geometry, kSteel, Profile::fillet);
@@ -101,7 +101,7 @@ TEST_CASE("one pair and two pairs have Yang's stiffnesses 20 to 24") {
         }
 }
 
-TEST_CASE("shares add up to one, with three pairs in contact, too") {
+TEST_CASE("shares add up to one, also with three pairs in contact") {
     const auto geometry = tall();
     REQUIRE(geometry.contact_ratio() > 2.1);
     for (const FoundationModel model : {FoundationModel::none, FoundationModel::elastic_ring}) {
@@ -136,7 +136,7 @@ TEST_CASE("twice the load makes the contact 2^0.1 times as stiff and the mesh st
           Approx(hertz * (std::pow(2, -0.1) - 1)).epsilon(1e-9));
 }
 
-TEST_CASE("the bodies soften the mesh, and coupled teeth more than teeth alone") {
+TEST_CASE("the bodies soften the mesh, and coupled teeth more than single teeth") {
     const auto with = [&](FoundationModel model) {
         return mean_total(CoupledMesh(sun_planet(), kSteel, Profile::fillet,
                                       options(model, Contact::load_dependent)));
@@ -145,7 +145,7 @@ TEST_CASE("the bodies soften the mesh, and coupled teeth more than teeth alone")
     CHECK(with(FoundationModel::elastic_ring) < with(FoundationModel::sainsot));
 }
 
-TEST_CASE("a tooth that carries nothing leaves the load to the others") {
+TEST_CASE("a tooth without load leaves the load to the others") {
     const auto geometry = tall();
     const CoupledMesh mesh(geometry, kSteel, Profile::fillet,
                            tall_options(FoundationModel::elastic_ring, Contact::load_dependent));
@@ -153,8 +153,8 @@ TEST_CASE("a tooth that carries nothing leaves the load to the others") {
                            options(FoundationModel::elastic_ring, Contact::load_dependent));
     const auto broken = BrokenTooth().at(1);
     const auto gap = yang.with_fault(*broken);
-    CHECK(total_at(*gap, yang.transitions(), 0.8) == 0);  // the only pair
-    // Beside another pair: that pair alone.
+    CHECK(total_at(*gap, yang.transitions(), 0.8) == 0);  // the only pair in contact
+    // Stiffness of the other pair alone.
     const double tau = 0.3;
     const HertzContact contact(kSteel, Contact::load_dependent);
     const double alone =
@@ -168,13 +168,13 @@ TEST_CASE("a tooth that carries nothing leaves the load to the others") {
     }
 }
 
-TEST_CASE("load-dependent contacts need a load") {
+TEST_CASE("load-dependent contacts require a load") {
     CHECK_THROWS_AS(CoupledMesh(sun_planet(), kSteel, Profile::fillet,
                                 {FoundationModel::none, Contact::load_dependent}),
                     std::invalid_argument);
 }
 
-TEST_CASE("Coupled tooth pairs with a fault: a broken one carries nothing, the others all") {
+TEST_CASE("Coupled tooth pairs with a fault: a broken one carries no load, the others all of it") {
     const auto geometry = sun_planet();
     const CoupledMesh mesh(geometry, kSteel, Profile::fillet,
                            options(FoundationModel::elastic_ring, Contact::linear));
@@ -188,7 +188,7 @@ TEST_CASE("Coupled tooth pairs with a fault: a broken one carries nothing, the o
         faulty->tooth_pair(neighbour, {&tau, 1}, tau, {&other, 1});
         CHECK(own == Approx(0.0).margin(1.0));
         CHECK(other == Approx(total_at(*faulty, transitions, tau)).epsilon(1e-8));
-        // Alone it is stiffer than beside a neighbour that presses the bodies, too.
+        // A single pair is stiffer than one whose neighbour also loads the bodies.
         const double healthy = total_at(mesh, tau) * share_at(mesh, tau - neighbour);
         CHECK(other > 1.01 * healthy);
     }

@@ -1,5 +1,5 @@
-// Loss of mesh stiffness by a crack, by fracture mechanics, against finite elements of whole gears.
-// Table and how it was made: tests/peers/fem-gear-pairs/README.md.
+// Checks the loss of mesh stiffness by a crack, by fracture mechanics, against finite elements of
+// whole gears. Table and its computation: tests/peers/fem-gear-pairs/README.md.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -26,7 +26,7 @@ using test_pairs::kLiangSteel;
 
 namespace {
 
-// A pair of gears with the cracked one, and where their bodies are held.
+// A gear pair with the cracked gear, and the radii at which the bodies are fixed.
 struct Gears {
     gears::MeshGeometry geometry;
     int cracked;
@@ -52,7 +52,7 @@ Gears bell(int cracked) {
             0.0315};
 }
 
-// As the table names the cracked tooth.
+// Gears by the table's name of the cracked tooth.
 Gears gears_of(const std::string& tooth) {
     if (tooth.starts_with("bell"))
         return bell(tooth == "bell-sun" ? 1 : 2);
@@ -71,7 +71,7 @@ struct CrackedPair {
           cracks(gears.geometry, kLiangSteel, profile, gears.cracked, kCrackAngle,
                  CrackLaw::fracture_mechanics) {}
 
-    // Share of the mesh stiffness that is lost at a position since the tooth's engagement began.
+    // Lost fraction of the mesh stiffness at a position since the tooth's engagement began.
     double loss(double depth_m, double tau) const {
         const auto crack = cracks.at(depth_m);
         const auto faulty = mesh.with_fault(*crack);
@@ -101,7 +101,7 @@ constexpr Profile kProfiles[] = {Profile::fillet, Profile::root_circle};
 
 }  // namespace
 
-TEST_CASE("a crack takes the mesh stiffness that finite elements lose, within 15 %", "[crack]") {
+TEST_CASE("a crack reduces the mesh stiffness as in finite elements, within 15 %", "[crack]") {
     int rows = 0;
     for (const Row& row : finite_elements::table("cracks.csv")) {
         INFO(row.text("tooth") << " " << row.text("profile") << ", " << row.text("share")
@@ -122,7 +122,7 @@ TEST_CASE("the loss grows from the first hundredth of a millimetre to the whole 
         for (const Profile profile : kProfiles) {
             INFO(tooth << (profile == Profile::fillet ? " fillet" : " root circle"));
             const CrackedPair pair(tooth, profile);
-            // High on the tooth.
+            // Position high on the tooth.
             const double largest = pair.cracks.largest_size(),
                          tau = pair.gears.cracked == 1 ? 1.3 : 0.3;
             double before = 0;
@@ -133,7 +133,7 @@ TEST_CASE("the loss grows from the first hundredth of a millimetre to the whole 
                 before = loss;
             }
             CHECK(pair.loss(1e-4, tau) > 5e-5);
-            // Other pairs carry the load alone once the tooth is gone.
+            // Other pairs carry the whole load once the tooth has broken off.
             const double gone = pair.loss(largest, tau);
             CHECK(gone > before);
             CHECK(pair.loss(largest * (1 - 1e-4), tau) == Approx(gone).epsilon(1e-3));
@@ -165,7 +165,7 @@ TEST_CASE("the added compliance is the integral of the energy release rate", "[c
     }
 }
 
-TEST_CASE("the critical section is the fillet's 30 degree tangent", "[crack]") {
+TEST_CASE("the critical section is at the fillet's 30 degree tangent", "[crack]") {
     for (const int teeth : {19, 31, 60}) {
         const ToothProfile tooth(test_pairs::external(teeth), Profile::fillet);
         const double u = tooth.critical(), step = 1e-6;
@@ -179,7 +179,7 @@ TEST_CASE("the critical section is the fillet's 30 degree tangent", "[crack]") {
     CHECK(ring.critical() == ring.root());
 }
 
-TEST_CASE("a spatial crack of one depth is the plane crack by fracture mechanics", "[crack]") {
+TEST_CASE("a spatial crack of one depth equals the plane crack by fracture mechanics", "[crack]") {
     for (const char* tooth : kTeeth) {
         INFO(tooth);
         const CrackedPair pair(tooth, Profile::fillet);

@@ -1,4 +1,4 @@
-// Faults of the tooth pair and of the mesh, on independent tooth pairs and on a square wave.
+// Checks faults of the tooth pair and of the mesh, on independent tooth pairs and on a square wave.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -20,12 +20,12 @@ double faulty_at(const MeshStiffness& mesh, const ToothFault& fault, double tau)
     return total_at(*mesh.with_fault(fault), mesh.transitions(), tau);
 }
 
-// Park et al. (2016), section V-A: sun-planet mesh. The contact ratio is not given there.
+// Source: Park et al. (2016), section V-A, sun-planet mesh. The contact ratio is not given there.
 const SquareWaveMesh kPark(2.7e9, 4.2e9, 1.6);
 
 }  // namespace
 
-TEST_CASE("a broken tooth leaves its neighbour where two pairs touched, and nothing elsewhere") {
+TEST_CASE("a broken tooth leaves its neighbour in the double-pair zone, and nothing elsewhere") {
     const gears::MeshGeometry tian(external(19), external(48));
     const AdditiveMesh mesh(tian, kTianSteel, Profile::base_circle);
     const auto broken = BrokenTooth().at(1);
@@ -41,7 +41,7 @@ TEST_CASE("a broken tooth leaves its neighbour where two pairs touched, and noth
     }
 }
 
-TEST_CASE("a tooth that keeps a part of its pair's stiffness adds that part") {
+TEST_CASE("a tooth that keeps a part of its pair's stiffness contributes that part") {
     const gears::MeshGeometry geometry(external(31), internal(81));
     const AdditiveMesh mesh(geometry, kLiangSteel, Profile::root_circle);
     const auto weak = BrokenTooth().at(0.3);
@@ -50,7 +50,7 @@ TEST_CASE("a tooth that keeps a part of its pair's stiffness adds that part") {
               Approx(total_at(mesh, tau) - 0.3 * mesh.tooth_pair(tau)).epsilon(1e-9));
 }
 
-TEST_CASE("a reduction takes its part of the whole mesh while its tooth is engaged") {
+TEST_CASE("a reduction removes its part of the whole mesh during its tooth's engagement") {
     const gears::MeshGeometry geometry(external(19), external(31));
     const AdditiveMesh mesh(geometry, kLiangSteel, Profile::root_circle);
     const auto reduced = Reduction().at(0.2);
@@ -62,7 +62,7 @@ TEST_CASE("a reduction takes its part of the whole mesh while its tooth is engag
     CHECK(kPark.with_fault(*reduced)->duration() == 1.6);
 }
 
-TEST_CASE("a square wave is high while two pairs touch and low while one does") {
+TEST_CASE("a square wave is high with two pairs in contact and low with one") {
     CHECK(total_at(kPark, 0.3) == 4.2e9);
     CHECK(total_at(kPark, 0.7) == 2.7e9);
     CHECK(total_at(kPark, -0.3) == 2.7e9);
@@ -83,7 +83,7 @@ TEST_CASE("a square wave is high while two pairs touch and low while one does") 
     CHECK(share == 0);
 }
 
-TEST_CASE("a broken tooth takes from a square wave what its pair adds") {
+TEST_CASE("a broken tooth removes its pair's contribution from a square wave") {
     const auto broken = BrokenTooth().at(1), weak = BrokenTooth().at(0.5);
     CHECK(faulty_at(kPark, *broken, 0.3) == 2.7e9);
     CHECK(faulty_at(kPark, *broken, 0.8) == 0);
@@ -92,7 +92,7 @@ TEST_CASE("a broken tooth takes from a square wave what its pair adds") {
     CHECK(faulty_at(kPark, *weak, 0.8) == Approx(1.35e9));
 }
 
-TEST_CASE("a constant mesh never changes, and its one transition is where teeth change") {
+TEST_CASE("a constant mesh never changes, and its one transition is between two teeth") {
     const SquareWaveMesh lumped = SquareWaveMesh::constant(5e8);
     CHECK(mean_total(lumped) == Approx(5e8).epsilon(1e-14));
     for (const double tau : {0.0, 0.25, 1.0, 7.75})
@@ -102,7 +102,7 @@ TEST_CASE("a constant mesh never changes, and its one transition is where teeth 
     CHECK(faulty_at(lumped, *BrokenTooth().at(1), 0.5) == 0);
 }
 
-TEST_CASE("what a square wave does not know is refused, and so is what is no square wave") {
+TEST_CASE("faults unsupported by a square wave are refused, and so are invalid square waves") {
     const gears::MeshGeometry geometry(external(19), external(31));
     const ToothCrack cracks(geometry, kLiangSteel, Profile::root_circle, 1, kCrackAngle);
     const ToothChip chips(geometry, 0.0381, 1);
@@ -115,7 +115,7 @@ TEST_CASE("what a square wave does not know is refused, and so is what is no squ
     CHECK_THROWS_AS(SquareWaveMesh(1e9, 2e9, 2.1), std::invalid_argument);
 }
 
-TEST_CASE("a crack on gear 1 or 2 weakens the pair that the curve of its gear says") {
+TEST_CASE("a crack on gear 1 or 2 weakens the pair according to the curve of its gear") {
     for (const auto& gear : cracked_gears()) {
         const AdditiveMesh mesh(gear.geometry, kLiangSteel, gear.profile);
         const ToothCrack family(gear.geometry, kLiangSteel, gear.profile, gear.which, kCrackAngle);

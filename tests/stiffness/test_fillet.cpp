@@ -29,7 +29,7 @@ void check_equal(const ToothCompliance& computed, const ToothCompliance& expecte
     CHECK(computed.axial == Approx(expected.axial).epsilon(1e-8).margin(1e-30));
 }
 
-// Direction of the flank, from the section at u towards the root.
+// Direction of the flank from the section at u towards the root.
 double slope(const ToothProfile& profile, double u, double step) {
     const ToothSection a = profile.section(u), b = profile.section(u + step);
     return std::atan2(b.half_thickness - a.half_thickness, b.axial - a.axial);
@@ -47,8 +47,8 @@ TEST_CASE("the fillet's arc solves Yang's equations 10 to 15") {
     }
 }
 
-TEST_CASE("the flank runs on without step or corner from the involute to the root circle") {
-    // 28 teeth, Yang's sun, and 19 have a radial part between involute and arc.
+TEST_CASE("the flank is smooth from the involute to the root circle") {
+    // Yang's sun of 28 teeth, and 19 teeth, have a radial part between involute and arc.
     for (const int teeth : {19, 28, 30, 34, 96}) {
         const ToothProfile profile(gear_of(teeth), Profile::fillet);
         for (const double u : {profile.involute_root(), profile.fillet_end()}) {
@@ -60,7 +60,7 @@ TEST_CASE("the flank runs on without step or corner from the involute to the roo
                          std::copysign(printed::kPi, slope(profile, u - 1e-5, -1e-5)))
                       .margin(1e-3));
         }
-        // On the root circle, and along it.
+        // The arc ends on the root circle and tangent to it.
         CHECK(profile.root_radius() == Approx(gear_of(teeth).root_radius()).epsilon(1e-12));
         const ToothSection end = profile.section(profile.root()),
                            near = profile.section(profile.root() - 1e-6);
@@ -82,7 +82,7 @@ TEST_CASE("a tooth with a fillet has Yang's compliances 16 to 18") {
     }
 }
 
-TEST_CASE("a fillet takes a few percent of the root circle profile's compliance away") {
+TEST_CASE("a fillet reduces the root circle profile's compliance by a few percent") {
     for (const int teeth : {28, 34, 60}) {
         const gears::MeshGeometry mesh(gear_of(28), gear_of(teeth));
         const double a1 = mesh.contact_angle(2, 0.5 * mesh.contact_ratio());
@@ -120,7 +120,7 @@ TEST_CASE("cracks on the fillet and on the involute have Yang's compliances 30 t
         const char* name;
         yang::Tooth::Crack crack;
     };
-    // The names' conditions are those of a contact near the tip.
+    // The conditions of the names are those of a contact near the tip.
     const Condition conditions[] = {
         {"fillet, case 1, tip below h_te", {1.5 * mm, 45 * degree, 0.2 * mm}},
         {"fillet, case 1, tip above h_te", {0.15 * mm, 45 * degree, 0.05 * mm}},
@@ -149,7 +149,7 @@ TEST_CASE("cracks on the fillet and on the involute have Yang's compliances 30 t
         }
 }
 
-TEST_CASE("a contact below the crack's start does not see the crack") {
+TEST_CASE("a crack has no effect on a contact below its start") {
     const ToothProfile profile(gear_of(34), Profile::fillet);
     const Crack crack{2e-3, 1.2, 3e-3};
     const CrackedSections sections(profile, crack);
@@ -161,7 +161,7 @@ TEST_CASE("a contact below the crack's start does not see the crack") {
     CHECK(ratio(sections.start() - 1e-3) > 1);
 }
 
-TEST_CASE("a tooth is cut through where the crack reaches the other flank") {
+TEST_CASE("a tooth breaks where the crack reaches the other flank") {
     for (const Profile kind : {Profile::root_circle, Profile::fillet})
         for (const double height : {0.0, 0.4e-3, 1.5e-3, 3e-3})
             for (const double angle : {0.5, 0.8, 1.5}) {
@@ -172,7 +172,7 @@ TEST_CASE("a tooth is cut through where the crack reaches the other flank") {
                     tooth_compliance(profile, kSteel, 0.4, {depth, angle, height}).total()));
                 CHECK(CrackedSections(profile, {depth * (1 - 1e-9), angle, height}).broken() ==
                       false);
-                // Just before, the sections left below the boundary are positive.
+                // Sections below the boundary are positive just before breakage.
                 const CrackedSections sections(profile, {depth * (1 - 1e-6), angle, height});
                 for (double u = std::max(tip, sections.boundary()) + 1e-9; u < sections.lower_end();
                      u += 0.01)

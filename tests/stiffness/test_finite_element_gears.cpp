@@ -1,5 +1,5 @@
-// Shifted, internal and cracked pairs, and helical ones, against finite elements of whole gears.
-// Tables, how they were made and what they say: tests/peers/fem-gear-pairs/README.md.
+// Checks shifted, internal, cracked and helical pairs against finite elements of whole gears.
+// Tables and their computation: tests/peers/fem-gear-pairs/README.md.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -40,7 +40,7 @@ struct Case {
     double held_1, held_2;  // m
 };
 
-// 27/35/99 teeth of studies/bell-206b.toml, with fillets; 31/81 of
+// Teeth 27/35/99 of studies/bell-206b.toml, with fillets; 31/81 of
 // studies/published/liang-fig-3-16.toml.
 Case case_named(const std::string& name) {
     if (name.starts_with("liang"))
@@ -94,7 +94,7 @@ struct Range {
     bool within(double low, double high) const { return least > low && largest < high; }
 };
 
-// The program's stiffness over the finite elements', where that many pairs touch.
+// The program's stiffness over that of the finite elements, where that many pairs are in contact.
 Range over_elements(const MeshStiffness& mesh, const std::string& name, int pairs,
                     const std::string& column = "flank_N_m") {
     Range range;
@@ -104,9 +104,9 @@ Range over_elements(const MeshStiffness& mesh, const std::string& name, int pair
     return range;
 }
 
-// Of one gear of a case with the elastic ring: the program's compliance over the finite elements',
-// as a whole (with half of the linear contact), from the flank's centre line on, and what lies
-// between the flank and it.
+// Ratios for one gear of a case with the elastic ring: the program's compliance over that of the
+// finite elements. They are for the whole (with half of the linear contact), for the part beyond
+// the flank's centre line, and for the part between the flank and it.
 struct ToothRatios {
     Range whole, tooth_and_body, contact;
 };
@@ -134,7 +134,7 @@ ToothRatios tooth_ratios(const std::string& name, int which) {
     return ratios;
 }
 
-// A row of a cracked case: what the crack leaves of the stiffness by the finite elements and by the
+// A row of a cracked case: remaining fraction of the stiffness by the finite elements and by the
 // program.
 struct Cracked {
     double phase;
@@ -171,7 +171,7 @@ struct Helical {
     double overlap;
 };
 
-// 21/39 teeth of studies/wind-turbine-helical.toml, or of a larger helix angle.
+// Teeth 21/39 of studies/wind-turbine-helical.toml, or of a larger helix angle.
 Helical helical_named(const std::string& name) {
     const bool wide = name.ends_with("-wide");
     const double helix = std::stod(name.substr(6)) * std::numbers::pi / 180;
@@ -199,7 +199,7 @@ Helical helical_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the finite elements' outlines touch where the program's gears do") {
+TEST_CASE("the finite elements' outlines are in contact where the program's gears are") {
     const std::vector<mesh_level::LevelPair> levels = mesh_level::all_pairs();
     for (const Row& row : finite_elements::table("cases.csv")) {
         const std::string& name = row.text("case");
@@ -231,17 +231,17 @@ TEST_CASE("other models of the bodies and the contact differ from finite element
     for (const std::string name : {"bell-sun", "bell-ring", "liang-ring"}) {
         INFO(name);
         const Case c = case_named(name);
-        // Rigid bodies: twice as stiff and more.
+        // Rigid bodies: at least twice as stiff.
         const auto rigid = model(c, FoundationModel::none);
         CHECK(over_elements(*rigid, name, 2).within(2.1, 2.7));
         CHECK(over_elements(*rigid, name, 1).within(2.0, 2.45));
-        // The right contact on teeth and bodies that are too soft.
+        // Right contact on teeth and bodies that are too soft.
         const auto loaded =
             model(c, FoundationModel::elastic_ring, Contact::load_dependent, force_of(name));
         CHECK(over_elements(*loaded, name, 2).within(0.81, 0.90));
         CHECK(over_elements(*loaded, name, 1).within(0.78, 0.88));
     }
-    // Sainsot's knows no coupling, and no internal gear.
+    // Sainsot's model has no coupling and no internal gears.
     const auto sun = model(case_named("bell-sun"), FoundationModel::sainsot);
     CHECK(over_elements(*sun, "bell-sun", 2).within(1.19, 1.22));
     CHECK(over_elements(*sun, "bell-sun", 1).within(1.03, 1.06));
@@ -249,7 +249,7 @@ TEST_CASE("other models of the bodies and the contact differ from finite element
     CHECK(over_elements(*ring, "bell-ring", 1).within(1.27, 1.34));
 }
 
-TEST_CASE("tooth by tooth two errors cancel: soft teeth and bodies, stiff contacts") {
+TEST_CASE("two errors cancel for each tooth: soft teeth and bodies, stiff contacts") {
     for (const std::string name : {"bell-sun", "bell-ring", "liang-ring"})
         for (const int which : {1, 2}) {
             INFO(name << ", gear " << which);
@@ -260,9 +260,9 @@ TEST_CASE("tooth by tooth two errors cancel: soft teeth and bodies, stiff contac
         }
 }
 
-TEST_CASE("a cracked planet tooth on the ring loses what finite elements lose") {
-    // 25 and 50 % of Liang (2016), Fig. 3.16, with elastic bodies: the stiffness within 8 %, what
-    // is lost within 6 points of it. Rigid bodies, as his, lose half as much again.
+TEST_CASE("a cracked planet tooth on the ring loses as much stiffness as finite elements") {
+    // Cracks of 25 and 50 % of Liang (2016), Fig. 3.16, with elastic bodies: the stiffness within 8
+    // %, the loss within 6 percentage points. His rigid bodies lose half as much again.
     for (const std::string name : {"liang-ring-2.15", "liang-ring-4.28"})
         for (const Cracked& at : cracked_rows(name)) {
             INFO(name << " at " << at.phase << ", cracked " << at.tooth);
@@ -277,10 +277,10 @@ TEST_CASE("a cracked planet tooth on the ring loses what finite elements lose") 
 }
 
 TEST_CASE("the drop of the ring-planet mesh by a root circle below the base circle") {
-    // Liang (2016), section 3.3: 17 % with two pairs, 23 % with one; his formulas 13.7 and 13.4 %
-    // (test_additive_mesh.cpp). Finite-element teeth simplified as his are (held along their
-    // chords, their centre lines moved, his contact) drop by 16.4 and 16.6 %; with real contacts
-    // by 10.8 and 10.2 %.
+    // Source: Liang (2016), section 3.3, 17 % with two pairs, 23 % with one; his formulas give 13.7
+    // and 13.4 % (test_additive_mesh.cpp). Finite-element teeth with his simplifications (fixed
+    // along their chords, displacement of their centre lines, his contact) drop by 16.4 and 16.6 %;
+    // with real contacts by 10.8 and 10.2 %.
     const Case c = case_named("liang-ring");
     const AdditiveMesh root(c.geometry, test_pairs::kLiangSteel, Profile::root_circle),
         base(c.geometry, test_pairs::kLiangSteel, Profile::base_circle);
@@ -297,7 +297,7 @@ TEST_CASE("the drop of the ring-planet mesh by a root circle below the base circ
         zone.elements += elements;
         zone.real += 1 - row.number("root_N_m") / row.number("base_N_m");
         ++zone.rows;
-        // Beams drop less at every phase.
+        // Beams have a smaller drop at every phase.
         CHECK(formulas / elements > 0.78);
         CHECK(formulas / elements < 0.87);
     }
@@ -310,9 +310,10 @@ TEST_CASE("the drop of the ring-planet mesh by a root circle below the base circ
     check(zones[0], 0.134, 0.166, 0.102);
 }
 
-TEST_CASE("helical teeth as slices are as stiff as solid ones but for the ends of narrow gears") {
-    // What slices leave out: free ends (nearly straight teeth), the lean, pairs that bend one
-    // another from other places along the width. The factors of the helix make up for the latter.
+TEST_CASE(
+    "helical teeth as slices are as stiff as solid ones except for the ends of narrow gears") {
+    // Slices neglect free ends (nearly straight teeth), the lean, and bending of pairs by contacts
+    // at other positions along the width. The factors of the helix compensate the latter.
     struct Expected {
         double solid_over_slices, factors, helical_over_solid;
     };
@@ -330,7 +331,7 @@ TEST_CASE("helical teeth as slices are as stiff as solid ones but for the ends o
         const double at = row.number("tau"), helical = total_at(*h.helical, at),
                      spur = total_at(*h.spur, at);
         const double solid = row.number("solid_weber_N_m"), slices = row.number("slices_weber_N_m");
-        // The section itself, as a spur pair's.
+        // The section itself as a spur pair.
         CHECK(spur / slices == Approx(1.02).margin(0.013));
         CHECK(solid / slices == Approx(as.solid_over_slices).margin(0.006));
         CHECK(helical / spur == Approx(as.factors).margin(0.002));
@@ -368,7 +369,7 @@ TEST_CASE("tooth compliance over the finite elements'", "[.fem]") {
         }
 }
 
-TEST_CASE("what cracks leave of the mesh stiffness", "[.fem]") {
+TEST_CASE("remaining mesh stiffness of cracked gears", "[.fem]") {
     std::puts("| crack | phase | cracked | elements | ring | rigid | ring over elements |");
     for (const std::string name : {"liang-ring-2.15", "liang-ring-4.28"})
         for (const Cracked& at : cracked_rows(name))

@@ -1,5 +1,5 @@
-// Liang (2016), section 3.7: 23/23 aluminium gears, healthy and with a crack of 4.7 mm, against
-// finite elements. The table and how it was made: tests/peers/fem-liang-table-3-5/README.md.
+// Checks Liang (2016), section 3.7: 23/23 aluminium gears, healthy and with a crack of 4.7 mm,
+// against finite elements. Table and its computation: tests/peers/fem-liang-table-3-5/README.md.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -19,7 +19,7 @@ struct Row {
     double phase = 0;
     int pairs = 0;
     double gears = 0, cracked_entering = 0, cracked_leaving = 0;  // N/m, whole gears
-    double teeth = 0, beams = 0;  // N/m, teeth held at their roots, healthy
+    double teeth = 0, beams = 0;  // N/m, teeth fixed at their roots, healthy
 };
 
 std::vector<Row> finite_element_table() {
@@ -44,7 +44,7 @@ std::vector<Row> finite_element_table() {
     return rows;
 }
 
-// Of the finite elements.
+// Dimensions of the finite elements.
 constexpr double kBore_m = 0.025;
 constexpr double kTorque_N_m = 60;
 
@@ -56,7 +56,7 @@ struct TestGears {
     std::unique_ptr<const ToothFault> crack = cracks.at(4.7e-3);
 };
 
-// A mesh model at the table's rows.
+// A mesh model evaluated at the table's rows.
 class MeshAtRows {
   public:
     MeshAtRows(const MeshStiffness& mesh, const ToothFault& crack)
@@ -87,15 +87,15 @@ struct AluminiumPair : TestGears {
 
 TEST_CASE("Liang's test gears have the published contact ratio and angle of meshing") {
     const AluminiumPair pair;
-    // Table 3.4: 1.59 and 24.912 degrees.
+    // Source: Table 3.4, 1.59 and 24.912 degrees.
     CHECK(pair.geometry.contact_ratio() == Approx(1.59).margin(0.005));
     CHECK(pair.geometry.contact_ratio() * 360 / 23 == Approx(24.912).margin(0.0005));
 }
 
-TEST_CASE("The analytic mesh stiffness has the course of the finite-element teeth's, 20 % lower") {
-    // Like for like: teeth held at their roots, deflection of the tooth's centre line, linear Hertz
-    // contact. Beams with a constant shear factor up to the loaded section give way more than a
-    // stubby wedge does.
+TEST_CASE("The analytic mesh stiffness follows that of finite-element teeth, 20 % lower") {
+    // Equal assumptions: teeth fixed at their roots, deflection of the tooth's centre line, linear
+    // Hertz contact. Beams with a constant shear factor up to the loaded section are more compliant
+    // than a stubby wedge.
     const AluminiumPair pair;
     for (const Row& row : finite_element_table()) {
         INFO("phase " << row.phase);
@@ -104,7 +104,7 @@ TEST_CASE("The analytic mesh stiffness has the course of the finite-element teet
 }
 
 TEST_CASE("Finite-element teeth under the pressure of a Hertz contact are 26 to 32 % softer") {
-    // The linear Hertz stiffness pi E L / 4 (1 - nu^2) leaves out what the contact's width does.
+    // The linear Hertz stiffness pi E L / 4 (1 - nu^2) neglects the effect of the contact's width.
     const AluminiumPair pair;
     for (const Row& row : finite_element_table()) {
         INFO("phase " << row.phase);
@@ -113,7 +113,7 @@ TEST_CASE("Finite-element teeth under the pressure of a Hertz contact are 26 to 
 }
 
 TEST_CASE("Finite-element gears with their bodies are softer by a factor of 2.7 to 3.0") {
-    // Liang's model has no body; what one brings is below.
+    // Liang's model has no body; the effect of a body is below.
     const AluminiumPair pair;
     for (const Row& row : finite_element_table()) {
         INFO("phase " << row.phase);
@@ -121,8 +121,8 @@ TEST_CASE("Finite-element gears with their bodies are softer by a factor of 2.7 
     }
 }
 
-TEST_CASE("The crack of 4.7 mm adds the compliance that finite elements find, to 27 %") {
-    // Whole gears; what gives way beside the crack cancels in the difference.
+TEST_CASE("The added compliance of the crack of 4.7 mm matches finite elements within 27 %") {
+    // Whole gears; compliance apart from the crack cancels in the difference.
     const AluminiumPair pair;
     for (const Row& row : finite_element_table()) {
         INFO("phase " << row.phase);
@@ -137,16 +137,16 @@ TEST_CASE("The crack of 4.7 mm adds the compliance that finite elements find, to
             const double cracked_teeth = 1 / (1 / row.beams + elements);
             CHECK(pair.crack_entering(row) / cracked_teeth == Approx(0.93).margin(0.026));
         } else {
-            // Two pairs: the cracked tooth costs more towards its tip in both.
+            // Two pairs: the cracked tooth has a larger effect towards its tip in both.
             CHECK(pair.crack_leaving(row) < pair.crack_entering(row));
             CHECK(row.cracked_leaving < row.cracked_entering);
         }
     }
 }
 
-TEST_CASE("With elastic gear bodies the mesh stiffness is the finite elements', within 7 %") {
-    // Liang, Table 3.5, against another paper's finite elements: 5.9 % (one pair) and 6.3 % (two),
-    // 6.7 % and 2.9 % with the crack.
+TEST_CASE("With elastic gear bodies the mesh stiffness matches the finite elements' within 7 %") {
+    // Source: Liang, Table 3.5, against another paper's finite elements: 5.9 % (one pair) and 6.3 %
+    // (two), 6.7 % and 2.9 % with the crack.
     const TestGears gears;
     const CoupledMesh bodies(
         gears.geometry, gears.material, Profile::root_circle,
@@ -163,7 +163,7 @@ TEST_CASE("With elastic gear bodies the mesh stiffness is the finite elements', 
     }
 }
 
-TEST_CASE("Sainsot's foundation serves one pair; two need the coupling through the body") {
+TEST_CASE("Sainsot's foundation suffices for one pair; two require the coupling through the body") {
     const TestGears gears;
     const CoupledMesh bodies(gears.geometry, gears.material, Profile::root_circle,
                              {FoundationModel::sainsot, Contact::linear, kBore_m, kBore_m, 0.0});
@@ -175,9 +175,9 @@ TEST_CASE("Sainsot's foundation serves one pair; two need the coupling through t
     }
 }
 
-TEST_CASE("A contact that depends on the load takes 12 % off the finite elements'") {
-    // The load-dependent law (Yang) was fitted beside stiffer teeth: with beams 20 % softer than
-    // finite-element teeth, the linear law's missing compliance is already spent.
+TEST_CASE("A load-dependent contact is 12 % softer than the finite elements") {
+    // The load-dependent law (Yang) was fitted together with stiffer teeth: beams 20 % softer than
+    // finite-element teeth already include the linear law's missing compliance.
     const TestGears gears;
     const CoupledMesh bodies(gears.geometry, gears.material, Profile::root_circle,
                              {FoundationModel::elastic_ring, Contact::load_dependent, kBore_m,

@@ -13,24 +13,24 @@ using namespace gearpod::stiffness;
 using namespace yang_gears;
 
 TEST_CASE(
-    "an annulus under uniform pressure and uniform shear has Lame's and the torsion solution") {
+    "an annulus under uniform pressure and uniform shear matches Lame's and the torsion solution") {
     const double nu = 0.3, E = 1;
     for (const double held : {0.2, 0.7, 1.3, 4.0}) {
         const HarmonicCompliance mean = Annulus(held, nu).harmonic(0);
-        // Lame, plane strain: u = (1 + nu) / E [(1 - 2 nu) A r - B / r], sigma = A + B / r^2, with
-        // u = 0 on the held circle and the traction 1 on the other.
+        // Lame's solution in plane strain: u = (1 + nu) / E [(1 - 2 nu) A r - B / r], sigma = A + B
+        // / r^2, with u = 0 on the fixed circle and the traction 1 on the other.
         const double square = held * held;
         const double A = 1 / (1 + (1 - 2 * nu) * square);
         const double u = (1 + nu) / E * (1 - 2 * nu) * A * (1 - square);
         CHECK(mean.rr == Approx(held < 1 ? u : -u).epsilon(1e-12));
-        // Torsion: tau = t / r^2 turns each ring by (t / 2 G) (1 / held^2 - 1) against the held
-        // one.
+        // Torsion: tau = t / r^2 rotates each ring by (t / 2 G) (1 / held^2 - 1) relative to the
+        // fixed one.
         const double twist = (1 + nu) / E * std::abs(1 / square - 1);
         CHECK(mean.tt == Approx(twist).epsilon(1e-12));
     }
 }
 
-TEST_CASE("a thin annulus held on one face gives way like a layer under pressure and shear") {
+TEST_CASE("a thin annulus fixed on one face deflects like a layer under pressure and shear") {
     // Layer of thickness t, load waves much longer than t: u = p t / (lambda + 2 G), v = q t / G.
     const double nu = 0.3, t = 1e-3, G = 1 / 2.6, stiff = 2 * G * (1 - nu) / (1 - 2 * nu);
     for (const double held : {1 - t, 1 + t})
@@ -41,9 +41,9 @@ TEST_CASE("a thin annulus held on one face gives way like a layer under pressure
         }
 }
 
-TEST_CASE("short waves do not reach the held circle; they sink in like into a half-plane") {
-    // Half-plane under p cos kx: u = 2 (1 - nu^2) / (E k) p, and tangentially by (1 - 2 nu) (1 +
-    // nu) / (E k) p (plane strain).
+TEST_CASE("short waves do not reach the fixed circle; their deflection is that of a half-plane") {
+    // Half-plane under p cos kx: u = 2 (1 - nu^2) / (E k) p, and tangentially (1 - 2 nu) (1 + nu) /
+    // (E k) p (plane strain).
     const double nu = 0.3;
     for (const double held : {0.5, 2.0}) {
         const HarmonicCompliance c = Annulus(held, nu).harmonic(400);
@@ -51,7 +51,7 @@ TEST_CASE("short waves do not reach the held circle; they sink in like into a ha
         CHECK(c.tt == Approx(2 * (1 - nu * nu) / 400).epsilon(0.005));
         CHECK(std::abs(c.rt) == Approx((1 - 2 * nu) * (1 + nu) / 400).epsilon(0.02));
     }
-    // The two formulas meet where the code changes from one to the other.
+    // The two formulas agree where the code changes from one to the other.
     for (const double held : {0.3, 0.9, 1.5}) {
         const Annulus body(held, nu);
         for (int n = 2; n < 400; ++n) {
@@ -62,8 +62,8 @@ TEST_CASE("short waves do not reach the held circle; they sink in like into a ha
 }
 
 TEST_CASE("the elastic ring's own compliance agrees with Sainsot's formula in his range") {
-    // Contacts from the middle of the flank to the tip. Within 10 % where the bore is at half the
-    // root radius or less, within 16 % where it lies nearer.
+    // Contacts from the middle of the flank to the tip. The difference is within 10 % where the
+    // bore is at half the root radius or less, within 16 % where it is larger.
     double worst = 0, worst_thin = 0, sum = 0;
     int count = 0;
     for (const int teeth : {28, 34, 60})
@@ -89,8 +89,8 @@ TEST_CASE("the elastic ring's own compliance agrees with Sainsot's formula in hi
     CHECK(sum / count < 0.06);
 }
 
-TEST_CASE("without a lever, both foundations have the same compliance to 2 %") {
-    // There the ring's shear stress is Sainsot's, which does not balance the moment elsewhere.
+TEST_CASE("without a lever arm, both foundations have the same compliance to 2 %") {
+    // The ring's shear stress there is Sainsot's, which does not balance the moment elsewhere.
     const ToothProfile tooth(gear(60), Profile::fillet);
     REQUIRE(tooth.base_radius() < tooth.root_radius());
     const double angle = std::acos(tooth.base_radius() / tooth.root_radius());
@@ -101,9 +101,9 @@ TEST_CASE("without a lever, both foundations have the same compliance to 2 %") {
     }
 }
 
-TEST_CASE("the ring's compliances are those of an own script with ten times the harmonics") {
-    // numpy, 40,000 harmonics from the four fields without closed tails, sums by running means, the
-    // neighbour's work by direct integration over its arc; in units of 1 / E L.
+TEST_CASE("the ring's compliances match an independent script with ten times the harmonics") {
+    // Source: numpy, 40,000 harmonics from the four fields without closed tails, sums by running
+    // means, the neighbour's work by direct integration over its arc; in units of 1 / E L.
     const ToothProfile sun(gear(28), Profile::fillet);
     const ElasticRing ring(sun, 28, kSteel, kSunBore);
     const double unit = kSteel.youngs_modulus_Pa * kSteel.face_width_m;
@@ -129,12 +129,12 @@ TEST_CASE("coupling through the body is mutual and fades with the distance") {
                 CHECK(body->coupling(i, j, 1) > body->coupling(i, j, 2));
                 CHECK(body->coupling(i, j, 2) > body->coupling(i, j, 3));
             }
-    // The thinner the ring, the less it hands on.
+    // A thinner ring transmits less.
     CHECK(thin.coupling(0.2, 0.2, 2) / thin.self(0.2).total() <
           0.5 * solid.coupling(0.2, 0.2, 2) / solid.self(0.2).total());
 }
 
-TEST_CASE("a foundation that is out of range is named, one that cannot be is refused") {
+TEST_CASE("a foundation out of range is reported, an impossible one is refused") {
     const auto warnings = foundation_warnings(gear(28), Profile::fillet, FoundationModel::sainsot,
                                               gear(28).root_radius() / 1.2);
     REQUIRE(warnings.size() == 1);

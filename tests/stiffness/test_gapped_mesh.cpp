@@ -1,4 +1,4 @@
-// Tooth pairs with gaps: relief, crowning and contact beyond the nominal path.
+// Checks tooth pairs with gaps: relief, crowning and contact beyond the nominal path.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -69,7 +69,7 @@ TEST_CASE("without gaps each tooth pair keeps its stiffness") {
     }
 }
 
-// Equilibrium: the springs that touch carry the force together.
+// Equilibrium: the springs in contact together carry the force.
 TEST_CASE("load shares of an extended contact add up to the force") {
     for (const bool bodies : {false, true}) {
         const GappedMesh mesh = extended(kRingPlanet, bodies);
@@ -110,8 +110,8 @@ TEST_CASE("an extended contact has no step at the ends of the path") {
 }
 
 // Stiffer teeth close smaller corner gaps: contact beyond the path then takes a share of the mesh
-// period that falls with the square root of the approach, and outside it nothing changes.
-TEST_CASE("the extended contact converges to the abrupt one as the load falls") {
+// period that decreases with the square root of the approach. Outside it nothing changes.
+TEST_CASE("the extended contact converges to the abrupt one as the load decreases") {
     double last = 1;
     for (const double force : {4e3, 4e2, 4e1, 4.0}) {
         const GappedMesh mesh = extended(kSunPlanet, false, force);
@@ -131,7 +131,7 @@ TEST_CASE("the extended contact converges to the abrupt one as the load falls") 
     }
 }
 
-// The laws of mesh damping take the stiffness of the teeth on their paths, whatever their gaps.
+// The laws of mesh damping use the stiffness of the teeth on their paths, for any gaps.
 TEST_CASE("the sum over the paths is the total of a mesh without gaps") {
     const gears::FlankRelief ground{20e-6, 2e-3, 0, 0};
     const auto plain = elastic(kRingPlanet);
@@ -148,7 +148,7 @@ TEST_CASE("the sum over the paths is the total of a mesh without gaps") {
     }
 }
 
-// Beyond the path: the pair's own corner gap and the stiffness that it has at the path's end.
+// Contact beyond the path: the pair's own corner gap and its stiffness at the path's end.
 TEST_CASE("teeth on rigid bodies keep their stiffness beyond the path") {
     const GappedMesh mesh = extended(kSunPlanet, false);
     const double begin = mesh.path_begin(), end = mesh.path_end();
@@ -166,7 +166,7 @@ TEST_CASE("teeth on rigid bodies keep their stiffness beyond the path") {
     CHECK(mesh.slice_place(0, 0.5 * begin) == -0.5);
 }
 
-// A pair of equal gears looks the same from both ends of its path.
+// A pair of equal gears is symmetrical from both ends of its path.
 TEST_CASE("a pair of equal gears is symmetrical about its pitch point") {
     const gears::MeshGeometry equal(external(27), external(27));
     for (const bool bodies : {false, true}) {
@@ -179,7 +179,7 @@ TEST_CASE("a pair of equal gears is symmetrical about its pitch point") {
     }
 }
 
-// Slices over the face against a sum over many of them.
+// Slices over the face, compared with a sum over many of them.
 TEST_CASE("slices of crowned, relieved helical teeth converge") {
     const gears::FlankRelief ground{8e-6, 2e-3, 0, 0, gears::ReliefShape::linear, 5e-6};
     const double overlap = 0.8;
@@ -194,7 +194,7 @@ TEST_CASE("slices of crowned, relieved helical teeth converge") {
         CHECK(approach(16, phase) == Approx(converged).epsilon(0.01));
         CHECK(approach(64, phase) == Approx(converged).epsilon(0.002));
     }
-    // Uncrowned and without relief or load, the slices add up to the helical pair.
+    // Without crowning, relief and load, the slices add up to the helical pair.
     const HelicalMesh helical(rigid(kSunPlanet), overlap);
     const GappedMesh flat(rigid(kSunPlanet), overlap, {kSunPlanet, {}, {}, 0}, kForce, 200);
     CHECK(mean_total(flat) == Approx(mean_total(helical)).epsilon(1e-2));
@@ -215,7 +215,7 @@ TEST_CASE("a fault softens its own tooth pair over the whole extended contact") 
             CHECK(own < at(mesh, tau));
             CHECK(total <= secant(mesh, tau) * (1 + 1e-9));
         }
-        // Far beyond the path the fault has nothing to change.
+        // The fault has no effect far beyond the path.
         const double early = 1e-3;
         double total = 0;
         faulty->total({&early, 1}, early, {&total, 1});

@@ -1,4 +1,4 @@
-// The gear blank factor of ISO 6336-1 against hand calculation and the standard's limits.
+// Checks the gear blank factor of ISO 6336-1 against hand calculation and the standard's limits.
 #include <catch2/catch.hpp>
 
 #include "stiffness/foundation/gear_blank.hpp"
@@ -17,7 +17,7 @@ TEST_CASE("A web as wide as the face is a disc's, under any rim") {
         CHECK(gear_blank_factor(1, rim) == 1);
 }
 
-// Beyond its limits the standard counts the limit: 1 - 1.6094379 / 6.1070138 at the softest.
+// The standard uses the limit beyond its range: 1 - 1.6094379 / 6.1070138 for the softest.
 TEST_CASE("Webs and rims beyond the standard's range count as its limits") {
     CHECK(gear_blank_factor(0.2, 1) == Approx(1 - 1.6094379 / 6.1070138).epsilon(1e-8));
     CHECK(gear_blank_factor(0.05, 1) == gear_blank_factor(0.2, 1));

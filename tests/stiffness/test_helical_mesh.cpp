@@ -1,5 +1,5 @@
-// Helical pairs as thin slices of the spur pair: against sums of slices worked out one by one, and
-// what must hold whatever the slices are.
+// Checks helical pairs as thin slices of the spur pair against sums of separate slices, and
+// properties that hold for any slices.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -34,7 +34,7 @@ std::unique_ptr<const MeshStiffness> coupled() {
     return std::make_unique<CoupledMesh>(kPlanetRing, kLiangSteel, Profile::root_circle, options);
 }
 
-// The mean over so many slices in the middles of equal widths; a jump falls between two of them.
+// Mean over so many slices at the middles of equal widths; a jump falls between two of them.
 template <class OfSlice>
 double by_slices(double overlap, const OfSlice& of_slice) {
     constexpr int kSlices = 20000;
@@ -75,13 +75,13 @@ TEST_CASE("a helical pair is the sum of its slices, each a spur pair that engage
     }
 }
 
-TEST_CASE("the stiffness of a helical pair does not vary where its overlap ratio is whole") {
+TEST_CASE("the stiffness of a helical pair is constant where its overlap ratio is an integer") {
     for (const double overlap : {1.0, 2.0}) {
         const HelicalMesh mesh(coupled(), overlap);
         for (int i = 0; i < 50; ++i)
             CHECK(total_at(mesh, 0.02 * i) == Approx(mean_total(mesh.slice())).epsilon(1e-12));
     }
-    // Nor half as much where it is not: the largest less the least, of a half and of three halves.
+    // Range (largest minus smallest) for other overlap ratios: a half and three halves.
     const auto range = [](const MeshStiffness& mesh) {
         double least = INFINITY, largest = 0;
         for (int i = 0; i < 500; ++i) {
@@ -96,7 +96,7 @@ TEST_CASE("the stiffness of a helical pair does not vary where its overlap ratio
     CHECK(range(HelicalMesh(coupled(), 1.5)) < 0.25 * spur);
 }
 
-TEST_CASE("a helix that hardly leans leaves the spur pair as it is") {
+TEST_CASE("a nearly zero helix angle gives the spur pair") {
     const auto spur = additive();
     const HelicalMesh mesh(additive(), 1e-4);
     for (const double tau : {0.1, 0.5, 0.85, 0.97})  // off the transitions
@@ -116,7 +116,7 @@ TEST_CASE("the tooth pairs of a helical pair share its load") {
         }
         CHECK(sum == Approx(1).epsilon(1e-9));
     }
-    // From the one end of the flank to the other, and alike from both.
+    // Positions from one end of the flank to the other, symmetric from both.
     CHECK(mesh.flank_place(0) == -0.5);
     CHECK(mesh.flank_place(mesh.contact_ratio()) == 0.5);
     for (const double tau : {0.1, 0.8, 1.2})
@@ -151,9 +151,9 @@ TEST_CASE("a fault passes a helical pair slice by slice") {
     }
 }
 
-// The slices on which a fault lies lose what the spur tooth loses, over their part of the width;
-// the others nothing.
-TEST_CASE("chips and pits act where they lie along the face width") {
+// The slices with a fault lose as much as the spur tooth over their part of the width; the others
+// nothing.
+TEST_CASE("chips and pits act at their position along the face width") {
     const double face = kLiangSteel.face_width_m, overlap = 0.61;
     const ToothChip first(kPlanetRing, face, 1), last(kPlanetRing, face, 1, {}, FaceEnd::last);
     const ToothPitting pits(kPlanetRing, kLiangSteel, Profile::root_circle, 1, pits_at(0.3));
@@ -195,7 +195,7 @@ TEST_CASE("chips and pits act where they lie along the face width") {
         }
 }
 
-TEST_CASE("a pit that hardly any helix spreads takes what it takes from a spur tooth") {
+TEST_CASE("a pit that hardly any helix spreads has its effect on a spur tooth") {
     PitBand band = pits_at(0.8);
     band.depth_m = 0.5e-3;
     const ToothPitting pits(kPlanetRing, kLiangSteel, Profile::root_circle, 1, band);
@@ -217,7 +217,7 @@ TEST_CASE("pits that reach beyond the end of the face are refused") {
     CHECK_THAT(problems[0], Catch::Contains("from the end of the face reach beyond it"));
 }
 
-TEST_CASE("deeper cracks soften a helical pair more, and a broken tooth takes its own pair away") {
+TEST_CASE("deeper cracks soften a helical pair more, and a broken tooth removes its own pair") {
     const HelicalMesh mesh(additive(), 1.2);
     const ToothCrack cracks(kPlanetRing, kLiangSteel, Profile::root_circle, 1, kCrackAngle);
     double before = INFINITY;
@@ -236,15 +236,14 @@ TEST_CASE("deeper cracks soften a helical pair more, and a broken tooth takes it
     }
 }
 
-// A cantilever of the normal section, as long as the tooth, loaded along the normal, stands for a
-// slice of the tooth: its bending seen from the transverse plane is the transverse section's over
-// cos^4.
-TEST_CASE("the factors of helical teeth are those of the leaning section") {
+// A cantilever of the normal section, as long as the tooth and loaded along the normal, represents
+// a slice of the tooth: its bending in the transverse plane is the transverse section's over cos^4.
+TEST_CASE("the factors of helical teeth are those of the inclined section") {
     const double helix = 0.3, normal_angle = 0.35;
     Material leaning = kLiangSteel;
     set_helix(helix, normal_angle, leaning);
     const double c = std::cos(helix);
-    // Width b, thickness t, arm a in the transverse plane; force f there.
+    // Width b, thickness t, arm a in the transverse plane; force f in that plane.
     const double t = 5e-3, a = 4e-3, f = 100, b = kLiangSteel.face_width_m;
     const double length = b / c, thin = t * c, moment = f * a / c;
     const double energy = moment * moment * a /

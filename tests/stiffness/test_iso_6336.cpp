@@ -1,5 +1,5 @@
-// Mean mesh stiffness against ISO 6336-1:2006, method B (c_gamma_alpha), for steel gears with and
-// without profile shift and helix.
+// Checks the mean mesh stiffness against ISO 6336-1:2006, method B (c_gamma_alpha), for steel gears
+// with and without profile shift and helix.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -35,7 +35,7 @@ gears::MeshGeometry geometry(const Pair& p) {
     gears::Gear one, two;
     one.teeth = p.z_1;
     two.teeth = p.z_2;
-    const double c = std::cos(p.helix());  // what is counted in normal modules
+    const double c = std::cos(p.helix());  // quantities in normal modules
     for (gears::Gear* gear : {&one, &two}) {
         gear->module_m = kModule / c;
         gear->pressure_angle_rad = std::atan(std::tan(kNormalAngle) / c);
@@ -49,7 +49,7 @@ gears::MeshGeometry geometry(const Pair& p) {
     return {one, two, set.centre_distance_m};
 }
 
-// N/(mm um).
+// Converts to N/(mm um).
 double per_width(double stiffness_N_m) {
     return stiffness_N_m / kSteel.face_width_m * 1e-9;
 }
@@ -57,7 +57,7 @@ double by_mesh(const MeshStiffness& mesh) {
     return per_width(mean_total(mesh));
 }
 
-// Also of helical teeth: the mean over the mesh period is that of their slices.
+// Applies to helical teeth, too: the mean over the mesh period is that of their slices.
 Material steel(const Pair& p) {
     Material material = kSteel;
     set_helix(p.helix(), kNormalAngle, material);
@@ -68,7 +68,7 @@ double with_bodies(const gears::MeshGeometry& mesh, const Material& material,
                    FoundationModel foundation, Profile profile) {
     CoupledMeshOptions options;
     options.foundation = foundation;
-    // Bores of a third of the root circles: discs.
+    // Discs with bores of a third of the root circles.
     options.body_radius_1_m = mesh.gear(1).root_radius() / 3;
     options.body_radius_2_m = mesh.gear(2).root_radius() / 3;
     return by_mesh(CoupledMesh(mesh, material, profile, options));
@@ -82,7 +82,7 @@ const std::vector<Pair> kPairs{
     {21, 39, 0, 0, 8},       {19, 48, 0, 0, 15},  {30, 60, 0, 0, 25},       {20, 30, 0.4, 0.2, 15},
     {27, 35, 0.3, 0.23, 20}, {40, 100, 0, 0, 30}};
 
-// The mean of a pair by the program's models, over ISO 6336's.
+// Mean of a pair by the program's models, over ISO 6336's.
 struct Ratios {
     double contact_ratio, iso;
     double rigid, ring, sainsot;
@@ -98,10 +98,10 @@ Ratios ratios(const Pair& p) {
 
 }  // namespace
 
-// KISSsoft's reports on the stages of the NREL 5 MW gearbox (tests/gears): c' and c_gamma_alpha
-// with the gear blank factor of a web of a quarter of the face width, which they round to three
-// decimals.
-TEST_CASE("ISO 6336's stiffness is the one that KISSsoft prints for the NREL 5 MW gearbox") {
+// Source: KISSsoft's reports on the stages of the NREL 5 MW gearbox (tests/gears), c' and
+// c_gamma_alpha rounded to three decimals. The gear blank factor is that of a web of a quarter of
+// the face width.
+TEST_CASE("ISO 6336's stiffness matches the one printed by KISSsoft for the NREL 5 MW gearbox") {
     const std::vector<mesh_level::LevelPair> pairs = mesh_level::all_pairs();
     struct Printed {
         const char* pair;
@@ -122,7 +122,7 @@ TEST_CASE("ISO 6336's stiffness is the one that KISSsoft prints for the NREL 5 M
     }
 }
 
-TEST_CASE("ISO 6336's formula has limits, and counts the pinion first") {
+TEST_CASE("ISO 6336's formula has limits, and does not depend on the order of the gears") {
     const auto stiffness_of = [](const gears::Gear& one, const gears::Gear& two) {
         return iso_6336_stiffness({one, two}, 0.0, kSteel);
     };
@@ -137,10 +137,10 @@ TEST_CASE("ISO 6336's formula has limits, and counts the pinion first") {
     CHECK(!stiffness_of(stub, stub));
 }
 
-// Rigid bodies make any pair more than twice as stiff. Sainsot's bodies, which do not feel the
-// neighbouring tooth, agree with the standard, the more so the fewer teeth; the elastic ring has
-// the neighbours' load bend the body under both, and turns as a whole between bore and rim.
-TEST_CASE("the mean mesh stiffness of external pairs lies beside ISO 6336-1, method B") {
+// Rigid bodies make any pair more than twice as stiff. Sainsot's bodies, which neglect the
+// neighbouring tooth, agree with the standard, the more so the fewer teeth. Load on the neighbours
+// of the elastic ring deflects the body under both, and it twists as a whole between bore and rim.
+TEST_CASE("the mean mesh stiffness of external pairs is compared with ISO 6336-1, method B") {
     for (const Pair& p : kPairs) {
         INFO(p.z_1 << "/" << p.z_2 << ", shifts " << p.x_1 << " and " << p.x_2 << ", helix "
                    << p.helix_deg);
@@ -153,8 +153,8 @@ TEST_CASE("the mean mesh stiffness of external pairs lies beside ISO 6336-1, met
     }
 }
 
-// The table of studies/README.md.
-TEST_CASE("mean mesh stiffness beside ISO 6336-1", "[.table]") {
+// Prints the table of studies/README.md.
+TEST_CASE("mean mesh stiffness compared with ISO 6336-1", "[.table]") {
     std::puts(
         "| teeth | shifts | helix, deg | contact ratio | ISO 6336-1 B, N/(mm um) | rigid | ring | "
         "Sainsot |");

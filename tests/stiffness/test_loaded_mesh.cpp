@@ -1,4 +1,4 @@
-// Quasi-static contact under load, without and with relief.
+// Checks quasi-static contact under load, without and with relief.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -14,12 +14,12 @@ using namespace gearpod::stiffness;
 
 namespace {
 
-// Two pairs as stiff as each other, one at a time or both.
+// Two equally stiff pairs, one at a time or both.
 const SquareWaveMesh kAlike(1e9, 2e9, 1.6);
 constexpr double kForce = 1e4;
 constexpr double kDeflection = kForce / 1e9;  // of one pair
 
-// The same with linear long relief of both gears, from the end of single contact to the tip.
+// The same pairs with linear long relief of both gears, from the end of single contact to the tip.
 class LongRelief : public MeshStiffness {
   public:
     explicit LongRelief(double amount) : amount_(amount) {}
@@ -60,7 +60,7 @@ gears::MeshGeometry spur(int one, int two) {
 
 }  // namespace
 
-TEST_CASE("perfect flanks approach by the force over the stiffness") {
+TEST_CASE("the approach of perfect flanks is the force over the stiffness") {
     const LoadedMesh mesh(kAlike, kForce);
     CHECK(mesh.approach(0.2, 0.3) == Approx(kDeflection / 2));
     CHECK(mesh.approach(0.8, 0.8) == Approx(kDeflection));
@@ -68,12 +68,13 @@ TEST_CASE("perfect flanks approach by the force over the stiffness") {
     CHECK(mesh.range().mean == Approx(0.6 * kDeflection / 2 + 0.4 * kDeflection));
 }
 
-// Munro (1989): relief of the deflection at the design load levels the transmission error there.
-TEST_CASE("long relief of the deflection at that load leaves no transmission error to vary") {
+// Source: Munro (1989); relief by the deflection at the design load levels the transmission error
+// there.
+TEST_CASE("long relief by the deflection at the load leaves a constant transmission error") {
     const double none = varies(0);
     CHECK(varies(kDeflection) == Approx(0).margin(1e-6 * none));
-    // It falls towards that amount and grows beyond it: too little leaves a step, too much parts
-    // the teeth.
+    // The variation decreases towards that amount and grows beyond it: too little leaves a step,
+    // too much separates the teeth.
     double last = none;
     for (const double part : {0.25, 0.5, 0.75, 1.0}) {
         const double now = varies(part * kDeflection);
@@ -84,7 +85,7 @@ TEST_CASE("long relief of the deflection at that load leaves no transmission err
     CHECK(varies(1.5 * kDeflection) > 0.1 * none);
 }
 
-TEST_CASE("relief of a gear lies where its tip and root touch") {
+TEST_CASE("relief of a gear acts at the contact of its tip and root") {
     const gears::MeshGeometry mesh = spur(23, 47);
     const double pitch = mesh.base_pitch(), ratio = mesh.contact_ratio();
     CHECK(pitch == Approx(3e-3 * std::numbers::pi * std::cos(20 * std::numbers::pi / 180)));
@@ -101,7 +102,7 @@ TEST_CASE("relief of a gear lies where its tip and root touch") {
           std::vector<double>{ratio - 2e-3 / pitch, ratio - 1e-3 / pitch});
 }
 
-// Real teeth: their pairs are softer towards the ends, so the best amount is near the deflection.
+// Pairs of real teeth are softer towards the ends, so the best amount is near the deflection.
 TEST_CASE("on involute teeth the best long relief is near one pair's deflection") {
     const gears::MeshGeometry mesh = spur(30, 40);
     const Material steel{2.06e11, 0.3, 0.02, true};

@@ -1,5 +1,5 @@
-// Level of the mesh stiffness by every model of the gear bodies, against ISO 6336-1 and finite
-// elements: docs/validation/mesh-stiffness-level.md.
+// Checks the level of the mesh stiffness by every model of the gear bodies against ISO 6336-1 and
+// finite elements: docs/validation/mesh-stiffness-level.md.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
@@ -15,7 +15,7 @@ using mesh_level::LevelPair;
 
 namespace {
 
-// Means over a mesh period, N/(mm um); finite elements are 0 where there are none.
+// Means over a mesh period, N/(mm um); 0 without finite elements.
 struct Level {
     double iso = 0, elements = 0, untwisted_elements = 0;
     double rigid = 0, rigid_load = 0, sainsot = 0, sainsot_load = 0, ring = 0, ring_load = 0;
@@ -57,7 +57,7 @@ TEST_CASE("of all models, elastic rings with linear contacts agree with finite e
         CHECK(within(l.ring / l.elements, 0.96, 1.08));
         CHECK(within(l.ring_load / l.elements, 0.79, 0.94));
         CHECK(within(l.rigid / l.elements, 2.0, 3.4));
-        // Neighbouring teeth and the ring's body are missing.
+        // The model lacks neighbouring teeth and the ring's body.
         CHECK(within(l.sainsot / l.elements, 1.04, 1.50));
         CHECK(within(l.sainsot_load / l.elements, 0.89, 1.18));
         ++pairs;
@@ -65,10 +65,10 @@ TEST_CASE("of all models, elastic rings with linear contacts agree with finite e
     CHECK(pairs >= 8);
 }
 
-// ISO 6336-1 counts the approach of the rims. Bodies held at their bores also twist between bore
-// and root, which is the difference for discs with small bores.
+// Reference of ISO 6336-1 is the approach of the rims. Bodies fixed at their bores also twist
+// between bore and root, which is the difference for discs with small bores.
 TEST_CASE(
-    "without the twist of the bodies, finite elements and elastic rings lie beside ISO 6336-1") {
+    "without the twist of the bodies, finite elements and elastic rings are close to ISO 6336-1") {
     for (const LevelPair& p : mesh_level::all_pairs()) {
         INFO(p.name);
         const Level l = level_of(p);

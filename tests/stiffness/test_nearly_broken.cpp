@@ -1,4 +1,5 @@
-// Cracks just short of breaking the tooth: the sections vanish there, and rounding decides.
+// Checks cracks just short of breaking the tooth: the sections vanish there, and rounding
+// dominates.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -20,7 +21,7 @@ gears::Gear gear(int teeth) {
     return {teeth, false, 0.002, 20 * kDegree};
 }
 
-// Never stiffer than the healthy pair, never less than nothing.
+// Checks that the stiffness is between zero and that of the healthy pair.
 void check_range(const AdditiveMesh& mesh, const ToothFault& fault) {
     const ToothPairCurve curve = mesh.faulty_pair(fault);
     for (int i = 0; i <= 20; ++i) {
@@ -33,7 +34,7 @@ void check_range(const AdditiveMesh& mesh, const ToothFault& fault) {
 
 }  // namespace
 
-TEST_CASE("a crack just short of breaking the tooth leaves a stiffness between none and healthy") {
+TEST_CASE("a crack just short of breaking the tooth leaves a stiffness between zero and healthy") {
     for (const Profile profile : {Profile::base_circle, Profile::root_circle, Profile::fillet}) {
         for (const int teeth : {18, 19, 28, 45}) {
             const gears::MeshGeometry geometry(gear(teeth), gear(40));
@@ -51,7 +52,7 @@ TEST_CASE("a crack just short of breaking the tooth leaves a stiffness between n
     }
 }
 
-TEST_CASE("a crack that starts above the root may leave the tooth below its start") {
+TEST_CASE("a crack that starts above the root may exit the tooth below its start") {
     const gears::MeshGeometry geometry(gear(18), gear(40));
     const AdditiveMesh mesh(geometry, kSteel, Profile::fillet);
     const ToothProfile tooth(gear(18), Profile::fillet);

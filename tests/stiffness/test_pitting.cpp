@@ -40,8 +40,8 @@ struct Notched {
     }
 };
 
-// How much the beam of gear 1 gives way more, by the midpoint rule over the band's sections below
-// the contact with the notched sections above.
+// Additional compliance of gear 1's beam, by the midpoint rule over the band's sections below the
+// contact with the notched sections above.
 double extra_compliance(double tau, double width, double depth) {
     const gears::Gear& gear = kMesh.gear(1);
     const ToothProfile profile(gear, Profile::root_circle);
@@ -68,13 +68,14 @@ double extra_compliance(double tau, double width, double depth) {
 
 }  // namespace
 
-TEST_CASE("pits take their width from the contact along their length of the profile") {
+TEST_CASE("pits reduce the contact width along their length of the profile") {
     const ToothPitting family(kMesh, kLiangSteel, Profile::root_circle, 1, band_of(0));
     const auto pits = family.at(10e-3);
     CHECK_FALSE(pits->changes_sections());
     const auto jumps = family.jumps();
     REQUIRE(jumps.size() == 2);
-    // The involute's length up to a contact is R_b roll^2 / 2, its roll the contact angle + a2.
+    // The involute's length up to a contact is R_b roll^2 / 2; its roll angle is the contact angle
+    // + a2.
     const auto length = [&](double tau) {
         const double roll = kMesh.contact_angle(1, tau) + kMesh.gear(1).half_base_angle();
         return kMesh.gear(1).base_radius() * roll * roll / 2;
@@ -87,14 +88,14 @@ TEST_CASE("pits take their width from the contact along their length of the prof
     CHECK(pits->contact_width(jumps[1] + 1e-9) == 1);
 }
 
-TEST_CASE("pits soften the beam as sections with a notch do") {
+TEST_CASE("pits soften the beam as notched sections do") {
     for (const double width : {8e-3, 25e-3, 38.1e-3}) {
         const double depth = 0.5e-3;
         const ToothPitting family(kMesh, kLiangSteel, Profile::root_circle, 1, band_of(depth));
         const auto pits = family.at(width);
         REQUIRE(pits->changes_sections());
         const ToothProfile profile(kMesh.gear(1), Profile::root_circle);
-        // Before, within and beyond the band.
+        // Positions before, within and beyond the band.
         for (const double tau : {0.2, kMesh.pitch_position(), 1.2, 1.55}) {
             double compliance = 0;
             pits->beam_compliance({&tau, 1}, {&compliance, 1});
@@ -107,7 +108,7 @@ TEST_CASE("pits soften the beam as sections with a notch do") {
 }
 
 TEST_CASE(
-    "a mesh with pitted teeth jumps at the band's ends and is healthy before a pit is touched") {
+    "a mesh with pitted teeth jumps at the band's ends and is healthy before contact with a pit") {
     const AdditiveMesh mesh(kMesh, kLiangSteel, Profile::root_circle);
     const ToothPitting family(kMesh, kLiangSteel, Profile::root_circle, 1, band_of(0.3e-3, 3));
     const auto pits = family.at(20e-3);
@@ -139,7 +140,7 @@ TEST_CASE(
     CHECK(one(untouched) == Approx(mesh.tooth_pair(untouched)).epsilon(1e-9));
 }
 
-TEST_CASE("pits over the whole face carry nothing where they are touched") {
+TEST_CASE("pits over the whole face carry no load in contact") {
     const AdditiveMesh mesh(kMesh, kLiangSteel, Profile::root_circle);
     const ToothPitting family(kMesh, kLiangSteel, Profile::root_circle, 1, band_of(0));
     const auto pits = family.at(family.largest_size());
@@ -148,7 +149,7 @@ TEST_CASE("pits over the whole face carry nothing where they are touched") {
     CHECK(one(0.1) == Approx(mesh.tooth_pair(0.1)).epsilon(1e-9));
 }
 
-TEST_CASE("pits that do not fit on the flank are named as such") {
+TEST_CASE("pits that do not fit on the flank are reported as such") {
     const auto problems = [](PitBand band, double width) {
         return ToothPitting(kMesh, kLiangSteel, Profile::root_circle, 1, band).problems(width);
     };

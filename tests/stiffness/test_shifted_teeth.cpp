@@ -1,5 +1,5 @@
-// Teeth of shifted gears: the beam's compliance from points of the flank alone, and where a pair
-// touches.
+// Checks teeth of shifted gears: the beam's compliance from points of the flank alone, and the
+// contact positions of a pair.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -28,14 +28,14 @@ gears::Gear gear(int teeth, double shift, double shortening = 0) {
     return gear;
 }
 
-// Shift, planet's shift and the ring's at a centre distance of 31.6 modules: 27/35/99 teeth.
+// Shifts of sun, planet and ring at a centre distance of 31.6 modules: 27/35/99 teeth.
 gears::WorkingShifts bell() {
     const gears::Gear ring = gear(-99, 0);
     return gears::working_shifts(gear(27, 0), gear(35, 0), &ring, {0.4, {}, {}, 31.6 * 3e-3});
 }
 
-// The tooth as a stack of thin slices between its root circle and the radius of the contact, their
-// half width r sin(half angle at r) from the thickness of the flank there: the integrals of the
+// The tooth as a stack of thin slices between its root circle and the radius of the contact. Their
+// half width is r sin(half angle at r) from the thickness of the flank there. Integrates the
 // energies of bending, shear and compression under a unit force at the contact, normal to the
 // flank.
 double compliance_of_points(const gears::Gear& gear, double contact_radius, double root_radius) {
@@ -47,7 +47,7 @@ double compliance_of_points(const gears::Gear& gear, double contact_radius, doub
         return {radius * std::cos(half), radius * std::sin(half)};
     };
     const Point contact = point(contact_radius);
-    // The force is tangent to the base circle: it turns about the gear's centre by R_b.
+    // The force is tangent to the base circle: its moment about the gear's centre is R_b.
     const double pressure = std::acos(gear.base_radius() / contact_radius);
     const double half = gear.half_angle_at(contact_radius);
     const double lean = gear.internal ? pressure + half : pressure - half;
@@ -72,7 +72,7 @@ double compliance_of_points(const gears::Gear& gear, double contact_radius, doub
 
 }  // namespace
 
-TEST_CASE("a shifted tooth gives way like the slices between its flanks") {
+TEST_CASE("the compliance of a shifted tooth is that of the slices between its flanks") {
     const auto set = bell();
     const gears::MeshGeometry sun(gear(27, set.first, set.tip_shortening),
                                   gear(35, set.second, set.tip_shortening), set.centre_distance_m);
@@ -82,7 +82,8 @@ TEST_CASE("a shifted tooth gives way like the slices between its flanks") {
         for (const int which : {1, 2})
             for (const double part : {0.1, 0.5, 0.9}) {
                 const gears::Gear& own = mesh.gear(which);
-                // Where the root lies above the base circle the beam is involute all along.
+                // The beam has an involute outline throughout where the root lies above the base
+                // circle.
                 if (!own.internal && own.root_radius() < own.base_radius()) {
                     continue;
                 }
@@ -95,7 +96,7 @@ TEST_CASE("a shifted tooth gives way like the slices between its flanks") {
             }
 }
 
-TEST_CASE("both gears of a shifted pair are touched at one point of the line of action") {
+TEST_CASE("both gears of a shifted pair are in contact at one point of the line of action") {
     const auto set = bell();
     const double a = *set.centre_distance_m;
     const gears::MeshGeometry sun(gear(27, set.first, set.tip_shortening),
@@ -112,7 +113,7 @@ TEST_CASE("both gears of a shifted pair are touched at one point of the line of 
         CHECK(roll(ring, 2, tau) - roll(ring, 1, tau) ==
               Approx(a * std::sin(ring.working_pressure_angle())).epsilon(1e-12));
     }
-    // At the pitch point both are touched on their working circles.
+    // Both are in contact on their working circles at the pitch point.
     for (const gears::MeshGeometry& mesh : {sun, ring})
         for (const int which : {1, 2}) {
             CHECK(mesh.contact_radius(which, mesh.pitch_position()) ==

@@ -94,12 +94,12 @@ TEST_CASE("a crack grows along its stages") {
     CHECK_FALSE(path.at(0, L).cracked());
 }
 
-TEST_CASE("a crack of one depth, angle and height is the plane crack") {
+TEST_CASE("a crack of one depth, angle and height equals the plane crack") {
     const auto mesh = sun_planet();
     const auto tau = positions(mesh.contact_ratio(), 60);
     for (const int which : {1, 2})
         for (const double depth : {0.3e-3, 1e-3, 2.2e-3, 4e-3}) {
-            // From the root: also the curve of the plane crack itself.
+            // Start at the root: also the curve of the plane crack itself.
             const ToothCrack plane(mesh, kSteel, Profile::fillet, which, 45 * kDegree);
             for (const double height : {0.0, 0.6e-3, 1.9e-3}) {
                 const SpatialCrack family(
@@ -115,7 +115,7 @@ TEST_CASE("a crack of one depth, angle and height is the plane crack") {
                             .total();
                     if (expected < 1e-8)
                         CHECK(spatial[i] == Approx(expected).epsilon(1e-9));
-                    else  // less than a tenth of the tooth's stiffness is left
+                    else  // less than a tenth of the tooth's stiffness remains
                         CHECK(1 / spatial[i] == Approx(1 / expected).margin(1));
                 }
                 if (height == 0) {
@@ -128,7 +128,7 @@ TEST_CASE("a crack of one depth, angle and height is the plane crack") {
         }
 }
 
-TEST_CASE("a crack of no depth leaves the healthy tooth") {
+TEST_CASE("a crack of zero depth leaves the healthy tooth") {
     const auto mesh = sun_planet();
     const SpatialCrack family(mesh, kSteel, Profile::fillet, 1,
                               single(0, 0, 18e-3, 0.5e-3, 2e-3, 0.8, 1.5));
@@ -140,7 +140,7 @@ TEST_CASE("a crack of no depth leaves the healthy tooth") {
     for (const double tau : positions(mesh.contact_ratio(), 30))
         CHECK(total_at(*faulty, coupled.transitions(), tau) ==
               Approx(total_at(coupled, tau)).epsilon(2e-9));
-    // And a very shallow one comes back to it.
+    // A very shallow crack converges to it.
     const ToothProfile profile(mesh.gear(1), Profile::fillet);
     const SpatialCrack shallow(mesh, kSteel, Profile::fillet, 1,
                                single(1e-8, 0, 18e-3, 0.5e-3, 0.5e-3, 0.8, 1.5));
@@ -175,7 +175,7 @@ TEST_CASE("slices converge to Yang's sum over very many slices of equal width") 
         }
 }
 
-TEST_CASE("slices that the contact does not see are left out exactly where it passes them") {
+TEST_CASE("slices outside the contact are left out exactly where it passes them") {
     const SliceRule rule(16);
     std::vector<double> weights(rule.points().size());
     const auto integrate = [&](double power) {
@@ -193,12 +193,13 @@ TEST_CASE("slices that the contact does not see are left out exactly where it pa
     CHECK(integrate(0) == 0);
 }
 
-TEST_CASE("the mesh stiffness lost to Yang's cases grows from 1 to 5, and 1 and 2 lose little") {
+TEST_CASE(
+    "the mesh stiffness lost to Yang's cases increases from 1 to 5, and 1 and 2 lose little") {
     const auto mesh = sun_planet();
     struct Model {
         FoundationModel foundation;
         Contact contact;
-        double mean_loss[5];  // measured here, for the record
+        double mean_loss[5];  // measured values of this test
     };
     const Model models[] = {
         {FoundationModel::none, Contact::linear, {0.0056, 0.0306, 0.0747, 0.1321, 0.1995}},
@@ -251,7 +252,7 @@ TEST_CASE("the crack's part below the root softens the foundation, the part abov
               .epsilon(1e-8));
 }
 
-TEST_CASE("a crack that is no crack is refused with all that is wrong") {
+TEST_CASE("an invalid crack is refused with all reasons") {
     CrackGrowth path = growth();
     path.length_m[1] = 19e-3;
     path.end_depth_m.pop_back();

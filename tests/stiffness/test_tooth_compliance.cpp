@@ -27,7 +27,7 @@ void check_equal(const ToothCompliance& computed, const ToothCompliance& expecte
     CHECK(computed.axial == Approx(expected.axial).epsilon(1e-9).margin(1e-30));
 }
 
-// Contact angles from low on the tooth to its tip.
+// Contact angles from the lower part of the tooth to its tip.
 std::vector<double> contact_angles(const gears::MeshGeometry& mesh, int which) {
     std::vector<double> angles;
     for (int i = 0; i <= 6; ++i)
@@ -78,8 +78,8 @@ TEST_CASE("an internal tooth has Liang's compliances 2.2.25 to 2.2.27") {
 }
 
 TEST_CASE("a cracked tooth has Liang's compliances in conditions 1 to 3, as corrected") {
-    // 31 teeth: Eqs. 3.5.5-3.5.14, root inside base; 48 teeth: Eqs. 3.5.18-3.5.23, root outside
-    // base.
+    // Eqs. 3.5.5-3.5.14 for 31 teeth, root inside base; Eqs. 3.5.18-3.5.23 for 48 teeth, root
+    // outside base.
     for (const int teeth : {31, 48}) {
         const gears::MeshGeometry mesh(external(19), external(teeth));
         const ToothProfile profile(mesh.gear(2), Profile::root_circle);
@@ -108,7 +108,7 @@ TEST_CASE("Tian's crack in a tooth from the base circle has his compliances 3.12
     const double q = 3.1e-3;  // his example
     const double height = std::sin(tooth.a2()) - q / tooth.Rb() * std::sin(kCrackAngle);
     const printed::CrackedTooth crack{tooth, q, kCrackAngle};
-    REQUIRE(height == Approx(crack.height()));  // the base and the root chord are equally long
+    REQUIRE(height == Approx(crack.height()));  // the base and the root chord have the same length
     for (const double a1 : contact_angles(mesh, 1)) {
         const double g = std::clamp(crack.boundary(), -a1, tooth.a2());
         const auto healthy = tooth.base_circle(a1);
@@ -163,7 +163,8 @@ TEST_CASE("the beam of a cracked external tooth lengthens down to the crack tip"
 }
 
 TEST_CASE(
-    "Liang's condition 4 diverges: compliance grows as the inverse square of the section left") {
+    "Liang's condition 4 diverges: compliance grows as the inverse square of the remaining "
+    "section") {
     const ToothProfile profile(external(19), Profile::root_circle);
     const Crack crack{0.75 * max_crack_depth(profile, kCrackAngle), kCrackAngle};
     const CrackedSections sections(profile, crack);
@@ -177,14 +178,14 @@ TEST_CASE(
 
 TEST_CASE(
     "crack lengths to the centre line are Liang's 3.90 mm in the sun and 4.30 mm in a planet") {
-    // Tables 3.2 and 3.3, 50 % level at 45 degrees.
+    // Source: Tables 3.2 and 3.3, 50 % level at 45 degrees.
     const ToothProfile sun(external(19), Profile::root_circle);
     const ToothProfile planet(external(31), Profile::root_circle);
     CHECK(max_crack_depth(sun, kCrackAngle) / 2 == Approx(3.90e-3).margin(0.01e-3));
     CHECK(max_crack_depth(planet, kCrackAngle) / 2 == Approx(4.30e-3).margin(0.02e-3));
 }
 
-TEST_CASE("the first crack takes the involute's bulge off one side and no more") {
+TEST_CASE("a shallow crack removes only the involute's bulge on one side") {
     for (const auto& gear : cracked_gears()) {
         const ToothProfile profile(gear.geometry.gear(gear.which), gear.profile);
         for (const double angle : contact_angles(gear.geometry, gear.which)) {

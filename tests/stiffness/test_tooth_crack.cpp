@@ -15,7 +15,7 @@ using namespace test_pairs;
 
 namespace {
 
-// All depths of a cracked pair of teeth.
+// A cracked pair of teeth for all depths.
 struct CrackedPair {
     explicit CrackedPair(const CrackedGear& gear)
         : family(gear.geometry, kLiangSteel, gear.profile, gear.which, kCrackAngle),
@@ -45,8 +45,7 @@ std::vector<double> positions(double contact_ratio, int count) {
     return tau;
 }
 
-// Depths in units of the largest: uniform, and crowded at nothing, at the centre line and at
-// breakage.
+// Depths in units of the largest: uniform, and dense at zero, at the centre line and at breakage.
 std::vector<double> random_depths(std::mt19937_64& engine, int count) {
     std::uniform_real_distribution<double> uniform(0, 1);
     std::vector<double> depths;
@@ -84,7 +83,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a pair without a crack is the healthy pair, one with a broken tooth carries nothing") {
+TEST_CASE("a pair without a crack is the healthy pair, one with a broken tooth carries no load") {
     for (const auto& gear : cracked_gears()) {
         const CrackedPair family(gear);
         const AdditiveMesh& healthy = family.healthy;
@@ -99,8 +98,8 @@ TEST_CASE("a pair without a crack is the healthy pair, one with a broken tooth c
 }
 
 TEST_CASE(
-    "a deeper crack never makes the pair stiffer, and its stiffness passes the centre line without "
-    "a step") {
+    "a deeper crack never makes the pair stiffer, and its stiffness is continuous at the centre "
+    "line") {
     for (const auto& gear : cracked_gears()) {
         const CrackedPair family(gear);
         const auto tau = positions(gear.geometry.contact_ratio(), 201);
@@ -121,7 +120,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("stiffness falls to zero where the cracked section is gone, and is never negative") {
+TEST_CASE("stiffness falls to zero where the cracked section vanishes, and is never negative") {
     for (const auto& gear : cracked_gears()) {
         const CrackedPair family(gear);
         const ToothProfile profile(gear.geometry.gear(gear.which), gear.profile);
@@ -165,7 +164,7 @@ TEST_CASE("one position, many positions and every instruction set give the same 
     }
 }
 
-TEST_CASE("a crack that is no crack is refused") {
+TEST_CASE("an invalid crack is refused") {
     const gears::MeshGeometry mesh(external(19), external(31));
     CHECK_THROWS_AS(ToothCrack(mesh, kLiangSteel, Profile::root_circle, 3, 0.8),
                     std::invalid_argument);

@@ -1,8 +1,9 @@
 // Yang (2022) as printed: the transition curve (Eqs. 10-15), the healthy tooth (Eqs. 16-18) and the
 // section laws of his cracks (Eqs. 28-29, 32-33, 40-41, 44-45) with the limits of their closed
-// forms, integrated over x by Boost's tanh-sinh rule. It solves his equations by bisection and
-// integrates the involute over x like the fillet, so it shares neither coordinates, formulas nor
-// quadrature with the code. Compliances in m/N.
+// forms.
+// The evaluation solves his equations by bisection and integrates over x by Boost's tanh-sinh rule,
+// the involute like the fillet. It shares neither coordinates, formulas nor quadrature with the
+// code. Compliances in m/N.
 #pragma once
 
 #include <array>
@@ -56,11 +57,11 @@ struct Tooth {
         return Rr() * x_t(r) / (Rr() + rho_t());
     }
 
-    // One crack, from a point at height l above the root section.
+    // One crack, starting at height l above the root section.
     struct Crack {
         double q, gamma, l;
     };
-    // Eqs. 2, 3, 5-9 between the sections with the cracked thickness; q = 0: Eqs. 16-18.
+    // Source: Eqs. 2, 3, 5-9 between the sections with the cracked thickness; Eqs. 16-18 for q = 0.
     gearpod::stiffness::ToothCompliance compliance(double a1,
                                                    const Crack& crack = {0, 1, 0}) const {
         const double r = Rte(), xt = x_t(r), yt = y_t(r), xr = x_r(), ate = alpha_te(r);
@@ -68,7 +69,7 @@ struct Tooth {
         const auto fillet = [&](double x) {  // Eq. 8
             return yt - std::sqrt(std::max(0.0, rho_t() * rho_t() - std::pow(xt - xr - x, 2)));
         };
-        // Eq. 8 above: the involute's section at x.
+        // Source: Eq. 8; the involute's section at x.
         const auto involute = [&](double x) {
             return h_at(zero([&](double a) { return x_at(a) - xr - x; }, -a2(), 1.2));
         };
@@ -81,7 +82,7 @@ struct Tooth {
         if (crack.q > 0 && d > crack.l) {
             if (crack.l < d1 && hc > hte)  // condition 3: Eqs. 36-37
                 until = xt - std::sqrt(rho_t() * rho_t() - (yt - hc) * (yt - hc)) - xr;
-            else  // conditions 1 and 2: h_x = h_c on the involute beyond its thickest section
+            else  // conditions 1 and 2: h_x = h_c on the involute outside its thickest section
                 until =
                     std::min(d, x_at(zero([&](double a) { return h_at(a) - hc; }, 0, 1.2)) - xr);
         }

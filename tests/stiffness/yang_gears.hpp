@@ -1,6 +1,6 @@
-// Yang's gears (2022, Tables 1 and 2). He gives no bores: 10.5 mm makes a solid planet as heavy as
-// his (0.464 kg of steel on the pitch circle); the sun, heavier than a solid disc, carries a shaft,
-// and is held at about the same share of its root circle, 10 mm.
+// Yang's gears (2022, Tables 1 and 2). He gives no bores: 10.5 mm gives a solid planet the mass of
+// his (0.464 kg of steel on the pitch circle). The sun is heavier than a solid disc and carries a
+// shaft; it is fixed at about the same fraction of its root circle, 10 mm.
 #pragma once
 
 #include "stiffness/coupled_mesh.hpp"
@@ -22,7 +22,7 @@ inline gearpod::gears::MeshGeometry sun_planet() {
 inline gearpod::gears::MeshGeometry ring_planet() {
     return {gear(34), gear(96, true)};
 }
-// 40 N m on the sun, four planets.
+// Mesh force for 40 N m on the sun and four planets.
 inline double force() {
     return 40 / (4 * gear(28).base_radius());
 }

@@ -1,4 +1,4 @@
-"""A feature of one's own over some gearboxes: python3 own_feature.py RESULTS"""
+"""Computes a user-defined feature over some gearboxes: python3 own_feature.py RESULTS"""
 
 import sys
 

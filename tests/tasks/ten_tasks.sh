@@ -1,7 +1,8 @@
 #!/bin/sh
-# What a new user wants first, each in at most three commands: ten_tasks.sh PROGRAM SOURCES [small]
-# Prints a line a task with its seconds; `small` takes a few gearboxes of each study. Ends with 1 if a task fails or
-# does not come to what it is for, and leaves out what needs a program that is not there, saying so.
+# Runs a new user's ten tasks, each in at most three commands: ten_tasks.sh PROGRAM SOURCES [small]
+# Prints one line per task with its seconds; `small` uses a few gearboxes of each study. Exits with
+# 1 if a task fails or does not give its result. Tasks that need a missing program are skipped with
+# a message.
 set -eu
 program=$(realpath "$1") sources=$(realpath "$2") size=${3:-whole}
 studies=$sources/studies
@@ -44,7 +45,7 @@ pdf_for_a_manager() {
 }
 sweep() {
     gearpod sweep "$studies/planet-crack-ideal.toml" $few --vary 'sensor.noise_m_s2=[0.5,1,2]' --quiet > out &&
-    has out 'noise_m_s2  boxes'
+    has out 'noise_m_s2  gearboxes'
 }
 more_gearboxes() {
     gearpod run "$studies/planet-crack-ideal.toml" $healthy $more --resume --out a.h5 > out &&
@@ -55,17 +56,18 @@ array_of_jobs() {
     gearpod run "$studies/planet-crack-ideal.toml" $few --quiet --part 2/2 --out 2.h5 &&
     gearpod merge 1.h5 2.h5 --out whole.h5 > out && has out 'results: whole.h5'
 }
-# Liang (2016), Fig. 5.8: 1.95 at 4.28 mm in the thesis, 1.62 here; studies/README.md says why.
+# Source: Liang (2016), Fig. 5.8, 1.95 at 4.28 mm in the thesis, 1.62 here; studies/README.md
+# explains the difference.
 published_figure() {
     python -m gearpod.published liang-fig-5-8 > out && [ -s published/liang-fig-5-8.png ] && has out '1.95 .*1.6.*at 4.28'
 }
 
-# A recording of a gearbox, in g: what task 5 begins with.
+# A recording of a gearbox in g, as input of task 5.
 gearpod simulate "$studies/planet-crack-ideal.toml" --instance 2000 --meshes 837 --out made.csv > out
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i ~ /^time/) t = i; if ($i ~ /^sensor_noise_1/) s = i }; print "time,a"; next }
     { printf "%s,%.9g\n", $t, $s / 9.80665 }' made.csv > recording.csv
 
-# Seconds of processors that ended commands took.
+# Processor seconds used by finished commands.
 processors() {
     times > times
     awk 'NR == 2 { for (i = 1; i <= 2; ++i) { split($i, t, /[ms]/); sum += 60 * t[1] + t[2] } } END { print sum }' times

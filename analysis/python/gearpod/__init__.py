@@ -2,9 +2,9 @@
 
     import gearpod
     results = gearpod.open("planet-crack.h5")
-    results.frame(noise=1.0)              # a row a gearbox: inputs and features (pandas)
-    results.signals(17)                   # its signals, from the file or computed again
-    louder = gearpod.run("studies/planet-crack.toml", set={"sensor.noise_m_s2": 2})
+    results.frame(noise=1.0)              # one row per gearbox: inputs and features (pandas)
+    results.signals(17)                   # signals of row 17, stored or computed again
+    louder = gearpod.run("studies/planet-crack.toml", set={"sensor.noise_levels": [2]})
     gearpod.figures.detection(results, "window_ratio")    # matplotlib axes
 
 numpy and h5py are needed; pandas for frames, matplotlib for figures, the program for runs.

@@ -1,4 +1,5 @@
-"""Figures of results, each on matplotlib axes that the caller may give and gets back."""
+"""Figures of results. Each function draws on the given matplotlib axes, or on new ones, and returns
+them."""
 
 from __future__ import annotations
 
@@ -28,7 +29,7 @@ def _size_scale(results: "Results") -> "tuple[float, str]":
 
 def detection(results: "Results", feature: str, noise: Optional[float] = None,
               axes: Optional[Any] = None) -> Any:
-    """Detection rates with Wilson intervals over fault size; all noise levels, or one."""
+    """Detection rates with Wilson intervals over fault size, at all noise levels or at one."""
     axes = _axes(axes)
     scale, label = _size_scale(results)
     table = results.detection_columns()
@@ -55,12 +56,13 @@ def _level(results: "Results", feature: str, noise: Optional[float]) -> Dict[str
             at = results.level(results.reference if noise is None else noise)
             level: Dict[str, Any] = entry["levels"][at]
             return level
-    raise KeyError(f"no {feature}; there are {', '.join(results.features)}")
+    raise KeyError(f"no feature {feature}; available: {', '.join(results.features)}")
 
 
 def pod(results: "Results", feature: str, noise: Optional[float] = None,
         axes: Optional[Any] = None) -> Any:
-    """The fitted probability of detection with its bounds; ValueError says why there is none."""
+    """Fitted probability of detection with its bounds. Raises ValueError with the reason if there
+    is no curve."""
     curve = _level(results, feature, noise)["hit_miss"]
     if curve["refusal"]:
         raise ValueError(f"{feature}: {curve['refusal']}")
@@ -79,7 +81,7 @@ def pod(results: "Results", feature: str, noise: Optional[float] = None,
 
 def roc(results: "Results", feature: str, noise: Optional[float] = None,
         axes: Optional[Any] = None) -> Any:
-    """Share of faulty gearboxes found against share of healthy ones called faulty."""
+    """ROC curve: share of faulty gearboxes found against share of healthy ones with an alarm."""
     at = _level(results, feature, noise)
     axes = _axes(axes)
     area = at["auc"]["auc"]
@@ -92,7 +94,7 @@ def roc(results: "Results", feature: str, noise: Optional[float] = None,
 
 def scatter(results: "Results", feature: str, noise: Optional[float] = None,
             axes: Optional[Any] = None) -> Any:
-    """A feature over fault size, a point a gearbox, with the alarm threshold."""
+    """A feature over fault size with the alarm threshold, one point per gearbox."""
     axes = _axes(axes)
     noise = results.reference if noise is None else noise
     scale, label = _size_scale(results)
@@ -110,10 +112,10 @@ def scatter(results: "Results", feature: str, noise: Optional[float] = None,
 
 
 def signal(results: "Results", row: int, name: str = "sensor", axes: Optional[Any] = None) -> Any:
-    """One signal of one gearbox over its samples' time, or over the samples."""
+    """One signal of one gearbox over time, or over the sample number if there is no time."""
     signals = results.signals(row)
     if name not in signals:
-        raise KeyError(f"no {name}; there are {', '.join(signals)}")
+        raise KeyError(f"no signal {name}; available: {', '.join(signals)}")
     axes = _axes(axes)
     time = next((n for n in ("time_s", "time") if n in signals), None)
     x = signals[time] if time else np.arange(len(signals[name]))

@@ -1,4 +1,4 @@
-"""Finds the program gearpod and runs it."""
+"""Finds and runs the program gearpod."""
 
 from __future__ import annotations
 
@@ -20,16 +20,17 @@ SOME_FAILED = 3
 
 
 class Failed(RuntimeError):
-    """The program refused, or stopped before its end: `code` is its exit code, the text its own."""
+    """The program refused its arguments or stopped early. `code` is its exit code; the message is
+    the program's own."""
 
     def __init__(self, code: int, message: str) -> None:
-        super().__init__(message.strip() or f"gearpod ended with {code}")
+        super().__init__(message.strip() or f"gearpod exited with code {code}")
         self.code = code
 
 
 def find_program() -> str:
-    """The program: GEARPOD_PROGRAM, the one installed with this package or built in its checkout,
-    else the first in PATH. FileNotFoundError if there is none."""
+    """Path of the program: GEARPOD_PROGRAM, the one installed with this package or built in its
+    checkout, otherwise the first in PATH. Raises FileNotFoundError if there is none."""
     given = os.environ.get("GEARPOD_PROGRAM")
     if given:
         return given
@@ -39,14 +40,14 @@ def find_program() -> str:
                 return str(folder / place)
     found = shutil.which("gearpod")
     if found is None:
-        raise FileNotFoundError("no program gearpod: build it, put it into PATH, or name it in "
+        raise FileNotFoundError("program gearpod not found: build it, add it to PATH, or set "
                                 "GEARPOD_PROGRAM")
     return found
 
 
 def call(arguments: Sequence[str], progress: bool = False) -> subprocess.CompletedProcess[str]:
-    """Runs the program; Failed unless it did all (0) or counted failures (3). With `progress` its
-    messages go to standard error as they come."""
+    """Runs the program. Raises Failed unless the exit code is 0 (complete) or 3 (some gearboxes
+    failed). With `progress` its messages go to standard error immediately."""
     with tempfile.TemporaryFile("w+") as messages:
         done = subprocess.run([find_program(), *arguments], check=False, text=True,
                               stdout=sys.stderr if progress else subprocess.PIPE,
@@ -60,7 +61,7 @@ def call(arguments: Sequence[str], progress: bool = False) -> subprocess.Complet
 
 
 def toml_value(value: Any) -> str:
-    """As --set reads it: numbers, booleans, texts, lists and tables of these."""
+    """Value in the syntax of --set: numbers, booleans, texts, lists and tables of these."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Mapping):
@@ -79,11 +80,12 @@ def run(study: PathLike, *, set: Optional[Mapping[str, Any]] = None, out: Option
 
     set       keys of the study to change, {"sensor.noise_m_s2": 2}
     out       results file; by default the study's name with .h5 in the working folder
-    resume    continue what was interrupted, or add gearboxes
+    resume    continue an interrupted run, or add gearboxes
     force     overwrite the results of another study
     progress  the program's lines on standard error; by default on a terminal
 
-    Failed says what the program refused. Gearboxes that failed are a warning.
+    Raises Failed with the program's message if it refuses the study. Failed gearboxes only cause a
+    warning.
     """
     from .results import open as open_results
 
@@ -99,5 +101,5 @@ def run(study: PathLike, *, set: Optional[Mapping[str, Any]] = None, out: Option
     shown = sys.stderr.isatty() if progress is None else progress
     done = call(arguments + ([] if shown else ["--quiet"]), shown)
     if done.returncode == SOME_FAILED:
-        warnings.warn(f"{target}: some gearboxes failed; results.status says which", stacklevel=2)
+        warnings.warn(f"{target}: some gearboxes failed; results.status shows which", stacklevel=2)
     return open_results(target)

@@ -1,11 +1,11 @@
-"""Published figures beside this program's numbers, with one command:
+"""Compares published figures with this program's results, with one command:
 
     python3 -m gearpod.published [NAME ...] [--out FOLDER] [--list]
 
-Runs the study of each figure (all, or those named), draws FOLDER/NAME.svg and .png, and puts what
-the source prints beside what comes out, on the terminal and in FOLDER/published.csv. What is
-published, with its source, is in studies/published/figures.json; studies/README.md says why some
-differ. matplotlib is needed.
+Runs the study of each figure (all, or those named) and draws FOLDER/NAME.svg and .png. Lists the
+published values next to the computed ones on the terminal and in FOLDER/published.csv. The
+published values and their sources are in studies/published/figures.json; studies/README.md explains
+why some differ. matplotlib is needed.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ DASHES = ["-", "--", ":", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 3))]
 
 
 class Row(NamedTuple):
-    """What the source says and what comes out; `published` is None where it prints no number."""
+    """Published and computed value; `published` is None where the source prints no number."""
 
     figure: str
     what: str
@@ -45,18 +45,18 @@ Figure = Dict[str, Any]
 
 
 def studies_folder() -> pathlib.Path:
-    """Their studies beside the program: of its checkout or its installation."""
+    """Folder of the published studies in the program's checkout or installation."""
     program = pathlib.Path(find_program()).resolve()
     for folder in (*program.parents, *pathlib.Path(__file__).resolve().parents):
         for place in ("studies/published", "share/gearpod/studies/published"):
             if (folder / place / "figures.json").is_file():
                 return folder / place
-    raise FileNotFoundError("no studies/published/figures.json beside the program; name the program "
-                            "of a checkout or an installation in GEARPOD_PROGRAM")
+    raise FileNotFoundError("studies/published/figures.json not found near the program; set "
+                            "GEARPOD_PROGRAM to the program of a checkout or an installation")
 
 
 def figures() -> List[Figure]:
-    """All figures, as studies/published/figures.json has them."""
+    """All figures in studies/published/figures.json."""
     text = (studies_folder() / "figures.json").read_text(encoding="utf-8")
     read: List[Figure] = json.loads(text)
     return read
@@ -78,7 +78,7 @@ def _line(axes: Any, number: int, x: Array, y: Array, label: str, marks: bool = 
 
 
 def _trend(panel: Dict[str, Any], axes: Any) -> None:
-    """What the source says of a panel in words."""
+    """Sets the trend that the source states in words as the title of a panel."""
     words = []
     if "rises" in panel:
         words.append("rises" if panel["rises"] else "falls")
@@ -89,7 +89,7 @@ def _trend(panel: Dict[str, Any], axes: Any) -> None:
 
 
 def _features(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """Features over an input, a line a value of another one."""
+    """Features over an input, one line per value of another input."""
     results = run(folder / figure["study"], out=os.path.join(work, "run.h5"), progress=False)
     rows = results.rows("graded")
     x = figure["scale"] * results.input(figure["along"])[rows]
@@ -121,7 +121,8 @@ def _features(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, Lis
 
 
 def _stiffness(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """The faulty pair over the mesh periods in which its faulty tooth works, a line a level."""
+    """Stiffness of the faulty pair over the mesh periods in which its faulty tooth is engaged, one
+    line per fault level."""
     text = call(["stiffness", str(folder / figure["study"]), "--csv", "-"]).stdout
     head = text.split("\n", 1)[0].split(",")
     values = np.loadtxt(io.StringIO(text), delimiter=",", skiprows=1)
@@ -161,13 +162,13 @@ def _signals(figure: Figure, folder: pathlib.Path, work: str, row: int) -> Dict[
 
 
 def _spikes(away: Array, count: int) -> Array:
-    """The largest value of each of `count` equal parts of the record, in order."""
+    """Indices of the largest value in each of `count` equal parts of the record, in order."""
     parts = np.array_split(np.arange(len(away)), count)
     return np.array([part[np.argmax(away[part])] for part in parts])
 
 
 def _motion(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """How far signals are from the healthy gearbox's, over mesh periods."""
+    """Deviation of signals from those of the healthy gearbox over mesh periods."""
     drawing, (axes,) = _panels(1)
     healthy: Optional[Dict[str, Array]] = None
     table: List[Row] = []
@@ -195,7 +196,7 @@ def _motion(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[
 
 
 def _orders(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """One-sided amplitudes over the record; the published largest one is marked."""
+    """One-sided amplitude spectrum over the record, with the published largest line marked."""
     values = _signals(figure, folder, work, figure["row"])[figure["signal"]]
     lines = 2 * figure["scale"] * np.abs(np.fft.rfft(values))[:figure["shown"] + 1] / len(values)
     lines[0] = 0.0
@@ -213,13 +214,13 @@ KINDS = {"features": _features, "stiffness": _stiffness, "motion": _motion, "ord
 
 
 def draw(figure: Figure) -> Tuple[Any, List[Row]]:
-    """The matplotlib figure of an entry of figures(), and its rows."""
+    """matplotlib figure of an entry of figures(), and its rows."""
     import matplotlib.pyplot as plt
 
     with tempfile.TemporaryDirectory() as work, plt.rc_context(
             {"axes.grid": True, "grid.color": "0.88", "axes.axisbelow": True}):
         drawing, table = KINDS[figure["kind"]](figure, studies_folder(), work)
-    letters = int(13 * drawing.get_figwidth())  # of a line of the title
+    letters = int(13 * drawing.get_figwidth())  # letters per line of the title
     drawing.suptitle(textwrap.fill(f"{figure['source']}: {figure['title']}", letters), fontsize=10,
                      color=INK)
     if "says" in figure:
@@ -236,14 +237,16 @@ def _text(row: Row) -> str:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     known = {figure["name"]: figure for figure in figures()}
     parser = argparse.ArgumentParser(prog="python3 -m gearpod.published", description=(
-        "Published figures beside this program's numbers."))
-    parser.add_argument("names", nargs="*", metavar="NAME", help="figures; without any, all")
-    parser.add_argument("--out", default="published", help="folder of pictures (default: published)")
-    parser.add_argument("--list", action="store_true", help="what there is")
+        "Compares published figures with this program's results."))
+    parser.add_argument("names", nargs="*", metavar="NAME", help="names of figures (default: all)")
+    parser.add_argument("--out", default="published",
+                        help="folder for the figures (default: published)")
+    parser.add_argument("--list", action="store_true", help="list the figures")
     options = parser.parse_args(arguments)
     unknown = [name for name in options.names if name not in known]
     if unknown:
-        print(f"no figure {', '.join(unknown)}; there are {', '.join(known)}", file=sys.stderr)
+        print(f"unknown figure {', '.join(unknown)}; available: {', '.join(known)}",
+              file=sys.stderr)
         return 2
     if options.list:
         for figure in known.values():
@@ -259,7 +262,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
 
     out = pathlib.Path(options.out)
     table: List[Row] = []
-    print(f"{'figure':<16}{'published':>10}{'ours':>12}  what")
+    print(f"{'figure':<16}{'published':>10}{'computed':>12}  what")
     try:
         out.mkdir(parents=True, exist_ok=True)
         for name in options.names or known:

@@ -1,4 +1,4 @@
-"""A results file: gearboxes with their inputs and features, detection rates, signals."""
+"""Results file: gearboxes with their inputs and features, detection rates, signals."""
 
 from __future__ import annotations
 
@@ -24,13 +24,14 @@ GROUPS = {"threshold": 0, "graded": 1, "neither": 2}
 
 
 def open(path: PathLike) -> "Results":
-    """Opens a results file. OSError if there is none, ValueError if it is not one of gearpod's."""
+    """Opens a results file. Raises OSError if there is none, ValueError if gearpod did not write
+    it."""
     return Results(path)
 
 
 class Results:
-    """What `gearpod run` has written, read as it is asked for. Rows are gearboxes, first those that
-    set the thresholds, then the graded ones."""
+    """Results of `gearpod run`, read on demand. Each row is a gearbox; those that set the
+    thresholds come first, then the graded ones."""
 
     def __init__(self, path: PathLike) -> None:
         self.path = pathlib.Path(path)
@@ -42,20 +43,20 @@ class Results:
             if int(self.attributes["format_version"]) > NEWEST:
                 raise ValueError(f"{self.path}: written by a newer gearpod")
             if self.attributes.get("kind") == "lives":
-                raise ValueError(f"{self.path}: holds lives; read it with h5py (/features are "
-                                 "gearboxes x records, /hours when)")
+                raise ValueError(f"{self.path}: contains lives; read it with h5py (/features: "
+                                 "gearboxes x records, /hours: their times)")
             self.noise_levels: Array = file["noise_levels"][()]
             self.group: Array = file["instances/group"][()]
             self.status: Array = file["status"][()]
             self.inputs: List[str] = [name for name in file["instances"] if name != "group"]
             self.features: List[str] = list(file["features"])
-            # The meshes whose share of time out of contact is known; none where teeth cannot part.
+            # Meshes whose contact loss ratio is known; none where teeth cannot separate.
             self.meshes: List[str] = list(file.get("contact_loss", {}))
             self.units: Dict[str, str] = {
                 name: _text(file[folder][name].attrs["unit"])
                 for folder, names in (("instances", self.inputs), ("features", self.features))
                 for name in names}
-            # Which side of the threshold is an alarm: "high" or "low".
+            # Alarm side of the threshold for each feature: "high" or "low".
             self.alarms: Dict[str, str] = {
                 name: _text(file["features"][name].attrs["alarm"]) for name in self.features}
             self.size_name: str = _text(file["detection"].attrs["size_name"])
@@ -69,11 +70,11 @@ class Results:
 
     @property
     def study(self) -> str:
-        """The resolved study (TOML)."""
+        """Resolved study (TOML)."""
         return self.attributes["study"]
 
     def input(self, name: str) -> Array:
-        """One value a gearbox."""
+        """Values of an input, one per gearbox."""
         return self._read("instances", name, self.inputs)
 
     @property
@@ -82,50 +83,53 @@ class Results:
         return self.input(self.size_name) if self.size_name in self.inputs else np.zeros(len(self))
 
     def feature(self, name: str, noise: Optional[float] = None) -> Array:
-        """Gearboxes x noise levels, or at one noise level one value a gearbox; NaN: none."""
+        """Values of a feature, gearboxes x noise levels, or one per gearbox at one noise level; NaN
+        where there is no value."""
         values = self._read("features", name, self.features)
         return values if noise is None else values[:, self.level(noise)]
 
     def contact_loss(self, mesh: str) -> Array:
-        """Share of time out of contact, one value a gearbox: the share of its engagement, within the
-        nominal path of contact, in which a tooth pair of the mesh carries no load; NaN: none."""
+        """Contact loss ratio of a mesh, one value per gearbox: the share of the engagement, within
+        the nominal path of contact, in which a tooth pair carries no load; NaN where there is no
+        value."""
         return self._read("contact_loss", mesh, self.meshes)
 
     def level(self, noise: float) -> int:
-        """The place of a noise level. KeyError names those that there are."""
+        """Index of a noise level. Raises KeyError with the available levels."""
         at = np.flatnonzero(np.isclose(self.noise_levels, noise))
         if at.size == 0:
-            raise KeyError(f"no noise level {noise:g}; there are "
+            raise KeyError(f"no noise level {noise:g}; available: "
                            + ", ".join(f"{level:g}" for level in self.noise_levels))
         return int(at[0])
 
     @property
     def reference(self) -> float:
-        """The noise level that reports show first: 1, else the least above 0, else the first."""
+        """Noise level that reports show first: 1 if available, otherwise the smallest above 0,
+        otherwise the first."""
         levels = self.noise_levels
         above = levels[levels > 0]
         return 1.0 if 1.0 in levels else float(above[0] if above.size else levels[0])
 
     def rows(self, group: str = "graded") -> Array:
-        """Numbers of the rows of a group: threshold, graded or neither."""
+        """Row numbers of a group: threshold, graded or neither."""
         return np.flatnonzero(self.group == GROUPS[group])
 
     def columns(self, noise: Optional[float] = None) -> Dict[str, Array]:
-        """Group, status, inputs and features by name, one value a gearbox."""
+        """Group, status, inputs and features by name, one value per gearbox."""
         noise = self.reference if noise is None else noise
         return {"group": self.group, "status": self.status,
                 **{name: self.input(name) for name in self.inputs},
                 **{name: self.feature(name, noise) for name in self.features}}
 
     def frame(self, noise: Optional[float] = None) -> Any:
-        """The same as a pandas DataFrame, indexed by row; needs pandas."""
+        """columns() as a pandas DataFrame, indexed by row; needs pandas."""
         pandas = _pandas()
         frame = pandas.DataFrame(self.columns(noise))
         frame.index.name = "row"
         return frame
 
     def detection_columns(self) -> Dict[str, Array]:
-        """Detection rates, an entry a feature, noise level and size."""
+        """Detection rates, one entry per feature, noise level and size."""
         columns: Dict[str, List[Any]] = {}
         with h5py.File(self.path, "r") as file:
             for feature in self.features:
@@ -142,12 +146,12 @@ class Results:
         return {name: np.array(values) for name, values in columns.items()}
 
     def detection(self) -> Any:
-        """The same as a pandas DataFrame; needs pandas."""
+        """detection_columns() as a pandas DataFrame; needs pandas."""
         return _pandas().DataFrame(self.detection_columns())
 
     def signals(self, row: int) -> Dict[str, Array]:
-        """Signals of the gearbox in a row, by name: those in the file (`run --signals`), else
-        computed again by the program, which must be there."""
+        """Signals of the gearbox in a row, by name. Read from the file if stored (`run --signals`),
+        otherwise computed again by the program."""
         if not 0 <= row < len(self):
             raise IndexError(f"row {row} of {len(self)}")
         with h5py.File(self.path, "r") as file:
@@ -162,8 +166,8 @@ class Results:
                 return {name: item[()] for name, item in file["signals"].items()}
 
     def report(self) -> Dict[str, Any]:
-        """All that the report says (`gearpod report --json`): curves, ranking, misses; needs the
-        program. Kept after the first call."""
+        """The complete report (`gearpod report --json`): curves, ranking, misses. Needs the
+        program; cached after the first call."""
         if not hasattr(self, "_report"):
             done = call(["report", str(self.path), "--json", "-"])
             self._report: Dict[str, Any] = json.loads(done.stdout)
@@ -171,7 +175,7 @@ class Results:
 
     def smallest_fault(self, noise: Optional[float] = None) -> Optional[Tuple[float, str]]:
         """Size and feature of the smallest fault found with 90 % probability, None if there is
-        none; needs the program."""
+        none. Needs the program."""
         reliability = self.report()["reliability"]
         if reliability is None:
             return None
@@ -181,7 +185,7 @@ class Results:
 
     def _read(self, folder: str, name: str, names: List[str]) -> Array:
         if name not in names:
-            raise KeyError(f"no {name}; there are {', '.join(names)}")
+            raise KeyError(f"no {name}; available: {', '.join(names)}")
         with h5py.File(self.path, "r") as file:
             values: Array = file[folder][name][()]
         return values

@@ -1,4 +1,4 @@
-"""What the JSON of gearpod lives says, as its page needs it."""
+"""JSON of gearpod lives, with derived values used by its page."""
 
 from words import count, number, percent
 
@@ -12,7 +12,8 @@ class CampaignData:
         self.data = data
         self.worked = [life for life in data["lives"] if life["status"] == 0]
         self.ended = [k for k, life in enumerate(self.worked) if life["end_h"] is not None]
-        self.crack_h = data["baseline_records"] * data["interval_h"]  # when the crack is there
+        # Time at which the crack starts.
+        self.crack_h = data["baseline_records"] * data["interval_h"]
         self.last_mm = 1e3 * data["last_depth_m"]
 
     def names(self):
@@ -22,22 +23,23 @@ class CampaignData:
         return [one for one in self.data["monitored"] if one["feature"] == feature]
 
     def best_of(self, feature):
-        """The detector that finds the most, then the shallowest."""
+        """Detector of a feature that finds the most, then at the smallest depth."""
         return min(self.of(feature), key=_order)
 
     def best(self):
-        """The same of all features; None where no threshold could be set."""
+        """Best detector over all features; None where no threshold could be set."""
         known = [one for one in self.data["monitored"] if one["threshold"] is not None]
         return min(known, key=_order) if known else None
 
     def warnings(self, monitored):
-        """Hours from the alarm to the end, of every life that ends: None where there was none."""
+        """Hours from the alarm to the end for every life that ends; None without an alarm."""
         return [None if monitored["alarm_h"][k] is None else
                 self.worked[k]["end_h"] - monitored["alarm_h"][k]
                 for k in self.ended] if monitored["alarm_h"] else []
 
     def depth_at_end(self, life):
-        """In mm: the last one, or what the last record had where the next breaks the tooth."""
+        """Depth at the end in mm: the last depth of the study, or that of the last record if the
+        tooth breaks before the next one."""
         interval = self.data["interval_h"]
         if life["end_h"] < life["hours"][-1] + interval * (1 - 1e-9):
             return self.last_mm
@@ -45,7 +47,8 @@ class CampaignData:
 
     @staticmethod
     def alarm_h(monitored, k):
-        """When it first alarms in the k-th life that worked; None if it does not, or is None."""
+        """Time of the first alarm in the k-th valid life; None without an alarm, or if `monitored`
+        is None."""
         return monitored["alarm_h"][k] if monitored and monitored["alarm_h"] else None
 
     def depth_text(self, metres):
@@ -55,22 +58,23 @@ class CampaignData:
         best, ends = self.best(), len(self.ended)
         rate = number(self.data["false_alarms_per_1000_h"])
         if best is None:
-            return (f"The healthy lives are too few for a threshold at {rate} false alarms in "
+            return (f"The healthy lives are too few for a threshold at {rate} false alarms per "
                     "1000 hours.")
         if not ends:
-            return "No tooth goes within its records: nothing can be found before the end."
+            return "No tooth breaks within its records, so nothing can be found before the end."
         low, high = best["share_bounds"]
         text = (f"{best['feature']} by {best['detector']} finds {count(best['found'])} of "
-                f"{count(ends)} cracks before the tooth goes ({percent(low)} to {percent(high)})")
+                f"{count(ends)} cracks before the tooth breaks ({percent(low)} to {percent(high)})")
         if best["warning_50_h"] is not None:
-            text += (f", half of those found {number(best['warning_50_h'])} hours before or "
-                     f"earlier, nine in ten {number(best['warning_90_h'])}")
+            text += (f", half of those found at least {number(best['warning_50_h'])} hours "
+                     f"before, 90\u00a0% at least {number(best['warning_90_h'])} hours")
         alarms = best["false_alarms"]
         if alarms["per_1000_h"] is None:
-            return text + f", at {rate} false alarms in 1000 hours, which no healthy lives count."
+            return text + (f", at {rate} false alarms per 1000 hours (not counted, for lack of "
+                           "healthy lives).")
         low, high = (number(bound) for bound in alarms["bounds"])
-        return text + (f", at {number(alarms['per_1000_h'])} false alarms in 1000 hours ({low} to "
-                       f"{high}; set to {rate}).")
+        return text + (f", at {number(alarms['per_1000_h'])} false alarms per 1000 hours ({low} "
+                       f"to {high}; set to {rate}).")
 
 
 def _order(monitored):

@@ -1,11 +1,11 @@
-"""Figures of the page of gearpod lives: lives that fan out, warning times, false alarms' price."""
+"""Figures of the page of gearpod lives: crack growth, warning times, false alarms against depth."""
 
 import blocks
 from charts import INK, MUTED, NOISY, colour, dash, legend_below, marker, panel, to_svg
 from lives.campaign_data import millimetres
 from words import number
 
-DRAWN = 32  # lives with lines of their own; gearpod lives --json gives deviations of as many
+DRAWN = 32  # lives drawn as single lines; gearpod lives --json gives deviations of as many
 
 
 def fan(campaign, page):
@@ -18,17 +18,18 @@ def fan(campaign, page):
                      "–" if alarm is None else number(_depth_at(life, alarm))])
     names = f"{best['feature']} by {best['detector']}" if best else "no detector"
     return page.figure(
-        "Cracks as they grow, and what the monitor sees of them", charts,
-        f"Each line is a life; a circle marks the first alarm behind the crack's begin of {names}, "
-        "a cross the end of the tooth. The other chart has the deviation of that feature from the "
-        "gearbox's own baseline, in its standard deviations; grey is where nine in ten healthy "
-        "lives lie. An alarm looks at several records, so that single points beyond grey are none.",
+        "Crack growth and monitored deviation", charts,
+        f"Each line is a life; a circle marks the first alarm of {names} after crack initiation, "
+        "a cross the break of the tooth. The other chart shows the deviation of that feature "
+        "from the gearbox's baseline in standard deviations; the grey band holds 90\u00a0% of "
+        "the healthy lives. An alarm may use several records, so single points outside the band "
+        "need not raise one.",
         blocks.table(f"Lives, alarms by {names}",
-                     ["life", "tooth goes, h", "alarm, h", "depth then, mm"], rows))
+                     ["life", "tooth breaks, h", "alarm, h", "depth at alarm, mm"], rows))
 
 
 def _panel_of(lines):
-    """With room for a legend of so many lines below."""
+    """Chart with room for a legend of the given number of lines below."""
     return panel(2.9 + 0.22 * lines)
 
 
@@ -84,16 +85,18 @@ def _deviations(campaign, best, page):
     if largest > 50.0:
         _set_decades(axes)
     axes.axvline(campaign.crack_h, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
-    axes.set_xlabel("Machine hours (dashed: the crack is there)")
-    axes.set_ylabel("Deviation, own standard deviations")
+    axes.set_xlabel("Machine hours (dashed: crack initiation)")
+    axes.set_ylabel("Deviation, standard deviations")
     axes.set_title(name, fontsize=10, color=INK, loc="left")
-    return to_svg(figure, f"{name}: deviation from the own baseline over machine hours",
-                  f"{len(one['lives'])} lives that crack, and where nine in ten healthy ones lie",
+    return to_svg(figure, f"{name}: deviation from the baseline over machine hours",
+                  f"{len(one['lives'])} lives with cracks, and the band of 90\u00a0% of the "
+                  "healthy lives",
                   page.names)
 
 
 def _set_decades(axes):
-    """Linear to 5, then by decades, with marks from 10 on: those below would touch 0."""
+    """Sets a scale that is linear to 5, then logarithmic, with marks from 10 on, because smaller
+    ones would overlap 0."""
     axes.set_yscale("symlog", linthresh=5.0)
     low, high = axes.get_ylim()
     decades = [10.0 ** k for k in range(1, 12)]
@@ -104,7 +107,7 @@ def _set_decades(axes):
 
 def warning_times(campaign, page):
     if not campaign.ended:
-        return blocks.note("No tooth goes within its records, so there are no warning times.")
+        return blocks.note("No tooth breaks within its records, so there are no warning times.")
     figure, axes = _panel_of(len(campaign.names()))
     longest = max([w for name in campaign.names()
                    for w in campaign.warnings(campaign.best_of(name)) if w is not None] or [1.0])
@@ -120,7 +123,7 @@ def warning_times(campaign, page):
                   label=f"{name}, {best['detector']}")
         rows.append([name, best["detector"], f"{best['found']}/{best['ended']}",
                      _hours(best["warning_50_h"]), _hours(best["warning_90_h"])])
-    axes.set_xlabel("Hours before the tooth goes")
+    axes.set_xlabel("Hours before the tooth breaks")
     axes.set_ylabel("Share found by then")
     axes.set_xlim(longest * 1.02, 0)
     axes.set_ylim(0, 1.02)
@@ -129,11 +132,11 @@ def warning_times(campaign, page):
                  "; ".join(f"{r[0]}: {r[2]} found" for r in rows), page.names)
     return page.figure(
         "Warning times", [svg],
-        "Of the cracks whose tooth goes, the share that has been found when so many hours are left, "
-        "each feature by its best detector. At the right edge, when the tooth goes, it is the share "
-        "found at all.",
+        "Of the cracks that break the tooth, the share found when the given number of hours is "
+        "left, for each feature with its best detector. The right edge, when the tooth breaks, "
+        "is the total share found.",
         blocks.table("Warning times", ["feature", "detector", "found", "median, h",
-                                       "nine in ten, h"], rows))
+                                       "90 % at least, h"], rows))
 
 
 def trade_off(campaign, page):
@@ -155,22 +158,22 @@ def trade_off(campaign, page):
                       linestyle=dash(k), marker=marker(k), markersize=4, markeredgewidth=0,
                       label=f"{one['feature']}, {one['detector']}")
     data = blocks.table("False alarms and depth at detection",
-                        ["feature", "detector", "set to, in 1000 h", "counted", "share found",
-                         "50 % by, mm", "90 % by, mm"], rows)
+                        ["feature", "detector", "set to, per 1000 h", "counted", "share found",
+                         "50 % found by, mm", "90 % found by, mm"], rows)
     if not drawn:
         return blocks.note("The healthy lives are too few for a threshold at any of these rates.") + data
     axes.set_xscale("log")
     axes.set_ylim(0, 1.05 * campaign.last_mm)
-    axes.set_xlabel("False alarms in 1000 hours")
+    axes.set_xlabel("False alarms per 1000 hours")
     axes.set_ylabel("90 % found by, mm")
     legend_below(axes, 1)
-    svg = to_svg(figure, "Depth at detection against false alarms in 1000 hours",
+    svg = to_svg(figure, "Depth at detection against false alarms per 1000 hours",
                  "; ".join(f"{one['feature']} by {one['detector']}"
                            for one in campaign.data["trade_offs"]), page.names)
     return page.figure(
-        "What false alarms buy", [svg],
-        "Thresholds set to more or fewer false alarms, and the depth by which nine in ten of the "
-        "cracks are found, each feature by the detector that is best at the study's rate."
-        + (f" At {number(campaign.last_mm)} mm, where lives end: that many are not found."
+        "Depth at detection against false alarms", [svg],
+        "Depth by which 90\u00a0% of the cracks are found, for thresholds set to more or fewer "
+        "false alarms, for each feature with the detector that is best at the study's rate."
+        + (f" Points at {number(campaign.last_mm)} mm, where lives end: fewer are found."
            if missed else ""), data)
 

@@ -1,1 +1,1 @@
-"""Pages of one kind of answer each: parts(data, page) gives title, sentence, answer and sections."""
+"""Pages of the other commands. parts(data, page) returns title, sentence, answer and sections."""

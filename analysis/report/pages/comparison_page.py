@@ -1,4 +1,4 @@
-"""The page of gearpod compare: what a change does to detection."""
+"""Page of gearpod compare: effect of a change on detection."""
 
 import blocks
 from charts import INK, MUTED, colour, marker, panel, to_svg
@@ -17,7 +17,7 @@ class Compared:
         self.files = data["files"]
 
     def shown(self, file):
-        """The features of a file at the noise level that is shown."""
+        """Features of a file at the noise level shown."""
         return [f for f in self.files[file]["features"] if f["noise_level"] == self.level]
 
     def names(self):
@@ -31,13 +31,13 @@ class Compared:
         return None
 
     def nothing_found(self, file):
-        """What a file without a smallest fault says."""
+        """Text for a file without a smallest fault."""
         unknown = any(at["noise_level"] == self.level and at["without_threshold"]
                       for at in self.files[file]["smallest_faults"])
         return "no threshold" if unknown else "no tested size"
 
     def shortages(self):
-        """What files' healthy samples do not carry, each with its letter."""
+        """Shortages of the files' healthy samples, each with the letter of its file."""
         return [f"{letter(k)}: {f['shortage']}" for k, f in enumerate(self.files)
                 if f["shortage"]]
 
@@ -68,7 +68,7 @@ def _difference(entry, text):
 
 
 def _forest(compared, page, key, title, axis, scale):
-    """A mark with its interval a feature and file."""
+    """Forest plot: a mark with its interval per feature and file."""
     rows = [(name, k, next((f for f in compared.shown(k) if f["name"] == name), None))
             for name in compared.names() for k in range(1, len(compared.files))]
     rows = [(name, k, f[key]) for name, k, f in rows if f]
@@ -96,9 +96,10 @@ def _forest(compared, page, key, title, axis, scale):
     svg = to_svg(figure, title, "; ".join(
         f"{name}, {letter(k)}: {_difference(e, lambda v: number(v * scale))}"
         for name, k, e in drawn), page.names)
-    return page.figure(title, [svg], "Each file's value less A's, with its interval at "
-                       f"{percent(compared.data['confidence'])}; right of the dashed line it is "
-                       "larger than A's. An open end is drawn at the mark.", data)
+    return page.figure(title, [svg], "Each file's value minus A's, with its interval at "
+                                     f"{percent(compared.data['confidence'])}; right of the "
+                                     "dashed line it is larger than A's. An open end is drawn at "
+                                     "the mark.", data)
 
 
 def _rates(compared, page, k):
@@ -118,9 +119,9 @@ def _rates(compared, page, k):
         reach = max(0.05, *(abs(v) for s in sizes for v in (s["lower"], s["upper"])))
         axes.set_ylim(-1.05 * reach, 1.05 * reach)
         axes.set_xlabel(compared.sizes.axis())
-        axes.set_ylabel(f"Detection rate, {letter(k)} less A")
+        axes.set_ylabel(f"Detection rate, {letter(k)} minus A")
         axes.set_title(feature["name"], fontsize=10, color=INK, loc="left")
-        charts.append(to_svg(figure, f"{feature['name']}: detection rate, {letter(k)} less A",
+        charts.append(to_svg(figure, f"{feature['name']}: detection rate, {letter(k)} minus A",
                              "; ".join(f"{compared.sizes.group(s['size_low'], s['size_high'])}: "
                                        f"{s['difference']:+.3f}" for s in sizes), page.names))
         rows = [[compared.sizes.group(s["size_low"], s["size_high"]), *map(count, s["tested"]),
@@ -132,7 +133,7 @@ def _rates(compared, page, k):
                                     f"only {letter(k)} found", "p"], rows))
     if not charts:
         return ""
-    return page.figure(f"Detection rates, {letter(k)} less A, at {noise(compared.level)}", charts,
+    return page.figure(f"Detection rates, {letter(k)} minus A, at {noise(compared.level)}", charts,
                        "Difference of the share found, by fault size, with its interval. Above the "
                        "dashed line more are found than in A.", "".join(tables))
 
@@ -158,12 +159,12 @@ def _other_levels(compared, k):
              _difference(f["auc"], _fixed), p_value(f["auc"]["p_value"])]
             for f in compared.files[k]["features"]]
     unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
-    return blocks.table(f"All noise levels: {letter(k)} less A",
+    return blocks.table(f"All noise levels: {letter(k)} minus A",
                         ["feature", "noise", f"a90{unit}", "AUC", "p"], rows)
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     compared = Compared(data)
     answer = "".join(f'<p class="answer">{escape(text)}</p>'
                      for text in [*compared.shortages(), compared.sentence()])
@@ -171,8 +172,8 @@ def parts(data, page):
                            [[letter(k), f["path"], f["title"], count(f["gearboxes"])]
                             for k, f in enumerate(compared.files)])
     if data.get("first_records"):
-        answer += ('<p class="small">Thresholds of the differences are those of the first record '
-                   "of each healthy gearbox; the smallest faults rest on all records.</p>")
+        answer += ('<p class="small">The differences use thresholds set by the first record of '
+                   "each healthy gearbox; the smallest faults use all records.</p>")
     unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
     body = page.section("sizes", "Sizes and areas", _forest(
         compared, page, "a90", f"Difference of a90 at {noise(compared.level)}",

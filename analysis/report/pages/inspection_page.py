@@ -1,4 +1,4 @@
-"""The page of gearpod pod: POD from a table of inspections."""
+"""Page of gearpod pod: POD from a table of inspections."""
 
 import math
 
@@ -30,12 +30,12 @@ class Inspection:
     def sentence(self):
         if self.pod["refusal"]:
             return f"No detection curve: {self.pod['refusal']}."
-        return (f"90 % of flaws of {self.size(self.pod['a90']['estimate'])} are found; with the "
-                f"bound, {self.bound} is {self.size(self.pod['a90']['upper'])}.")
+        return (f"90 % of flaws of {self.size(self.pod['a90']['estimate'])} are found; the upper "
+                f"bound {self.bound} is {self.size(self.pod['a90']['upper'])}.")
 
 
 def _bars(points, parts=12):
-    """Rates of hits in groups of about equal count, by size."""
+    """Hit rates in groups of about equal count, by size."""
     points = sorted(points)
     step = max(1, round(len(points) / parts))
     for first in range(0, len(points), step):
@@ -77,8 +77,8 @@ def _curve(inspection, page):
     rows = [[number(inspection.sizes.shown(s), DIGITS), rate(p), rate(low), rate(high)]
             for s, p, low, high in zip(pod["band"]["size"], column["pod"], column["lower"],
                                        column["upper"])]
-    how = (f"The curve with its bounds ({pod['bound']}); where the lower one passes 0.9 (dashed) is "
-           f"{inspection.bound}, the upright line.")
+    how = (f"The curve with its bounds ({pod['bound']}); the vertical line at {inspection.bound} "
+           "is where the lower bound passes 0.9 (dashed).")
     return page.figure("Probability of detection", [svg], how,
                        blocks.table("POD over size", ["size", "POD", "lower", "upper"], rows))
 
@@ -140,7 +140,7 @@ def _trade_off(inspection, page):
              inspection.size(p["a90"]["estimate"]), inspection.size(p["a90"]["upper"])]
             for p in points]
     return page.figure("What another threshold would trade", [svg],
-                       "A lower threshold finds smaller flaws and calls falsely more often.",
+                       "A lower threshold finds smaller flaws, but gives more false calls.",
                        blocks.table("By threshold", ["threshold", "false calls", "a90",
                                                      inspection.bound], rows))
 
@@ -168,13 +168,13 @@ def _facts(inspection):
     if more["target"] is not None and more["more"] is not None:
         rows.append([f"more specimens for {inspection.bound} at "
                      f"{inspection.sizes.text(more['target'], DIGITS)}", count(int(more["more"]))])
-    rows.append(["all found at one size", f"{more['all_found']} specimens show POD 90 % at "
-                 f"{percent(data['confidence'])}"])
-    return blocks.table("What the numbers come from", ["entry", "value"], rows)
+    rows.append(["no miss at one size", f"{more['all_found']} specimens demonstrate POD 90 % at "
+                                        f"{percent(data['confidence'])}"])
+    return blocks.table("Data and method", ["entry", "value"], rows)
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     inspection = Inspection(data)
     pod = inspection.pod
     answer = f'<p class="answer">{escape(inspection.sentence())}</p>'
@@ -182,7 +182,7 @@ def parts(data, page):
         rows = [[name, inspection.size(pod[name]["estimate"]), inspection.size(pod[name]["lower"]),
                  inspection.size(pod[name]["upper"])] for name in ("a50", "a90")]
         answer += blocks.table("Sizes with their bounds", ["", "estimate", "lower", "upper"], rows)
-        for doubt in pod.get("doubts", []) + (["the fit rejects the curve"]
+        for doubt in pod.get("doubts", []) + (["the goodness-of-fit test rejects the curve"]
                                               if pod.get("doubtful") else []):
             answer += blocks.note(f"Warning: {doubt}")
     body = ""

@@ -1,4 +1,4 @@
-"""The page of gearpod sweep --lives: what is found in time, along the values of some keys."""
+"""Page of gearpod sweep --lives: cracks found in time over the values of some keys."""
 
 import blocks
 from pages import sweep_grid
@@ -16,7 +16,7 @@ class SweptLives(Grid):
                      and (one["feature"], one["detector"]) == (feature, detector)), None)
 
     def best(self, point):
-        """By the feature and detector that find most over all points."""
+        """Entry of the feature and detector that find most over all points."""
         best = self.data["best"]
         return best and self.of(point, best["feature"], best["detector"])
 
@@ -48,9 +48,9 @@ class SweptLives(Grid):
                  if (one := self.best(point)) and one["share"] is not None]
         begin = f"{best['feature']} by {best['detector']} "
         if not known:
-            return begin + "finds nothing in time, for no tooth goes within its records."
+            return begin + "finds nothing in time, because no tooth breaks within its records."
         low, high = min(known, key=lambda k: k[0]), max(known, key=lambda k: k[0])
-        text = begin + f"finds {percent(high[0])} of the cracks before the tooth goes"
+        text = begin + f"finds {percent(high[0])} of the cracks before the tooth breaks"
         if low[0] < high[0]:
             text += f" at {self.name(high[1])}, {percent(low[0])} at {self.name(low[1])}"
         else:
@@ -59,7 +59,8 @@ class SweptLives(Grid):
                   if (one := self.best(point)) and one["warning_50_h"] is not None]
         if warned:
             low, high = min(warned, key=lambda k: k[0]), max(warned, key=lambda k: k[0])
-            text += f"; half of those found {number(low[0])} h before or earlier at {self.name(low[1])}"
+            text += (f"; half of those found at least {number(low[0])} h before at "
+                     f"{self.name(low[1])}")
             if high[0] > low[0]:
                 text += f", {number(high[0])} h at {self.name(high[1])}"
         return text + "."
@@ -92,8 +93,8 @@ def _cells(one, point):
             number(one["warning_90_h"])]
 
 
-CELLS = ["false alarms in 1000 h", "found before the end", "50 % by, mm", "90 % by, mm (bound)",
-         "warning, h", "nine in ten, h"]
+CELLS = ["false alarms per 1000 h", "found before the end", "50 % found by, mm",
+         "90 % found by, mm (bound)", "median warning, h", "90 % at least, h"]
 
 
 def _mm(metres):
@@ -127,7 +128,7 @@ def _figure(swept, page, title, axis, how, value, limits=None):
                                         limits)
     if not charts:
         return blocks.note(f"{title}: nothing to show.")
-    some = (f" Drawn are the {len(names)} features that find the most."
+    some = (f" The chart shows the {len(names)} features that find the most."
             if len(swept.names()) > len(names) else "")
     data = sweep_grid.table(
         swept, title, [key.name for key in swept.keys] + ["feature", "detector", *CELLS],
@@ -137,38 +138,40 @@ def _figure(swept, page, title, axis, how, value, limits=None):
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     swept = SweptLives(data)
     answer = f'<p class="answer">{escape(swept.sentence())}</p>' + _answer(swept)
     body = ""
     if swept.data["best"] is not None:
         sure = percent(swept.confidence)
         body += page.section("found", "Found before the end", _figure(
-            swept, page, "Share found", "Share of the cracks", "Of the lives whose tooth goes within "
-            "their records, the share that alarms before, each feature by the detector that finds "
-            f"most over all points, with Wilson's interval at {sure}.",
+            swept, page, "Share found", "Share of the cracks",
+            "Of the lives whose tooth breaks within their records, the share with an alarm "
+            "before, for each feature with the detector that finds most over all points, "
+            f"with Wilson intervals at {sure}.",
             lambda one: (one["share"], *one["share_bounds"]), (0.0, 1.02)))
         body += page.section("depth", "Depth at detection", _figure(
-            swept, page, "90 % found by", "Depth, mm", "The depth by which nine in ten of the "
-            f"cracks are found, with its upper bound at {sure} where there are enough lives. No "
-            "mark: that many are not found.",
+            swept, page, "90 % found by", "Depth, mm",
+            "The depth by which 90\u00a0% of the cracks are found, with its upper bound at "
+            f"{sure} where there are enough lives. No mark: fewer are found.",
             lambda one: (_mm(one["depth_90_m"]), None, _mm(one["depth_90_bound_m"]))))
         body += page.section("warning", "Warning times", _figure(
-            swept, page, "Warning", "Hours before the tooth goes", "Of the cracks that are found, "
-            "the median of the hours that are left at the alarm; the line goes down to what nine in "
-            "ten have.",
+            swept, page, "Warning", "Hours before the tooth breaks",
+            "Of the cracks found, the median of the hours left at the alarm; the line "
+            "extends down to the time that 90\u00a0% have at least.",
             lambda one: (one["warning_50_h"], one["warning_90_h"], None)))
         body += page.section("alarms", "False alarms", _figure(
-            swept, page, "False alarms", "In 1000 hours", "Counted on healthy lives that had no "
-            f"part in the threshold, with their interval at {sure}; thresholds are set to "
+            swept, page, "False alarms", "Per 1000 hours",
+            "Counted on healthy lives that did not set the threshold, with the interval at "
+            f"{sure}; thresholds are set to "
             + " or ".join(sorted({number(p["false_alarms_per_1000_h"]) for p in swept.points})) + ".",
             lambda one: (one["false_alarms"]["per_1000_h"], *one["false_alarms"]["bounds"])))
         records = blocks.table("Records", [key.name for key in swept.keys] + [
-            "a record", "off at the first depths", "at the last", "between loads"], [
+            "record", "error at the first depths", "at the last", "between loads"], [
                 sweep_grid.values(swept, p) + [p["record"]] + [
                     "–" if p["interpolation"][key] is None else percent(p["interpolation"][key])
                     for key in ("first", "last", "load")] for p in swept.points])
-        body += page.section("records", "What a record is", records)
+        body += page.section("records", "Records and interpolation errors", records)
     body += sweep_grid.files(swept, page, "")
     title = f"Sweep of lives: {data['title']}" if data["title"] else "Sweep of lives"
     return title, swept.sentence(), answer, body

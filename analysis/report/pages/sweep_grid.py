@@ -1,4 +1,5 @@
-"""The points of a sweep in charts and tables: along one key, a chart a combination of the others."""
+"""Points of a sweep in charts and tables: one key along the axis, one chart per combination of the
+others."""
 
 import itertools
 import math
@@ -10,10 +11,10 @@ import blocks
 from charts import INK, colour, dash, legend_above, marker, panel, to_svg
 from words import count, number
 
-MOST_LINES = 5     # in a chart
-MOST_CHARTS = 24   # in a figure
-MOST_ROWS = 2000   # in a table
-LONGEST = 18       # letters of a value below an axis
+MOST_LINES = 5  # in a chart
+MOST_CHARTS = 24  # in a figure
+MOST_ROWS = 2000  # in a table
+LONGEST = 18  # letters of a value below an axis
 
 
 def short(key):
@@ -21,7 +22,7 @@ def short(key):
 
 
 def clipped(text):
-    """A TOML value in few letters: uniform, 1, 2 of { distribution = "uniform", low = 1, high = 2 }."""
+    """Shortened TOML value: uniform, 1, 2 for { distribution = "uniform", low = 1, high = 2 }."""
     text = re.sub(r"[{}\"]|\w+ *= *", "", text).strip()
     return text if len(text) <= LONGEST else text[:LONGEST - 1] + "…"
 
@@ -35,7 +36,8 @@ def as_number(text):
 
 
 class Key:
-    """A key with its values, on a scale if all are numbers, else one beside the other."""
+    """A key with its values, on a scale if all are distinct numbers, otherwise at equal
+    distances."""
 
     def __init__(self, entry):
         self.key, self.values = entry["key"], entry["values"]
@@ -77,13 +79,13 @@ class Key:
 
 
 class Grid:
-    """The points of a sweep along the values of their keys."""
+    """Points of a sweep over the values of its keys."""
 
     def __init__(self, data):
         self.data = data
         self.points = data["points"]
         self.keys = [Key(entry) for entry in data["varied"]]
-        # Along the axis: of the keys that are numbers the one with most values.
+        # Key along the axis: the numeric key with most values.
         self.along = max(self.keys, key=lambda k: (k.scaled, len(k.values)))
         self.others = [key for key in self.keys if key is not self.along]
 
@@ -101,7 +103,7 @@ class Grid:
 
 
 def _series(swept, points, value):
-    """Place, value, lower and upper end of every point; NaN where it has none."""
+    """Place, value, lower and upper end of every point; NaN where there is no value."""
     out = []
     for point in points:
         at, lower, upper = value(point) or (None, None, None)
@@ -112,7 +114,7 @@ def _series(swept, points, value):
 
 
 def _shifted(swept, x, line, lines):
-    """Intervals of several lines stand beside each other, not on each other."""
+    """Position shifted by line, so that intervals of several lines do not overlap."""
     places = swept.along.places
     if len(places) < 2 or lines < 2:
         return x
@@ -123,8 +125,8 @@ def _shifted(swept, x, line, lines):
 
 
 def charts_of(swept, page, title, axis, lines, limits=None):
-    """A chart a combination of the other keys; `lines`: name and value(point), drawn where there is
-    one. All with the same axes."""
+    """One chart per combination of the other keys, all with the same axes. `lines`: name and
+    value(point), drawn where there is a value."""
     panels = list(swept.panels())
     drawn = [(text, points, [_series(swept, points, value) for _, value in lines])
              for text, points in panels[:MOST_CHARTS]]
@@ -160,7 +162,8 @@ def charts_of(swept, page, title, axis, lines, limits=None):
             for (name, _), line in zip(lines, series))
         charts.append(to_svg(figure, f"{title}{', ' if text else ''}{text}", about, page.names))
     left = len(panels) - len(drawn)
-    return charts, (f" Drawn are the first {MOST_CHARTS} of {len(panels)} combinations." if left
+    return charts, (f" The charts show the first {MOST_CHARTS} of {len(panels)} "
+                    "combinations." if left
                     else "")
 
 
@@ -178,12 +181,12 @@ def values(swept, point):
 
 
 def files(grid, page, how_to_compare):
-    """The section that names the results files, and what the points share."""
+    """Section with the results files and the properties common to all points."""
     listed = blocks.table("Results files", [key.name for key in grid.keys] + ["file"],
                           [values(grid, p) + [p["results"]] for p in grid.points[:MOST_ROWS]])
     return page.section("files", "The studies", blocks.bullets([
-        "Every study draws the same gearboxes (common random numbers): chance moves points together, "
-        "but not alike. Intervals are each point's own, so they may overlap where a pair "
-        f"differs surely{how_to_compare}.",
+        "Every study draws the same gearboxes (common random numbers), so the points are "
+        "correlated. Each interval is for one point; intervals may overlap although two points "
+        f"differ significantly{how_to_compare}.",
         "Varied: " + "; ".join(f"{k.key} = {', '.join(map(clipped, k.values[:50]))}"
                                for k in grid.keys) + "."]) + listed)

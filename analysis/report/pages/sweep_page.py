@@ -1,4 +1,4 @@
-"""The page of gearpod sweep: a study at every combination of the values of some keys."""
+"""Page of gearpod sweep: a study at every combination of the values of some keys."""
 
 import blocks
 from pages import sweep_grid
@@ -13,7 +13,7 @@ class Swept(Grid):
         first = self.points[0]
         self.sizes = Sizes({"name": first["size_name"],
                             "unit": "m" if first["size_unit"] == "mm" else first["size_unit"]})
-        self.sizes.factor = 1.0  # the points' sizes are in the unit that is shown
+        self.sizes.factor = 1.0  # the points' sizes are in the displayed unit
         self.level = first["shown_level"]
         self.confidence = first["confidence"]
 
@@ -38,7 +38,7 @@ class Swept(Grid):
                      if f["feature"] == name and f["noise_level"] == self.level), None)
 
     def names(self):
-        """Features, first those that find the smallest fault most often, then by their area."""
+        """Features in order of how often they find the smallest fault, then of their area."""
         score = {}
         for point in self.points:
             found = self.smallest(point)
@@ -50,11 +50,11 @@ class Swept(Grid):
         return sorted(score, key=lambda name: score[name], reverse=True)
 
     def shortages(self):
-        """What the studies' healthy samples do not carry, each once."""
+        """Shortages of the studies' healthy samples, each once."""
         return list(dict.fromkeys(p["shortage"] for p in self.points if p["shortage"]))
 
     def without_threshold(self):
-        """How many studies can say nothing of faults at the level that is shown."""
+        """Number of studies without a threshold at the level shown."""
         return sum(at["noise_level"] == self.level and not at["has_threshold"]
                    for p in self.points for at in p["smallest_fault"])
 
@@ -110,7 +110,7 @@ def _footnote(swept):
 
 def _by_noise(swept, page):
     levels = swept.levels()
-    # The one shown first, and of the others as many as can be told apart.
+    # The reference level, and as many of the others as can be distinguished.
     chosen = sorted([swept.level] + [v for v in levels if v != swept.level][:MOST_LINES - 1])
 
     def line(level):
@@ -122,13 +122,13 @@ def _by_noise(swept, page):
     title = f"Smallest fault found over {swept.along.name}"
     charts, left = sweep_grid.charts_of(swept, page, title, swept.sizes.axis(), [line(v) for v in chosen])
     if not charts:
-        return blocks.note("No fault size is found in any of them.")
+        return blocks.note("No fault size is found in any study.")
     data = sweep_grid.table(swept, title, [key.name for key in swept.keys] + [noise(v) for v in levels],
                   [sweep_grid.values(swept, p) + [swept.smallest_text(p, v) for v in levels]
                    for p in swept.points])
     return page.figure(title, charts, "Lower is better: the smallest fault found with 90\u00a0% "
-                       f"probability at {percent(swept.confidence)} confidence by any feature. No "
-                       "mark: none of the tested sizes is." + left, data)
+                                      f"probability at {percent(swept.confidence)} confidence by "
+                                      "any feature. No mark: no tested size is found." + left, data)
 
 
 def _by_feature(swept, page, key, title, axis, how, shown):
@@ -152,13 +152,13 @@ def _by_feature(swept, page, key, title, axis, how, shown):
                     number(entry[k]) for k in (key, *shown)])
     data = sweep_grid.table(swept, title, [k.name for k in swept.keys]
                   + ["feature", "value", "lower", "upper"], rows)
-    some = (f" Drawn are the {len(names)} features that lead most often."
+    some = (f" The chart shows the {len(names)} features that are best most often."
             if len(swept.names()) > len(names) else "")
     return page.figure(title, charts, how + some + left, data)
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     swept = Swept(data)
     answer = "".join(f'<p class="answer">{escape(text)}</p>'
                      for text in [*swept.shortages(), swept.sentence()])
@@ -176,8 +176,9 @@ def parts(data, page):
             "no curve, or it does not reach 90\u00a0% within the tested sizes.",
             ("a90_lower", "a90_bound")) + _by_feature(
             swept, page, "auc", f"Area under the ROC over {swept.along.name} at {at}",
-            "Area under the ROC", "Share of pairs of a faulty and a healthy gearbox that the feature "
-            f"ranks rightly, all fault sizes together, with its interval at {sure}; 0.5 is chance.",
+            "Area under the ROC", "Share of pairs of a faulty and a healthy gearbox that the "
+                                  "feature ranks correctly, all fault sizes together, with its "
+                                  f"interval at {sure}; 0.5 is chance.",
             ("auc_lower", "auc_upper")))
     body += sweep_grid.files(
         swept, page, ": gearpod compare takes the difference gearbox by gearbox")

@@ -1,5 +1,5 @@
-// Between low and high, with a density that goes with (x - low)^(alpha - 1) (high - x)^(beta - 1),
-// by the inverse of its distribution function.
+// Beta distribution on [low, high]: density proportional to (x - low)^(alpha - 1) (high - x)^(beta
+// - 1). Sampled by inverting its distribution function.
 #pragma once
 
 #include <boost/math/special_functions/beta.hpp>

@@ -1,4 +1,4 @@
-// One value for all gearboxes.
+// Degenerate distribution: one value for all gearboxes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// One of some values, each with a probability that goes with its weight. `levels` gives its values
-// in turn, this at random.
+// Discrete distribution: a random value of a list, with probabilities proportional to the weights.
+// In contrast, `levels` takes its values in turn.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,10 @@ struct Discrete {
                           Field{"weights", &Discrete::weights, kPositiveField}};
     }
     std::string problem() const {
-        const bool both = !values.empty() && !weights.empty();  // else that is what is wrong
-        return both && values.size() != weights.size() ? "values and weights must be as many" : "";
+        const bool both = !values.empty() && !weights.empty();  // else reported separately
+        return both && values.size() != weights.size()
+                   ? "values and weights must have the same length"
+                   : "";
     }
     double median() const { return quantile(0.5); }
     Support support() const {

@@ -28,7 +28,7 @@
 
 namespace gearpod::mc {
 
-// The registration line.
+// All registered distributions. A new one is added here.
 using AnyLaw = std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNormal, Triangular,
                             Weibull, Beta, Discrete, Empirical, Levels, Grid>;
 
@@ -41,7 +41,7 @@ namespace {
 
 constexpr std::string_view kPer = "per";
 
-// One call for each registered law, with a default-constructed object.
+// Calls `visit` once for each registered distribution, with a default-constructed object.
 template <class Visit, std::size_t... I>
 void for_each_law(Visit visit, std::index_sequence<I...>) {
     (visit(std::variant_alternative_t<I, AnyLaw>{}), ...);
@@ -65,7 +65,8 @@ class FieldReader {
         std::apply(
             [&](const auto&... field) { ((good = read_field(law, field, spelled) && good), ...); },
             Law::fields());
-        // What the parameters contradict one another in; a bad one is NaN and contradicts none.
+        // Contradictions between parameters. A bad parameter is NaN, so every comparison with it is
+        // false and none is reported.
         if (!law.problem().empty()) {
             good = add(table_.position, "", law.problem(), "");
         }
@@ -119,7 +120,7 @@ class FieldReader {
         return good;
     }
 
-    // The range must fit into an int.
+    // Precondition: the range fits into an int.
     bool convert(const Entry& entry, const Range& range, int& target) {
         const Value& value = entry.value;
         if (value.kind != Value::Kind::integer) {
@@ -147,7 +148,7 @@ class FieldReader {
         }
         if (entry.value.elements.size() > kMostElements) {
             return add(entry.position, entry.name,
-                       fmt::format("has {} values, and at most {} are computed with",
+                       fmt::format("has {} values, but at most {} are allowed",
                                    entry.value.elements.size(), kMostElements),
                        "give fewer");
         }
@@ -184,7 +185,7 @@ class FieldReader {
     Problems& problems_;
 };
 
-// Whether it is drawn per record; nothing after a problem.
+// True if `per` is "record", false if it is "gearbox" or missing; empty after a problem.
 std::optional<bool> read_per(const Value& table, const std::string& key, Problems& problems) {
     const Entry* per = table.find(kPer);
     const bool text = per != nullptr && per->value.kind == Value::Kind::text;
@@ -195,8 +196,9 @@ std::optional<bool> read_per(const Value& table, const std::string& key, Problem
         return true;
     }
     problems.push_back({per->position.file, per->position.line, fmt::format("{}.{}", key, kPer),
-                        "is no level of randomness",
-                        "write per = \"record\", or per = \"gearbox\" as without it"});
+                        "must be \"record\" or \"gearbox\"",
+                        "write per = \"record\" for a new value in every record; per = \"gearbox\" "
+                        "is the default"});
     return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
-// Distributions of random inputs. Each is a short struct in distributions/, registered in one line
-// of distribution.cpp.
+// Probability distributions of random inputs. Each one is a short struct in distributions/,
+// registered in one line of distribution.cpp.
 #pragma once
 
 #include <cstdint>
@@ -18,35 +18,37 @@ namespace gearpod::mc {
 struct Value;             // mc/input/document.hpp
 struct DistributionKind;  // distribution.cpp
 
-// An immutable distribution; copies share it. Values are in the unit of the study file's key.
+// Immutable distribution; copies share their state. Values are in the unit of the study file's key.
 class Distribution {
   public:
     std::string_view name() const;
     double median() const;
     Support support() const;
-    // The values in turn of `levels` and `grid`, the value of `constant`; empty if continuous.
+    // Values of `levels` and `grid` in their order, or the value of `constant`; empty otherwise.
     std::vector<double> levels() const;
-    // One value. `levels` and `grid` give value `turn` mod count and use no randomness; for all
-    // others `turn` means nothing.
+    // Returns one value. `levels` and `grid` return value number `turn` mod count and use no
+    // randomness; all other distributions ignore `turn`, the level index.
     double draw(Philox& engine, std::uint64_t turn) const;
-    // Whether it has quantile(): all that neither take values in turn nor are drawn in rows.
+    // True if quantile() is defined: for all distributions that neither take their values in turn
+    // nor are sampled in rows.
     bool has_quantile() const;
-    // The value that a share of the draws, 0 < share < 1, is not above.
+    // Quantile at probability `share`, 0 < share < 1.
     double quantile(double share) const;
-    // Values that are drawn in rows: the group whose inputs draw the same place of their lists, 0
-    // if there is none, and how many places there are.
+    // Joint sampling of lists by row. Inputs of the same nonzero `group` use the same row of their
+    // lists, which have `count` rows. Group 0: sampled independently.
     struct Rows {
         int group = 0;
         std::size_t count = 0;
     };
     Rows rows() const;
-    // Whether every record of a gearbox draws it (per = "record"), else the gearbox.
+    // True if every record of a gearbox has its own value (per = "record"), false if the gearbox
+    // has one.
     bool per_record() const;
-    // As an inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
+    // Inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
     std::string toml() const;
     bool operator==(const Distribution& other) const;
 
-    // From its TOML table. Problems are appended under `key`; then there is no distribution.
+    // Reads a TOML table. Problems are appended under `key`; the result is then empty.
     static std::optional<Distribution> read(const Value& table, const std::string& key,
                                             Problems& problems);
 
@@ -55,7 +57,7 @@ class Distribution {
     std::shared_ptr<const DistributionKind> kind_;
 };
 
-// Names of all distributions, for help and spelling.
+// Names of all distributions, for help texts and spelling suggestions.
 std::vector<std::string_view> distribution_names();
 
 }  // namespace gearpod::mc

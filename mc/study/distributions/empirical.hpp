@@ -1,6 +1,6 @@
-// One of some values, all alike: what was measured, or draws of what is known. Inputs of the same
-// group `rows`, unless that is 0, draw the same place of their lists: values that belong together
-// stay together.
+// Empirical distribution: a list of equally probable values, measured or sampled from a posterior.
+// Inputs with the same nonzero `rows` use the same index into their lists, so that values measured
+// together stay together.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace gearpod::mc {
 struct Empirical {
     static constexpr std::string_view kName = "empirical";
     static constexpr std::string_view kOtherwise =
-        "in place of values and rows: file (path of a CSV file), column (its name), of which "
-        "columns of the same file draw the same row";
+        "or, instead of values and rows: file (path of a CSV file) and column (its name); columns "
+        "of the same file are sampled by row";
     std::vector<double> values;
     int rows = 0;
 

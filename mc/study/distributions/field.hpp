@@ -1,4 +1,5 @@
-// A parameter of a distribution: its name in the study file, where it is stored, and its range.
+// Parameter of a distribution: its name in the study file, the member that stores it, and its
+// range.
 #pragma once
 
 #include <limits>
@@ -13,7 +14,7 @@ struct Field {
     std::string_view name;
     Type Law::*member;
     Range range = {};
-    bool optional = false;  // then the law's own value stands where there is none
+    bool optional = false;  // if missing, the member keeps its default
 };
 
 template <class Law, class Type>

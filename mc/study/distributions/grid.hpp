@@ -1,4 +1,5 @@
-// Equally spaced values in turn, both ends included: turn t has the (t mod count)-th.
+// Equally spaced values from low to high, both included, taken in turn: level index t gives value
+// number t mod count.
 #pragma once
 
 #include <cstdint>

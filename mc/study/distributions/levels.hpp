@@ -1,4 +1,5 @@
-// Given values in turn: turn t has values[t mod count]. A repeated value is a heavier one.
+// Given values taken in turn: level index t gives values[t mod count]. A repeated value has a
+// higher weight.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,8 @@ struct Levels {
 
     static constexpr auto fields() { return std::tuple{Field{"values", &Levels::values}}; }
     std::string problem() const { return ""; }
-    // The lower of the two middle values, so that it is one of the levels.
+    // Lower median: the smaller of the two middle values when the count is even, so that it is one
+    // of the levels.
     double median() const {
         std::vector<double> sorted = values;
         std::sort(sorted.begin(), sorted.end());

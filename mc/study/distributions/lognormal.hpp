@@ -1,5 +1,5 @@
-// A positive value whose logarithm is Gaussian, by its median and its coefficient of variation
-// cv = sd / mean: sigma^2 = ln(1 + cv^2), mu = ln(median).
+// Lognormal distribution, given by its median and its coefficient of variation cv = sd / mean:
+// sigma^2 = ln(1 + cv^2), mu = ln(median).
 #pragma once
 
 #include <boost/math/special_functions/erf.hpp>
@@ -18,7 +18,7 @@
 
 namespace gearpod::mc {
 
-// The median keeps its name in the study file; the member may not hide the function.
+// The member cannot be called `median` as in the study file, because median() is a function.
 struct Lognormal {
     static constexpr std::string_view kName = "lognormal";
     double middle = 0.0;

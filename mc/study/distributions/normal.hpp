@@ -1,5 +1,5 @@
-// Gaussian. Values beyond 8.3 standard deviations (probability 1e-16) are drawn again, so that an
-// input with a bound may be normal if the bound is that far away.
+// Normal distribution. Values beyond 8.3 standard deviations (probability 1e-16) are rejected and
+// sampled again. A bounded input may therefore be normal if its bound is that far from the mean.
 #pragma once
 
 #include <boost/math/special_functions/erf.hpp>

@@ -1,4 +1,4 @@
-// What each distribution is written with, for help.
+// Parameters of each distribution, as text for help.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct DistributionHelp {
     std::string parameters;  // "low (number), count (integer >= 1), values (list of numbers)"
 };
 
-// All registered ones, in their order.
+// All registered distributions, in their order.
 std::vector<DistributionHelp> distribution_help();
 
 }  // namespace gearpod::mc

@@ -1,4 +1,4 @@
-// The values that a number in a study file may have, in the unit of the file.
+// Interval of values allowed for a number in a study file, in the unit of the file.
 #pragma once
 
 #include <limits>
@@ -17,7 +17,7 @@ struct Range {
     bool contains(double value) const;
     bool contains(const Support& support) const;
     std::string text() const;  // "> 0", "between 0 and 1", ...
-    // "give a value > 0", or "" if any value will do.
+    // Remedy text, e.g. "give a value > 0"; empty if every value is allowed.
     std::string hint() const;
 };
 

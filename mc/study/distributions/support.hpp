@@ -1,13 +1,13 @@
-// What a distribution can draw.
+// Support of a distribution.
 #pragma once
 
 namespace gearpod::mc {
 
-// Smallest and largest value that can be drawn; +-infinity where unbounded.
+// Infimum and supremum of the values; +-infinity where unbounded.
 struct Support {
     double low = 0.0;
     double high = 0.0;
-    bool low_open = false;  // the bound itself is never drawn
+    bool low_open = false;  // the bound itself never occurs
     bool high_open = false;
 };
 

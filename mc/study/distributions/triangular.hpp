@@ -1,4 +1,4 @@
-// Most likely at the mode, falling linearly to zero at low and high.
+// Triangular distribution: density highest at the mode, falling linearly to zero at low and high.
 #pragma once
 
 #include <boost/random/triangle_distribution.hpp>

@@ -1,6 +1,6 @@
-// Gaussian with the given mean and sd before truncation to [low, high], by the inverse of its
-// distribution function. Computed on the side of the mean where the tail is small, so that an
-// interval far from the mean keeps its shape.
+// Truncated normal distribution: mean and sd before truncation to [low, high]. Sampled by inverting
+// its distribution function. It is evaluated on the side of the mean where the tail is small, so
+// that an interval far from the mean keeps its shape.
 #pragma once
 
 #include <algorithm>
@@ -45,14 +45,14 @@ struct TruncatedNormal {
     double draw(Philox& engine, std::uint64_t) const {
         return quantile(boost::random::uniform_01<double>()(engine));
     }
-    // 0 <= p < 1.
+    // Precondition: 0 <= p < 1.
     double quantile(double p) const {
         const double side = mean < 0.5 * low + 0.5 * high ? 1.0 : -1.0;
         const double scale = side / (std::sqrt(2.0) * sd);
         const double tail_low = std::erfc((low - mean) * scale);
         const double tail_high = std::erfc((high - mean) * scale);
         const double tail = tail_low + p * (tail_high - tail_low);
-        // The ends of intervals that reach to where erfc is 0 or 2.
+        // Bound of an interval that reaches to where erfc underflows to 0 or rounds to 2.
         if (tail <= 0.0 || tail >= 2.0) {
             return (tail <= 0.0) == (side > 0.0) ? high : low;
         }
@@ -62,7 +62,7 @@ struct TruncatedNormal {
     bool operator==(const TruncatedNormal&) const = default;
 
   private:
-    // Beyond, the tail probabilities come near the smallest numbers.
+    // Beyond 30 standard deviations the tail probabilities approach the smallest doubles.
     static constexpr double kFarthest = 30.0;
 };
 

@@ -1,4 +1,4 @@
-// Equally likely anywhere in [low, high).
+// Uniform distribution on [low, high).
 #pragma once
 
 #include <boost/random/uniform_real_distribution.hpp>

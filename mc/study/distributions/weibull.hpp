@@ -1,4 +1,4 @@
-// Lives, wind speeds and loads: P(value > x) = exp(-(x / scale)^shape).
+// Weibull distribution, for lives, wind speeds and loads: P(value > x) = exp(-(x / scale)^shape).
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,8 @@ struct Weibull {
     double scale = 0.0;
     double shape = 0.0;
 
-    // Flatter ones reach down to the smallest numbers, steeper ones are a constant.
+    // Range of the shape: below 0.2 values reach down to the smallest doubles, above 1e4 the
+    // distribution is practically a constant.
     static constexpr auto fields() {
         return std::tuple{Field{"scale", &Weibull::scale, kPositiveField},
                           Field{"shape", &Weibull::shape, Range{0.2, 1e4}}};
@@ -32,8 +33,7 @@ struct Weibull {
     Support support() const { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
     std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
-        constexpr double kLeast =
-            0x1p-54;  // 0 is drawn once in 2^53 times, and never to be a value
+        constexpr double kLeast = 0x1p-54;  // replaces 0, which occurs once in 2^53 times
         return quantile(std::max(kLeast, boost::random::uniform_01<double>()(engine)));
     }
     double quantile(double p) const { return scale * std::pow(-std::log1p(-p), 1.0 / shape); }

@@ -2,7 +2,7 @@
 
 namespace gearpod::mc {
 
-// Each in the file of its name.
+// Each is defined in the file of its name.
 const FaultKind &crack(), &spatial_crack(), &chip(), &pitting(), &broken(), &reduction();
 
 std::span<const FaultKind* const> all_faults() {

@@ -1,4 +1,4 @@
-// The kinds of fault that a study can have.
+// Kinds of fault that a study can have.
 #pragma once
 
 #include <span>
@@ -8,13 +8,14 @@
 
 namespace gearpod::mc {
 
-// In the order in which their keys are shown.
+// All kinds, in the order in which their keys are shown.
 std::span<const FaultKind* const> all_faults();
 
-// nullptr if there is none of this name.
+// Kind with this name, or nullptr.
 const FaultKind* find_fault(std::string_view name);
 
-// The study's kind of fault; a study without one has the sizes of the first kind, all of them 0.
+// Kind of fault that defines the size key: the study's own, or the first kind (with size 0) for a
+// study without a fault.
 const FaultKind& sized_as(const Study& study);
 
 }  // namespace gearpod::mc

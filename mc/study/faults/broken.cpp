@@ -1,4 +1,4 @@
-// A tooth of which a share has broken off: stiffness/faults/broken.hpp.
+// Broken tooth, of which a fraction has broken off: stiffness/faults/broken.hpp.
 #include "stiffness/faults/broken.hpp"
 
 #include "mc/study/faults/fault_kind.hpp"
@@ -9,13 +9,13 @@ namespace gearpod::mc {
 namespace {
 
 struct LostTooth : FaultShape {
-    std::optional<double> lost;  // share, 0..1
+    std::optional<double> lost;  // fraction, 0..1
 
     bool operator==(const LostTooth&) const = default;
 };
 
 // clang-format off
-constexpr FaultSize kBrokenSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "share of the tooth that has broken off: 1 carries nothing"};
+constexpr FaultSize kBrokenSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "fraction of the tooth that has broken off; with 1 it transmits no load"};
 // clang-format on
 
 class BrokenKind final : public FaultKind {
@@ -25,11 +25,11 @@ class BrokenKind final : public FaultKind {
     const FaultSize& size() const override { return kBrokenSize; }
     std::span<const FaultKey> other_keys() const override { return {}; }
     bool shapes_tooth() const override { return false; }
-    // Any tooth can lose any share.
+    // Every tooth can lose any fraction.
     void check(StudyDraft&) const override {}
 
     std::string origin(const Study&, std::span<const double>) const override {
-        return "the whole tooth pair loses this share of its stiffness, whatever the profile";
+        return "the tooth pair loses this fraction of its stiffness, for any profile";
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,

@@ -1,4 +1,4 @@
-// A chip off one end of a tooth's tip: stiffness/faults/chip.hpp.
+// Chip off one end of a tooth's tip: stiffness/faults/chip.hpp.
 #include "stiffness/faults/chip.hpp"
 
 #include <fmt/format.h>
@@ -18,16 +18,16 @@ constexpr ChoiceName kEnds[] = {name("first", FaceEnd::first), name("last", Face
 struct Chip : FaultShape {
     std::optional<double> width_m;   // along the face width, at the tip
     std::optional<double> height_m;  // along the tooth
-    std::optional<FaceEnd> end;      // of helical teeth
+    std::optional<FaceEnd> end;      // only for helical teeth
 
     bool operator==(const Chip&) const = default;
 };
 
 // clang-format off
-constexpr FaultSize kChipSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width that the chip takes off the face width at the tip"};
+constexpr FaultSize kChipSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width of the chip along the face width, at the tip"};
 constexpr FaultKey kChipOthers[] = {
     {"chip_height_mm", number<&Chip::height_m>, kMm, kPositive, Need::optional, kFaultShape, "height of the chip along the tooth, from the tip; a quarter of its width by default"},
-    {"chip_end", choice<&Chip::end>(kEnds), kNone, kAny, Need::optional, kFaultShape, "end of the face width of helical teeth that is chipped: the one that engages \"first\" (by default) or \"last\""},
+    {"chip_end", choice<&Chip::end>(kEnds), kNone, kAny, Need::optional, kFaultShape, "chipped end of the face width of helical teeth: the one that engages \"first\" (default) or \"last\""},
 };
 // clang-format on
 
@@ -48,14 +48,14 @@ class ChipKind final : public FaultKind {
             draft.study.fault.shapes.get<Chip>().height_m.value_or(0.0) * kMmPerM;
         if (draft.all_usable({height_key}) && chip_mm >= tooth_mm) {
             draft.reject(height_key,
-                         fmt::format("{:.6g} mm takes the whole tooth off ({:.6g} mm high)",
+                         fmt::format("{:.6g} mm removes the whole tooth, which is {:.6g} mm high",
                                      chip_mm, tooth_mm),
                          "give a smaller height, or use fault.kind = \"broken\"");
         }
     }
 
     std::string origin(const Study&, std::span<const double>) const override {
-        return "taken off one end of the tip, and down the flank from the tip circle";
+        return "width measured from one end of the tip, height from the tip circle down the flank";
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(

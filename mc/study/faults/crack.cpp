@@ -1,4 +1,4 @@
-// A crack straight through the width of a tooth, from its root: stiffness/faults/tooth_crack.hpp.
+// Crack from the tooth root straight through the face width: stiffness/faults/tooth_crack.hpp.
 #include "mc/study/faults/crack_angle.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
@@ -8,7 +8,7 @@ namespace gearpod::mc {
 namespace {
 
 struct Crack : FaultShape {
-    std::optional<double> depth_m;  // along it
+    std::optional<double> depth_m;  // along the crack
 
     bool operator==(const Crack&) const = default;
 };

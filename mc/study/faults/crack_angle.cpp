@@ -69,12 +69,13 @@ std::string crack_origin(const Study& study, std::span<const double> depths_m) {
         shares.push_back(fmt::format("{:.3g}", 100.0 * depth_m * sine / section_m));
     }
     return fmt::format(
-        "depth along the crack from {}, {:.4g} mm thick there; {} mm takes {} % of that section",
+        "depth along the crack from {}, where the tooth is {:.4g} mm thick; {} mm is {} % of that "
+        "section",
         start_name(study), section_m * kMmPerM, fmt::join(depths, ", "), fmt::join(shares, ", "));
 }
 
 std::string than_the_tooth(const Study& study) {
-    return fmt::format("than the tooth (a crack at {:.4g} deg leaves it after {} mm)",
+    return fmt::format("than the tooth (a crack at {:.4g} deg cuts through it after {} mm)",
                        crack_angle_rad(study) * 180.0 / kPi,
                        shown(max_crack_depth_m(study) * kMmPerM));
 }

@@ -1,4 +1,4 @@
-// Properties that all kinds of crack share: their angle, their law, and how deep one can go.
+// Properties common to all kinds of crack: angle, stiffness law and largest depth.
 #pragma once
 
 #include <optional>
@@ -24,21 +24,22 @@ inline constexpr ChoiceName kCrackLaws[] = {
     name("fracture-mechanics", stiffness::CrackLaw::fracture_mechanics)};
 
 // clang-format off
-inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackShape::angle_rad>, kDeg, inside(0, 90), Need::optional, "the tables of cracked teeth hold for one angle", "angle between crack and tooth centre line; of a spatial crack where it begins"};
-inline constexpr FaultKey kCrackLaw{"crack_law", choice<&CrackShape::law>(kCrackLaws), kNone, kAny, Need::optional, kFaultShape, "how a crack softens its tooth: by the \"sections\" it leaves (the sources), or by \"fracture-mechanics\" from the critical section; the latter by default for teeth with fillets"};
+inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackShape::angle_rad>, kDeg, inside(0, 90), Need::optional, "the stiffness tables of cracked teeth are computed for one angle", "angle between crack and tooth centre line; for a spatial crack, at the face where it starts"};
+inline constexpr FaultKey kCrackLaw{"crack_law", choice<&CrackShape::law>(kCrackLaws), kNone, kAny, Need::optional, kFaultShape, "stiffness model of a cracked tooth: \"sections\" (weaker beam sections, as in the published models) or \"fracture-mechanics\" (from the critical section; the default for teeth with fillets)"};
 // clang-format on
 
 double crack_angle_rad(const Study& study);
-// The law of the study's cracks: its own, or fracture mechanics for teeth with fillets and sections
-// for others.
+// Stiffness law of the study's cracks: the given one, else fracture mechanics for teeth with
+// fillets and sections for other profiles.
 stiffness::CrackLaw crack_law(const Study& study);
 
-// Depth at which the faulty member's tooth breaks, m. The study must have the tooth geometry.
+// Depth at which the faulty member's tooth is cut through, m. Precondition: the tooth geometry is
+// given.
 double max_crack_depth_m(const Study& study);
-// Thickness of that tooth where its cracks start, m.
+// Thickness of that tooth at the section where its cracks start, m.
 double critical_section_m(const Study& study);
-// Where the study's cracks start, how thick the tooth is there and what share of that section each
-// of these depths takes, for the user.
+// Text for the user: where the cracks start, the tooth thickness there, and the fraction of that
+// section that each of these depths takes.
 std::string crack_origin(const Study& study, std::span<const double> depths_m);
 // "than the tooth (a crack at 45 deg leaves it after 4.2 mm)".
 std::string than_the_tooth(const Study& study);

@@ -1,5 +1,5 @@
-// A kind of fault as a study sees it, one file a kind: its names, its keys, what a tooth cannot
-// hold, and the law of the stiffness library that it stands for. All of them: all_faults.hpp.
+// Interface of a kind of fault, one file per kind: names, keys, checks against the tooth, and the
+// corresponding fault model of the stiffness library. All kinds: all_faults.hpp.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@
 
 namespace gearpod::mc {
 
-// The key of [fault] that says how large a fault is: depth, stage, width or share. It alone may be
-// random.
+// Key of [fault] that gives the fault's size: depth, stage, width or fraction. It is the only key
+// of a kind that may be random.
 struct FaultSize {
     std::string_view name;  // "depth_mm"
     NumberAccess access;
@@ -28,46 +28,48 @@ struct FaultSize {
     std::string_view doc;
 };
 
-// Any key of [fault] that a kind has. Kinds may share one.
+// Any other key of [fault] that a kind has. Kinds may share a key.
 struct FaultKey {
     std::string_view name;
     AnyAccess access;
     Unit unit;
     Range range;
-    Need need;  // with the kind
+    Need need;  // when the study has this kind
     std::string_view fixed_because;
     std::string_view doc;
 };
 
-// Mesh in which the faulty tooth acts.
+// Mesh in which the faulty tooth engages.
 struct FaultyTooth {
     MeshMembers mesh;
     const std::optional<gears::MeshGeometry>& geometry;  // empty where the stiffness is given
-    int gear;                                            // that has the tooth, 1 or 2 of the mesh
-    const stiffness::FilletFoundation* foundation;       // that gear's, or null
-    bool reversed;                                       // whether the mesh's first gear is driven
+    int gear;  // gear with the faulty tooth: 1 or 2 of the mesh
+    const stiffness::FilletFoundation* foundation;  // foundation of that gear, or null
+    bool reversed;                                  // true if the mesh's first gear is driven
 };
 
 class FaultKind {
   public:
     virtual std::string_view name() const = 0;   // in study files, "spatial-crack"
     virtual std::string_view words() const = 0;  // in messages, "a spatial crack"
-    // Where a study is described.
+    // Name in descriptions of a study.
     virtual std::string_view title() const { return name(); }
     virtual const FaultSize& size() const = 0;
     virtual std::span<const FaultKey> other_keys() const = 0;
-    // Whether it changes the tooth's sections or its contact, and not just the pair's stiffness.
+    // True if the fault changes the tooth's sections or its contact; false if only the pair's
+    // stiffness.
     virtual bool shapes_tooth() const = 0;
-    // Rejects what the faulty tooth cannot hold. The study's gears and face width are known then.
+    // Rejects values that the faulty tooth cannot have. Precondition: the study's gears and face
+    // width are known.
     virtual void check(StudyDraft& draft) const = 0;
     virtual std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const = 0;
 
-    // Where the fault lies on the tooth and from where its sizes (SI) are measured, for the user.
-    // The study must have the tooth geometry if the kind shapes the tooth.
+    // Text for the user: location of the fault on the tooth, and the datum from which its sizes
+    // (SI) are measured. Precondition: the tooth geometry is given if the kind shapes the tooth.
     virtual std::string origin(const Study& study, std::span<const double> sizes) const = 0;
 
-    // The size first.
+    // All keys of the kind, the size first.
     std::vector<FaultKey> keys() const;
 
   protected:

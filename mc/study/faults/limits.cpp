@@ -39,8 +39,8 @@ void check_helical(StudyDraft& draft, const std::string& key) {
     if (draft.is_given(key) && draft.all_usable({key, "gearbox.helix_angle_deg"}) &&
         draft.study.gearbox.helix_angle_rad == 0.0) {
         draft.reject(key,
-                     "has no place here (spur teeth touch along the whole face at once, so a "
-                     "place along it says nothing)",
+                     "is not allowed here (spur teeth touch along the whole face at once, so a "
+                     "position along it has no meaning)",
                      "remove it, or give gearbox.helix_angle_deg");
     }
 }

@@ -1,4 +1,4 @@
-// How large the faulty tooth lets a fault be: what the checks of several kinds share.
+// Upper limits of fault sizes set by the faulty tooth, shared by the checks of several kinds.
 #pragma once
 
 #include <string>
@@ -10,24 +10,25 @@ namespace gearpod::mc {
 inline constexpr double kMmPerM = 1e3;
 inline constexpr double kMargin = 1.0 + 1e-12;  // for the rounding of unit conversions
 
-// The largest size that the tooth holds, and why, in the file's unit.
+// Largest size that the tooth allows, in the file's unit, and the reason.
 struct SizeLimit {
     double largest;
     std::string why;  // "longer than the tooth (...)"
 };
 
-// Rounded down, so that the size named is allowed.
+// The limit rounded down to four decimals, so that the value named in a message is allowed.
 double shown(double limit);
 
-// Rejects sizes beyond the limit, given or random.
+// Rejects sizes above the limit, whether nominal or random.
 void check_size(StudyDraft& draft, const SizeLimit& limit);
-// The same for a size along the face.
+// The same with the face width as the limit.
 void check_on_face(StudyDraft& draft);
 
-// Rejects a place along the face of teeth that touch all of it at once.
+// Rejects a key that gives a position along the face width if the teeth are spur teeth, which touch
+// along the whole face at once.
 void check_helical(StudyDraft& draft, const std::string& key);
 
-// Of the faulty member's tooth.
+// Height of the faulty member's teeth, from root to tip circle, m.
 double tooth_height_m(const Study& study);
 
 }  // namespace gearpod::mc

@@ -17,10 +17,11 @@ namespace gearpod::mc {
 namespace {
 
 struct Pits : FaultShape {
-    std::optional<double> width_m;                      // along the face width
-    std::optional<double> length_m, radius_m, depth_m;  // along the profile; centre of the band
-    int teeth = 1;                                      // neighbouring pitted teeth
-    std::optional<double> face_position_m;              // of helical teeth
+    std::optional<double> width_m;  // along the face width
+    // Length of the band along the profile, radius of its centre, depth of the pits.
+    std::optional<double> length_m, radius_m, depth_m;
+    int teeth = 1;                          // neighbouring pitted teeth
+    std::optional<double> face_position_m;  // only for helical teeth
 
     bool operator==(const Pits&) const = default;
 };
@@ -31,12 +32,12 @@ constexpr FaultKey kPittingOthers[] = {
     {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the band along the tooth height"},
     {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "radius of the band's centre"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
-    {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "neighbouring pitted teeth"},
-    {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "middle of the pits along the face width of helical teeth, from the end that engages first; by default halfway"},
+    {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "number of neighbouring pitted teeth"},
+    {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "centre of the pits along the face width of helical teeth, from the end that engages first; by default half the face width"},
 };
 // clang-format on
 
-// The mate against which the faulty flank works.
+// Mating member of the faulty flank.
 Member mate_of(const Fault& fault) {
     switch (*fault.member) {
         case Member::planet:
@@ -53,8 +54,8 @@ Member mate_of(const Fault& fault) {
     return Member::planet;
 }
 
-// Radii of the faulty member's flank that touches its mate, lowest and highest, m. A planet's flank
-// on the faulty side.
+// Lowest and highest radius of the faulty member's flank that its mate touches, m; for a planet, of
+// the flank on the faulty side.
 struct ActiveFlank {
     double low_m, high_m;
 };
@@ -91,8 +92,8 @@ void check_band(StudyDraft& draft, const Pits& pits) {
                  high_m = *pits.radius_m + 0.5 * *pits.length_m;
     if (low_m < flank.low_m / kMargin || high_m > flank.high_m * kMargin) {
         draft.reject("fault.pit_radius_mm",
-                     fmt::format("the pitted band from {:.6g} to {:.6g} mm leaves the flank that "
-                                 "is touched, {:.6g} to {:.6g} mm",
+                     fmt::format("the pitted band from {:.6g} to {:.6g} mm extends beyond the "
+                                 "active flank, {:.6g} to {:.6g} mm",
                                  low_m * kMmPerM, high_m * kMmPerM, flank.low_m * kMmPerM,
                                  flank.high_m * kMmPerM),
                      "move the band or shorten it");

@@ -1,4 +1,4 @@
-// A tooth known by what it takes from the mesh's stiffness alone: stiffness/faults/reduction.hpp.
+// Tooth fault given only by the loss of mesh stiffness: stiffness/faults/reduction.hpp.
 #include "stiffness/faults/reduction.hpp"
 
 #include "mc/study/faults/fault_kind.hpp"
@@ -9,13 +9,13 @@ namespace gearpod::mc {
 namespace {
 
 struct LostStiffness : FaultShape {
-    std::optional<double> lost;  // share, 0..1
+    std::optional<double> lost;  // fraction, 0..1
 
     bool operator==(const LostStiffness&) const = default;
 };
 
 // clang-format off
-constexpr FaultSize kReductionSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "share of the tooth pair's stiffness that is lost"};
+constexpr FaultSize kReductionSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "fraction of the mesh stiffness that is lost while the faulty tooth is in contact"};
 // clang-format on
 
 class ReductionKind final : public FaultKind {
@@ -25,11 +25,11 @@ class ReductionKind final : public FaultKind {
     const FaultSize& size() const override { return kReductionSize; }
     std::span<const FaultKey> other_keys() const override { return {}; }
     bool shapes_tooth() const override { return false; }
-    // Any tooth can lose any share.
+    // Every tooth can lose any fraction.
     void check(StudyDraft&) const override {}
 
     std::string origin(const Study&, std::span<const double>) const override {
-        return "the whole mesh loses this share of its stiffness while the tooth is in contact";
+        return "the whole mesh loses this fraction of its stiffness while the tooth is in contact";
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,

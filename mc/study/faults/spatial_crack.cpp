@@ -1,4 +1,4 @@
-// A crack whose depth, height and angle change along the width and as it grows:
+// Crack with depth, height and angle that vary along the face width and as it grows:
 // stiffness/faults/spatial_crack.hpp.
 #include "stiffness/faults/spatial_crack.hpp"
 
@@ -14,11 +14,11 @@
 namespace gearpod::mc {
 namespace {
 
-// Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
+// Growth of a spatial crack, Yang (2022), Eqs. 61-66. Entry k of a list belongs to stage k + 1.
 struct Growth : FaultShape {
-    std::optional<double> stage;  // 0: healthy; between entries linear
+    std::optional<double> stage;  // 0: healthy; linear between entries
     std::vector<double> depth_m, end_depth_m, length_m, height_m, end_height_m;
-    std::optional<double> end_angle_rad;  // by default the angle where it begins
+    std::optional<double> end_angle_rad;  // by default the angle at the starting face
     double height_wave = 0.0;
     double height_waves = 0.0;
     int slices = 16;
@@ -27,23 +27,23 @@ struct Growth : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSpatialCrackSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "how far a spatial crack has grown: entry k of the growth lists is stage k, linear between them, 0 healthy"};
+constexpr FaultSize kSpatialCrackSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "growth stage of a spatial crack: 0 is healthy, k has entry k of the growth lists; linear in between"};
 constexpr FaultKey kSpatialCrackOthers[] = {
     kCrackAngle,
     kCrackLaw,
-    {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 where it begins"},
-    {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until it gets there"},
+    {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 at the face where the crack starts"},
+    {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until the crack reaches it"},
     {"growth_length_mm", numbers<&Growth::length_m>, kMm, kPositive, Need::required, kFaultShape, "lengths L_c along the face width"},
-    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 over the section from which cracks start, where it begins"},
+    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 above the section at which cracks start, at the face where the crack starts"},
     {"growth_end_height_mm", numbers<&Growth::end_height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l2 at the other end face"},
     {"end_angle_deg", number<&Growth::end_angle_rad>, kDeg, Range{0.0, 90.0, true, false}, Need::optional, kFaultShape, "angle at the other end face; angle_deg by default"},
-    {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "wave on the height, a of Yang (2022), Eq. 65; 0 for none"},
-    {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "half waves along the face width, b of that equation"},
-    {"slices", integer<&Growth::slices>, kNone, from_to(1, 10000), Need::optional, kFaultShape, "slices along the face width"},
+    {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "amplitude of the waves of the height, a in Yang (2022), Eq. 65; 0 for none"},
+    {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "number of half waves along the face width, b in Yang (2022), Eq. 65"},
+    {"slices", integer<&Growth::slices>, kNone, from_to(1, 10000), Need::optional, kFaultShape, "number of slices along the face width"},
 };
 // clang-format on
 
-// Every entry of a growth list stays at or below the limit.
+// Rejects entries of a growth list above the limit.
 void check_entries(StudyDraft& draft, const std::string& key, const std::vector<double>& list_m,
                    double limit_m, const std::string& why) {
     for (std::size_t k = 0; k < list_m.size() && draft.all_usable({key}); ++k) {
@@ -59,15 +59,15 @@ void check_grows(StudyDraft& draft, const std::string& key, const std::vector<do
     for (std::size_t k = 1; k < list_m.size() && draft.all_usable({key}); ++k) {
         if (list_m[k] < list_m[k - 1]) {
             draft.reject(key,
-                         fmt::format("stage {}: {:.6g} mm is below the stage before it (a crack "
-                                     "does not shrink)",
+                         fmt::format("stage {}: {:.6g} mm is below the value of the stage before "
+                                     "(a crack does not shrink)",
                                      k + 1, list_m[k] * kMmPerM),
-                         "let the list grow or stay");
+                         "make the list non-decreasing");
         }
     }
 }
 
-// An end depth belongs to a crack that has reached the other end face.
+// Rejects end depths of cracks that have not reached the other end face.
 void check_end_depths(StudyDraft& draft, const Growth& g, double face_m) {
     const std::string key = "fault.growth_end_depth_mm";
     for (std::size_t k = 0; k < g.end_depth_m.size() && draft.all_usable({key}); ++k) {
@@ -76,7 +76,7 @@ void check_end_depths(StudyDraft& draft, const Growth& g, double face_m) {
                          fmt::format("stage {} has an end depth, but its length of {:.6g} mm does "
                                      "not reach the other end face at {:.6g} mm",
                                      k + 1, g.length_m[k] * kMmPerM, face_m * kMmPerM),
-                         "make it 0, or the length the face width");
+                         "set it to 0, or set the length to the face width");
         }
     }
 }
@@ -100,7 +100,7 @@ void check_growth(StudyDraft& draft, const Growth& g) {
     check_end_depths(draft, g, face_m);
 }
 
-// Whether all lists are usable and have an entry for every stage.
+// True if all lists are usable and have one entry for each stage.
 bool check_stages(StudyDraft& draft, const Growth& g) {
     const std::size_t stages = g.depth_m.size();
     const std::pair<const char*, std::size_t> lists[] = {
@@ -114,10 +114,11 @@ bool check_stages(StudyDraft& draft, const Growth& g) {
             same = false;
         } else if (size != stages) {
             same = false;
-            draft.reject(key,
-                         fmt::format("has {} entries, but growth_depth_mm has {} (one a stage)",
-                                     size, stages),
-                         "give all growth lists the same length");
+            draft.reject(
+                key,
+                fmt::format("has {} entries, but growth_depth_mm has {} (one for each stage)", size,
+                            stages),
+                "give all growth lists the same length");
         }
     }
     return same;

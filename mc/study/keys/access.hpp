@@ -1,6 +1,6 @@
-// Turns a member of one of Study's parts into the access that a schema line holds:
-// number<&Gearbox::module_m>, and likewise of one body or mesh: number<Member::sun,
-// &MemberValues::mass_kg>. The shape of a fault is such a part, too.
+// Builds the accessor of a schema line from a member of a part of Study:
+// number<&Gearbox::module_m>. For values of one body or mesh: number<Member::sun,
+// &MemberValues::mass_kg>. A fault kind's parameter struct is such a part, too.
 #pragma once
 
 #include <concepts>
@@ -41,7 +41,8 @@ Part part_type(Type Part::*);
 template <auto Member>
 using PartOf = decltype(part_type(Member));
 
-// What a line names: a member of a part, or of the values of one body or mesh.
+// Reference to the value that a schema line names: a member of a part, or of the values of one body
+// or mesh.
 template <auto Member, class AnyStudy>
 auto& stored(AnyStudy& s) {
     return part_of<PartOf<Member>>(s).*Member;
@@ -63,7 +64,7 @@ template <class Type>
 struct Inner<std::optional<Type>> {
     using type = Type;
 };
-// Its type, without its std::optional.
+// Type of that value, without its std::optional.
 template <auto... Named>
 using TypeOf =
     typename Inner<std::remove_cvref_t<decltype(stored<Named...>(std::declval<Study&>()))>>::type;
@@ -73,7 +74,7 @@ constexpr ChoiceName name(std::string_view text, Enum value) {
     return {text, static_cast<int>(value)};
 }
 
-// `Shown` is the schema's type for the member's: int64 for an int, int for an enumeration.
+// `Shown` is the schema's type for the value: int64 for an int, int for an enumeration.
 template <class Shown, auto... Named>
 std::optional<Shown> get(const Study& s) {
     const std::optional<TypeOf<Named...>> value = stored<Named...>(s);
@@ -95,7 +96,7 @@ constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
     return {get<int, Member>, set<int, Member>, names};
 }
 
-// One that the program may choose: what is not given then reads "auto".
+// Choice that the program makes if the key is not given; it then reads "auto".
 inline constexpr ChoiceName kAutomatic{"auto", -1};
 template <auto Member>
 std::optional<int> get_or_auto(const Study& s) {
@@ -114,8 +115,8 @@ constexpr ChoiceAccess choice_or_auto(std::span<const ChoiceName> names) {
     return {get_or_auto<Member>, set_or_auto<Member>, names};
 }
 
-// One of a list, to which the member points; null stands for none of them. Shown as its place in
-// the list, counted from 1, and 0 for none.
+// Choice from a list of objects: the member points to one of them, or is null for none. Its value
+// is the 1-based index in the list, 0 for none.
 template <class Entry>
 const Entry* address(const Entry& entry) {
     return &entry;
@@ -152,7 +153,7 @@ template <auto... Named>
 void set_list(Study& s, TypeOf<Named...> value) {
     stored<Named...>(s) = std::move(value);
 }
-// Strings or tones.
+// List of strings or of tones.
 template <auto Member>
 constexpr Access<TypeOf<Member>, TypeOf<Member>> list{get_list<Member>, set_list<Member>};
 template <auto... Named>

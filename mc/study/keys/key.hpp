@@ -1,5 +1,4 @@
-// What a key of a study file is: unit, range, meaning, how its value is stored in a study and
-// whether it must be given.
+// Key of a study file: unit, range, meaning, accessor, and whether it must be given.
 #pragma once
 
 #include <array>
@@ -17,8 +16,8 @@
 
 namespace gearpod::mc {
 
-// The unit of a key in the file and in the code. `suffix` ends the key's name ("" for pure
-// numbers).
+// Unit of a key in the file and in the code. `suffix` is the end of the key's name, "" for pure
+// numbers.
 struct Unit {
     std::string_view suffix;     // "mm"
     std::string_view name;       // "mm", "N/m"; "1" for a pure number
@@ -32,7 +31,8 @@ struct ChoiceName {
     int value;
 };
 
-// How a key's value is stored in a Study; numbers in SI. get() of a value not given is empty.
+// Accessors of a key's value in a Study; numbers in SI. get() is empty for a value that is not
+// given.
 template <class Type, class Stored = std::optional<Type>>
 struct Access {
     Stored (*get)(const Study&);
@@ -49,15 +49,15 @@ struct ChoiceAccess {
 struct NumbersAccess {
     std::vector<double> (*get)(const Study&);
     void (*set)(Study&, std::vector<double>);
-    bool ascending = false;  // whether each must be above the one before it
+    bool ascending = false;  // true: each value must exceed the previous one
 };
 using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
 using TonesAccess = Access<std::vector<Tone>, std::vector<Tone>>;
 using AnyAccess = std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess,
                                NumbersAccess, TextsAccess, TonesAccess>;
 
-// Whether a key must, may or must not be given, and why; decided by the keys `governors` ("" for
-// none).
+// Requirement of a key (required, optional or forbidden) and the reason. It depends on the keys
+// `governors`; "" for none.
 enum class Need { required, optional, forbidden };
 struct Presence {
     Need need;
@@ -73,7 +73,7 @@ struct Key {
     Unit unit;
     Range range;
     PresenceRule presence;
-    std::string_view fixed_because;  // why [random] may not name it; "" if it may
+    std::string_view fixed_because;  // why the key may not be random; "" if it may
     std::string_view doc;
 
     std::string path() const;       // "gearbox.module_mm"

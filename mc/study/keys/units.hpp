@@ -1,4 +1,4 @@
-// What the keys share: units, ranges, and why one may not be random.
+// Units, ranges and reasons against randomness that several keys share.
 #pragma once
 
 #include <limits>
@@ -35,9 +35,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Range kAny{};
 inline constexpr Range kPositive{0.0, kInfinity, true, false};
 inline constexpr Range kNotNegative{0.0, kInfinity, false, false};
-// Grades of ISO 1328-1:1995.
+// ISO 1328-1:1995 grades.
 inline constexpr Range kGrade{0.0, 12.0, false, false};
-// Above what converters sample; it also bounds the number of samples.
+// Above the sampling rate of real converters; the limit also bounds the number of samples.
 inline constexpr Range kFrequency{0.0, 1e7, true, false};
 constexpr Range from_to(double low, double high) {
     return {low, high, false, false};
@@ -47,10 +47,10 @@ constexpr Range inside(double low, double high) {
 }
 
 inline constexpr std::string_view kRandom = "";  // may be random
-inline constexpr std::string_view kGeometry = "it shapes the teeth, which all gearboxes share";
-inline constexpr std::string_view kSampling = "all gearboxes are sampled alike";
-inline constexpr std::string_view kShared = "all gearboxes share it";
-inline constexpr std::string_view kFaultShape =
-    "it shapes the fault, of which only the size may differ";
+inline constexpr std::string_view kGeometry =
+    "it defines the teeth, which are the same in all gearboxes";
+inline constexpr std::string_view kSampling = "sampling is the same for all gearboxes";
+inline constexpr std::string_view kShared = "it is the same for all gearboxes";
+inline constexpr std::string_view kFaultShape = "only the size of a fault may be random";
 
 }  // namespace gearpod::mc

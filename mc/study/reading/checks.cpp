@@ -16,7 +16,7 @@
 namespace gearpod::mc {
 namespace {
 
-// "sun" or "carrier": the central members that turn.
+// Quoted names of the central members that turn, e.g. "sun" or "carrier".
 std::string turning_members(Member fixed) {
     std::string names;
     for (const Member member : {Member::sun, Member::ring, Member::carrier}) {
@@ -57,23 +57,23 @@ void check_path(StudyDraft& draft) {
     const bool fixed_shaft = s.gearbox.kind == GearboxKind::fixed_shaft;
     const bool none = s.effects.path == nullptr;
     if (s.effects.quasi_static() && !none) {
-        draft.reject("effects.path",
-                     "leads nothing to a sensor (a quasi-static gearbox has no accelerations: "
-                     "effects.motion)",
-                     "use path = \"none\", or leave the key out");
+        draft.reject(
+            "effects.path",
+            "must be \"none\" (a quasi-static gearbox has no accelerations: effects.motion)",
+            "use path = \"none\", or leave the key out");
     } else if (fixed_shaft && !none) {
         draft.reject("effects.path",
-                     "has nothing to weigh (the sensor of a fixed-shaft gearbox sits on a bearing, "
-                     "which does not move past it)",
+                     "must be \"none\" (the sensor of a fixed-shaft gearbox is on a bearing, and "
+                     "no mesh moves past it)",
                      "use path = \"none\", or leave the key out");
     } else if (!fixed_shaft && !s.effects.quasi_static() && none) {
         draft.reject("effects.path",
                      "is \"none\" (a planetary gearbox's planets move past the sensor)",
-                     "use path = \"rectangular\" to weigh them all alike");
+                     "use path = \"rectangular\" to weight all planets equally");
     }
 }
 
-// Tian's model has no other degrees of freedom.
+// Tian's model of a fixed-shaft gearbox has translations as well as rotations.
 void check_fixed_shaft_motion(StudyDraft& draft) {
     const Study& s = draft.study;
     if (s.gearbox.kind == GearboxKind::fixed_shaft && s.effects.torsional() &&
@@ -94,27 +94,26 @@ void check_sampling(StudyDraft& draft) {
     if (draft.all_usable({"sensor.low_pass_Hz"}) && s.low_pass_Hz >= 0.5 * s.sampling_Hz) {
         draft.reject(
             "sensor.low_pass_Hz",
-            fmt::format("{} Hz is not below half of sampling_Hz, {} Hz (frequencies above it fold "
-                        "back)",
-                        s.low_pass_Hz, 0.5 * s.sampling_Hz),
+            fmt::format(
+                "{} Hz is not below half of sampling_Hz, {} Hz (higher frequencies would alias)",
+                s.low_pass_Hz, 0.5 * s.sampling_Hz),
             "lower low_pass_Hz or raise sampling_Hz");
     }
     const double finest_Hz = s.low_pass_Hz / signals::LowPassNoise::kLeast;
     if (s.noise_density_m_s2_per_sqrt_Hz && draft.all_usable({"sensor.low_pass_Hz"}) &&
         s.sampling_Hz > finest_Hz) {
         draft.reject("sensor.sampling_Hz",
-                     fmt::format("{} Hz is above {:g} Hz (samples of noise behind a low-pass of {} "
-                                 "Hz are then too alike to be drawn)",
+                     fmt::format("{} Hz is above {:g} Hz (after a low-pass of {} Hz, noise samples "
+                                 "are then too strongly correlated to be generated)",
                                  s.sampling_Hz, finest_Hz, s.low_pass_Hz),
-                     "lower it, or give sensor.noise_m_s2 in place of the density");
+                     "lower it, or give sensor.noise_m_s2 instead of the density");
     }
     if (draft.all_usable({"sensor.encoder_sampling_Hz"}) && s.encoder_sampling_Hz > s.sampling_Hz) {
-        draft.reject(
-            "sensor.encoder_sampling_Hz",
-            fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders use a part of the "
-                        "sensor's samples)",
-                        s.encoder_sampling_Hz, s.sampling_Hz),
-            "lower encoder_sampling_Hz or raise sampling_Hz");
+        draft.reject("sensor.encoder_sampling_Hz",
+                     fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders are read at some "
+                                 "of the sensor's samples)",
+                                 s.encoder_sampling_Hz, s.sampling_Hz),
+                     "lower encoder_sampling_Hz or raise sampling_Hz");
     }
     for (std::size_t i = 0; i < s.tones.size() && draft.all_usable({"sensor.tones"}); ++i) {
         if (s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
@@ -145,10 +144,10 @@ void check_feature(StudyDraft& draft, const std::string& name) {
     } else if ((feature->needs & (features::kSun | features::kRing)) != 0 &&
                draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
                draft.usable("gearbox.kind")) {
-        draft.reject(
-            "features.use", fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
-            "use window features without sun_ or ring_: they look at the teeth of the gear "
-            "with the fault, else of the pinion");
+        draft.reject("features.use",
+                     fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
+                     "use window features without sun_ or ring_: they use the teeth of the gear "
+                     "with the fault, else of the pinion");
     }
 }
 
@@ -168,7 +167,7 @@ void check_detectors(StudyDraft& draft) {
     const std::vector<std::string> named = draft.study.monitoring.detectors;
     for (auto text = named.begin(); text != named.end(); ++text) {
         if (!analysis::parse_detector(*text)) {
-            draft.reject("monitoring.detectors", fmt::format("\"{}\" is no detector", *text),
+            draft.reject("monitoring.detectors", fmt::format("\"{}\" is not a detector", *text),
                          "use " + analysis::detector_forms());
         } else if (std::find(named.begin(), text, *text) != text) {
             draft.reject("monitoring.detectors", fmt::format("names \"{}\" twice", *text),
@@ -183,8 +182,8 @@ void check_uncertain_inputs(StudyDraft& draft) {
         const auto drawn = std::ranges::find(draft.study.random, *key, &RandomInput::key);
         if (drawn == draft.study.random.end() || key->starts_with("fault.")) {
             draft.reject("detection.uncertain_inputs",
-                         fmt::format("\"{}\" is no random input of the gearboxes", *key),
-                         "name keys of [random], but none of the fault");
+                         fmt::format("\"{}\" is not a random input of the gearboxes", *key),
+                         "name keys of [random] other than the fault's");
         } else if (std::find(named.begin(), key, *key) != key) {
             draft.reject("detection.uncertain_inputs", fmt::format("names \"{}\" twice", *key),
                          "name it once");
@@ -217,17 +216,18 @@ void check_precision(StudyDraft& draft) {
     }
 }
 
-// As many of each kind of tilted record.
+// Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
+// records.
 void check_tilted_records(StudyDraft& draft) {
     const Ensemble& e = draft.study.ensemble;
     constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
-    // Without several records the tilt has no place, which is said already.
+    // The presence check rejects tilting of a single record.
     if (e.tilted() && e.threshold_records > 1 && draft.all_usable({"ensemble.threshold_records"}) &&
         e.threshold_records % kKinds != 0) {
         draft.reject("ensemble.threshold_records",
-                     fmt::format("{} are no multiple of {} (ensemble.threshold_tilt)",
+                     fmt::format("{} is not a multiple of {} (ensemble.threshold_tilt)",
                                  e.threshold_records, kKinds),
-                     fmt::format("take {}", (e.threshold_records / kKinds + 1) * kKinds));
+                     fmt::format("use {}", (e.threshold_records / kKinds + 1) * kKinds));
     }
 }
 

@@ -68,19 +68,21 @@ class CorrelationReader {
             for (const RandomInput& other : draft_.study.random) {
                 known.push_back(other.key);
             }
-            good_ = false;  // one that is random but bad is reported where it stands
+            good_ = false;  // a random input with a problem has its own message
             if (!draft_.bad.contains("random." + key)) {
                 reject(key + " is not random", known.empty() ? "" : suggest(key, known));
             }
         } else if (key.starts_with("fault.")) {
-            reject(key + " is what detection is graded by, and goes with nothing",
+            reject(key + " is the fault size, which cannot be correlated with other inputs",
                    "correlate other inputs");
         } else if (input->distribution.per_record()) {
-            reject(key + " belongs to the record (per), and its other inputs to the gearbox",
-                   "correlate inputs of the gearbox");
+            reject(key +
+                       " varies from record to record (per), so it cannot be correlated with "
+                       "inputs of the gearbox",
+                   "correlate other inputs");
         } else if (!input->distribution.has_quantile()) {
             reject(input->distribution.rows().group > 0
-                       ? key + " is drawn in rows, with what belongs to them"
+                       ? key + " is already sampled by row together with other inputs"
                        : fmt::format("{} takes its values in turn ({})", key,
                                      input->distribution.name()),
                    "correlate other inputs");
@@ -130,9 +132,9 @@ void read_correlations(StudyDraft& draft, const Entry& list) {
     }
     if (good && !Copula(draft.study).exists()) {
         draft.reject(list.position, "random.correlations",
-                     "no inputs have all of these correlations at once (their matrix, with 0 for "
-                     "pairs that are not given, is not positive definite)",
-                     "lower them, or give the pairs that are missing");
+                     "these correlations are impossible together (their matrix, with 0 for missing "
+                     "pairs, is not positive definite)",
+                     "reduce them, or add the missing pairs");
     }
 }
 

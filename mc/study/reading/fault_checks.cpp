@@ -1,4 +1,5 @@
-// Checks of the fault: that its member, side and profile can have it, and that it fits the tooth.
+// Checks of the fault against its member, side and tooth profile, and against the size of the
+// tooth.
 #include <fmt/format.h>
 
 #include "mc/study/faults/all_faults.hpp"
@@ -10,7 +11,8 @@
 namespace gearpod::mc {
 namespace {
 
-// "reduction" or "broken": the kinds for any tooth, the plainest of which stands last.
+// Quoted names of the kinds that need no tooth shape, the simplest one first: "reduction" or
+// "broken".
 std::string shapeless_kinds() {
     std::string names;
     const auto kinds = all_faults();
@@ -49,15 +51,16 @@ void check_planet(StudyDraft& draft) {
     }
     if (draft.all_usable({"fault.side"}) && s.fault.side == FaultSide::both &&
         s.fault.kind->shapes_tooth()) {
-        draft.reject("fault.side",
-                     fmt::format("is \"both\" ({} lies on one flank, and each flank meets one of "
-                                 "sun and ring)",
-                                 s.fault.kind->words()),
-                     "use \"ring\" or \"sun\"");
+        draft.reject(
+            "fault.side",
+            fmt::format(
+                "is \"both\", but {} is on one flank, which meets either the sun or the ring",
+                s.fault.kind->words()),
+            "use \"ring\" or \"sun\"");
     }
 }
 
-// Whether the tooth has a shape that a fault can change.
+// True if the fault needs no tooth shape or the study has one.
 bool check_profile(StudyDraft& draft) {
     const ToothProfile profile = draft.study.gearbox.tooth_profile;
     if (!stiffness_given(draft.study) || !draft.study.fault.kind->shapes_tooth() ||
@@ -74,7 +77,7 @@ bool check_profile(StudyDraft& draft) {
     return false;
 }
 
-// What needs the faulty tooth itself.
+// Checks that need the geometry of the faulty tooth.
 void check_shape(StudyDraft& draft) {
     const Study& s = draft.study;
     if (!draft.all_usable({"gearbox.kind", "gearbox.module_mm", "gearbox.pressure_angle_deg",
@@ -101,10 +104,12 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
     const std::string edges_name = edges_key.substr(edges_key.find('.') + 1);
     const std::vector<double>& edges = size_edges(draft.study);
     if (edges.empty()) {
-        draft.reject(edges_key,
-                     fmt::format("missing (random.{} is {}, whose sizes are grouped)", key.path(),
-                                 size.name()),
-                     fmt::format("add {} = [...] to [detection]", edges_name));
+        draft.reject(
+            edges_key,
+            fmt::format(
+                "missing (random.{} is {}, a continuous distribution, whose sizes must be grouped)",
+                key.path(), size.name()),
+            fmt::format("add {} = [...] to [detection]", edges_name));
         return;
     }
     const Support support = size.support();
@@ -114,11 +119,12 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
         draft.reject(
             edges_key,
             fmt::format("does not cover all sizes, {} to {}{}", support.low, support.high, unit),
-            "let the first edge be the smallest and the last the largest size, or beyond");
+            "the first edge must not be above the smallest size, nor the last one below the "
+            "largest");
     }
 }
 
-// Edges group continuous sizes; levels are their own groups.
+// Continuous sizes are grouped by edges; discrete levels form their own groups.
 void check_edges(StudyDraft& draft) {
     if (draft.study.fault.kind == nullptr) {
         return;
@@ -132,11 +138,11 @@ void check_edges(StudyDraft& draft) {
     if (random != nullptr && random->distribution.levels().empty()) {
         check_edges_given(draft, random->distribution);
     } else if (draft.is_given(edges_key)) {
-        draft.reject(edges_key,
-                     fmt::format("has no place here ({} is not continuous: each size is its own "
-                                 "group)",
-                                 size_key),
-                     "remove it");
+        draft.reject(
+            edges_key,
+            fmt::format("is not allowed here ({} is not continuous: each size is its own group)",
+                        size_key),
+            "remove it");
     }
 }
 

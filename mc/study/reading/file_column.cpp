@@ -47,7 +47,7 @@ Value list_of(const FileColumn& wanted, const Position& position, std::size_t mo
         const auto number = number_of(field, table.separator == ';');
         if (!number) {
             throw SignalError(
-                fmt::format("{}:{}: \"{}\" is no number", wanted.file, table.lines[row], field));
+                fmt::format("{}:{}: \"{}\" is not a number", wanted.file, table.lines[row], field));
         }
         Value element;
         element.kind = Value::Kind::number;

@@ -1,4 +1,4 @@
-// Lists of numbers that stand in a file: { file = "F.csv", column = "NAME" }.
+// Lists of numbers read from a column of a file: { file = "F.csv", column = "NAME" }.
 #pragma once
 
 #include <limits>
@@ -13,11 +13,11 @@ struct FileColumn {
     std::string file, column;
 };
 
-// Empty unless the value is a table that names both.
+// File and column named by a table; empty for any other value.
 std::optional<FileColumn> file_column(const Value& value);
 
-// The column's numbers as a list at `position`; of more than `most` rows evenly chosen ones. Throws
-// SignalError (mc/files/signal_file.hpp) with what is wrong.
+// The column's numbers as a list at `position`. Of more than `most` rows every n-th one is used.
+// Throws SignalError (mc/files/signal_file.hpp) with the problem.
 Value list_of(const FileColumn& wanted, const Position& position,
               std::size_t most = std::numeric_limits<std::size_t>::max());
 

@@ -14,10 +14,10 @@ void check_torque_sine(StudyDraft& draft) {
     }
     if (draft.is_given(order) && draft.is_given(frequency)) {
         draft.reject(frequency,
-                     fmt::format("conflicts with {} (both say how fast it varies)", order),
+                     fmt::format("conflicts with {} (both give how fast it varies)", order),
                      "remove one of them");
     } else if (!draft.is_given(order) && !draft.is_given(frequency)) {
-        draft.reject(key, "does not say how fast the torque varies",
+        draft.reject(key, "needs a frequency",
                      "add torque_fluctuation_order or torque_fluctuation_Hz");
     }
 }
@@ -29,8 +29,8 @@ void check_gravity(StudyDraft& draft) {
                           "effects.gravity"}) &&
         s.gearbox.kind == GearboxKind::planetary) {
         draft.reject("effects.gravity",
-                     "would do nothing (rotations alone feel only the planets' weights, and these "
-                     "balance each other about the carrier's axis: effects.motion)",
+                     "would have no effect (in a torsional model only the planets' weights act, "
+                     "and they balance each other about the carrier's axis: effects.motion)",
                      "remove it, or use a motion in x and y");
     }
 }

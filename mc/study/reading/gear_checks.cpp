@@ -1,4 +1,4 @@
-// Checks of the gears: they exist, mesh, fit together and have sound bodies.
+// Checks of the gears: possible shapes, meshing, assembly and gear bodies.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -47,17 +47,18 @@ void check_positions(StudyDraft& draft, int planets) {
     if (static_cast<int>(positions.size()) != planets) {
         draft.reject(
             key,
-            fmt::format("names {} positions, but there are {} planets", positions.size(), planets),
+            fmt::format("has {} positions, but there are {} planets", positions.size(), planets),
             "give one angle for each planet, or leave the key out for equal spacing");
     } else if (positions.front() != 0.0) {
         draft.reject(key, "does not begin with 0 (angles count from the first planet)",
-                     "turn all positions by the first one");
+                     "subtract the first position from all of them");
     }
 }
 
-// Planet n fits where (Z_s + Z_r) psi_n / 2 pi is whole, Parker and Lin (2004).
+// Rejects positions at which a planet cannot be assembled. Planet n fits where (Z_s + Z_r) psi_n /
+// 2 pi is an integer, Parker and Lin (2004).
 void check_positions_fit(StudyDraft& draft, const gears::PlanetaryTrain& train) {
-    constexpr double kSameAngle = 1e-3;  // of the angle between two possible positions
+    constexpr double kSameAngle = 1e-3;  // relative to the angle between two possible positions
     const double places = train.sun_teeth + train.ring_teeth;
     for (const double position : draft.study.gearbox.planet_positions_rad) {
         const double place = position * places / (2.0 * pi);
@@ -72,7 +73,7 @@ void check_positions_fit(StudyDraft& draft, const gears::PlanetaryTrain& train) 
     }
 }
 
-// Planets that cannot be spaced equally go to the nearest places where they mesh.
+// Moves planets that cannot be equally spaced to the nearest positions at which they mesh.
 void place_planets(StudyDraft& draft) {
     Gearbox& g = draft.study.gearbox;
     const gears::PlanetaryTrain train{*g.bodies[Member::sun].teeth, *g.bodies[Member::planet].teeth,
@@ -118,7 +119,7 @@ void check_train(StudyDraft& draft) {
     place_planets(draft);
     const gears::PlanetaryTrain all{*teeth(Member::sun), *teeth(Member::planet),
                                     *teeth(Member::ring), g.planets, g.planet_positions_rad};
-    // Planets of given positions are checked one by one.
+    // Planets at given positions are checked one by one.
     gears::PlanetaryTrain train = all;
     if (placed) {
         train.planets = 1;
@@ -138,8 +139,8 @@ void check_train(StudyDraft& draft) {
     }
 }
 
-// Key to blame for two gears that do not mesh: the centre distance or the first shift given, else a
-// pressure angle below the standard one, else the smaller gear's teeth.
+// Key named in the message about two gears that do not mesh: the centre distance or the first given
+// shift, else a pressure angle below the standard one, else the smaller gear's number of teeth.
 std::string mesh_key(const StudyDraft& draft, const MeshMembers& mesh, const gears::Gear& gear_1,
                      const gears::Gear& gear_2) {
     for (const std::string& key : shift_keys()) {
@@ -153,7 +154,7 @@ std::string mesh_key(const StudyDraft& draft, const MeshMembers& mesh, const gea
                                                                       : teeth_key(smaller);
 }
 
-// Two gears, each of them possible, that do not mesh.
+// Rejects two gears that are possible on their own but do not mesh.
 void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
     const gears::Gear gear_1 = gear_of(draft.study, mesh.driver);
     const gears::Gear gear_2 = gear_of(draft.study, mesh.driven);
@@ -170,10 +171,11 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
     }
 }
 
-// Backlash of planets and ring that nobody asked for: more shifts are given than fit, but not the
-// planet's, the ring's and the centre distance, which would say that it is meant.
+// Rejects unintended backlash between planets and ring, where the given shifts overdetermine the
+// geometry. Backlash counts as intended if the planet's shift, the ring's shift and the centre
+// distance are all given.
 void check_ring_backlash(StudyDraft& draft) {
-    constexpr double kRounded = 0.01;  // modules, by shifts of two decimals
+    constexpr double kRounded = 0.01;  // modules; the effect of shifts rounded to two decimals
     const Study& s = draft.study;
     const EachMember<MemberValues>& bodies = s.gearbox.bodies;
     if (s.gearbox.kind != GearboxKind::planetary || !bodies[Member::ring].profile_shift ||
@@ -197,7 +199,7 @@ void check_ring_backlash(StudyDraft& draft) {
     }
 }
 
-// Reliefs of a gear that reach farther than its contact in that mesh.
+// Rejects reliefs of a gear that are longer than its path of contact in that mesh.
 void check_relief(StudyDraft& draft, const gears::MeshGeometry& mesh, Member member) {
     const gears::FlankRelief relief = relief_of(draft.study, member);
     const double path_mm = kMmPerM * mesh.contact_ratio() * mesh.base_pitch();
@@ -222,7 +224,7 @@ void check_reliefs(StudyDraft& draft) {
     }
 }
 
-// Where the stiffness is given, the teeth need not be possible ones.
+// Where the stiffness is given, the teeth need not be geometrically possible.
 void check_gear_shapes(StudyDraft& draft) {
     if (stiffness_given(draft.study) || !teeth_usable(draft) || !has_gears(draft.study) ||
         !draft.all_usable({"gearbox.module_mm", "gearbox.pressure_angle_deg",
@@ -240,7 +242,7 @@ void check_gear_shapes(StudyDraft& draft) {
     for (const MeshMembers& mesh : meshes_of(draft.study.gearbox.kind)) {
         check_mesh(draft, mesh);
     }
-    // Teeth whose mates reach below their base circle are named for that.
+    // Contact below the base circle is reported first; it makes the undercut message redundant.
     if (draft.problems.size() == before) {
         check_ring_backlash(draft);
         check_reliefs(draft);
@@ -270,7 +272,7 @@ void check_body(StudyDraft& draft, Member member, const std::optional<double>& d
     }
 }
 
-// A web reaches from the rim to the bore.
+// Rejects rims that leave no web between them and the bore.
 void check_blank(StudyDraft& draft, Member member) {
     const MemberValues& body = draft.study.gearbox.bodies[member];
     const std::string key = fmt::format("gearbox.{}_rim_mm", member_name(member));
@@ -309,7 +311,7 @@ void check_levels(StudyDraft& draft, const std::string& mesh, const MeshValues& 
     if (low && high && draft.all_usable({low_key, high_key}) && *low > *high) {
         draft.reject(low_key,
                      fmt::format("{} N/m is above the high stiffness, {} N/m", *low, *high),
-                     "exchange the two");
+                     "swap the two values");
     }
 }
 

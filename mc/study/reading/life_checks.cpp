@@ -1,5 +1,4 @@
-// Checks of a life: what grows, between which depths, and that records are left behind the
-// baseline.
+// Checks of lives: the crack, its depths, and that records remain after the baseline.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,18 +19,18 @@ void check_curve(StudyDraft& draft) {
         return;
     }
     if (life.curve_h.size() != life.curve_depth_m.size() || life.curve_h.size() < 2) {
-        draft.reject(
-            "life.curve_depth_mm",
-            fmt::format("{} depths at {} hours", life.curve_depth_m.size(), life.curve_h.size()),
-            "give two or more, one an hour of curve_h");
+        draft.reject("life.curve_depth_mm",
+                     fmt::format("has {} depths, but curve_h has {} hours",
+                                 life.curve_depth_m.size(), life.curve_h.size()),
+                     "give at least two depths, one for each hour of curve_h");
     } else if (life.curve_h.front() != 0.0) {
         draft.reject("life.curve_h", fmt::format("begins at {:g} h", life.curve_h.front()),
-                     "begin at 0, when the crack is there");
+                     "begin at 0, when the crack starts");
     } else if (life.curve_depth_m.back() < *life.last_depth_m) {
         draft.reject("life.curve_depth_mm",
-                     fmt::format("ends at {:g} mm, above last_depth_mm, {:g} mm, no life",
+                     fmt::format("ends at {:g} mm, which is below last_depth_mm, {:g} mm",
                                  1e3 * life.curve_depth_m.back(), 1e3 * *life.last_depth_m),
-                     "go on to the depth at which lives end");
+                     "continue the curve to last_depth_mm");
     }
 }
 
@@ -46,39 +45,41 @@ void check_loads(StudyDraft& draft) {
         if (marched && scatter == 0.0 && !by_law) {
             draft.reject(
                 std::string("life.marched_") + key + "s",
-                fmt::format("records have one {}, which is marched", key),
-                fmt::format("leave it out, or let records' {0} vary (life.{0}_scatter)", key));
+                fmt::format("all records have the same {}, so nothing is interpolated", key),
+                fmt::format("remove it, or let the records' {0} vary (life.{0}_scatter)", key));
         }
     };
     check("torque", life.marched_torques, RecordQuantity::torque, life.torque_scatter);
     check("speed", life.marched_speeds, RecordQuantity::speed, life.speed_scatter);
 }
 
-// A baseline of too few records knows no scatter: own_deviations() are then NaN.
+// A baseline of too few records has no scatter estimate, and own_deviations() are then NaN.
 void check_watch(StudyDraft& draft) {
     const Life& life = draft.study.life;
     const Monitoring& watch = draft.study.monitoring;
     const int least = watch.torque_regression ? 4 : 3;
     if (watch.baseline_records > 0 && watch.baseline_records < least) {
-        draft.reject("monitoring.baseline_records",
-                     fmt::format("{} of a gearbox's records do not say how they scatter{}",
-                                 watch.baseline_records,
-                                 watch.torque_regression ? " along a line in the torque" : ""),
-                     fmt::format("take {} or more, or 0 for features as they are", least));
+        draft.reject(
+            "monitoring.baseline_records",
+            fmt::format("{} records are too few to estimate their scatter{}",
+                        watch.baseline_records,
+                        watch.torque_regression ? " about a line in the torque" : ""),
+            fmt::format("use at least {}, or 0 to monitor the features without a baseline", least));
     }
     const double most = 1000.0 / *life.interval_h;
     if (watch.false_alarms_per_1000_h >= most) {
-        draft.reject("monitoring.false_alarms_per_1000_h",
-                     fmt::format("{:g} are an alarm or more in every record of a healthy gearbox "
-                                 "(life.interval_h)",
-                                 watch.false_alarms_per_1000_h),
-                     fmt::format("it must be below {:.6g}", most));
+        draft.reject(
+            "monitoring.false_alarms_per_1000_h",
+            fmt::format(
+                "{:g} is one alarm or more in every record of a healthy gearbox (life.interval_h)",
+                watch.false_alarms_per_1000_h),
+            fmt::format("give a value below {:.6g}", most));
     }
 }
 
 }  // namespace
 
-// Only on a study that is sound otherwise: its fault and teeth are then what they are.
+// Runs only on a study without other problems, whose fault and teeth are valid.
 void check_life(StudyDraft& draft) {
     const Study& study = draft.study;
     const Life& life = study.life;
@@ -86,13 +87,14 @@ void check_life(StudyDraft& draft) {
         return;
     }
     if (study.fault.kind == nullptr || study.fault.kind->name() != "crack") {
-        draft.reject("life.interval_h", "follows cracks that grow, and the fault is none",
+        draft.reject("life.interval_h", "needs a crack that grows, but the fault is not a crack",
                      "use kind = \"crack\" in [fault]");
         return;
     }
     if (study.fault.member == Member::ring) {
         draft.reject("life.interval_h",
-                     "follows cracks in external teeth, which bend as beams (fault.member)",
+                     "needs a crack in an external tooth (crack growth is not modelled in the "
+                     "ring: fault.member)",
                      "use member = \"planet\" or \"sun\"");
     }
     check_curve(draft);
@@ -105,22 +107,24 @@ void check_life(StudyDraft& draft) {
                      "begin with a shallower crack");
     }
     if (life.record_s && life.record_turns) {
-        draft.reject("life.record_turns", "given beside record_s", "give one length");
+        draft.reject("life.record_turns",
+                     "conflicts with record_s (both give the length of a recording)",
+                     "remove one of them");
     }
     const double largest = max_crack_depth_m(study);
     if (*life.last_depth_m >= largest) {
         draft.reject("life.last_depth_mm",
-                     fmt::format("{:g} mm cuts the tooth", 1e3 * *life.last_depth_m),
-                     fmt::format("it must be below {:.6g} mm", shown(1e3 * largest)));
+                     fmt::format("{:g} mm cuts through the tooth", 1e3 * *life.last_depth_m),
+                     fmt::format("give a value below {:.6g} mm", shown(1e3 * largest)));
     }
     if (study.ensemble.threshold_records > 1) {
-        draft.reject("ensemble.threshold_records", "is for single records (life.interval_h)",
-                     "leave it out; a life has life.records");
+        draft.reject("ensemble.threshold_records", "is not allowed with life.interval_h",
+                     "remove it; life.records is the number of records of a life");
     }
     if (life.records <= study.monitoring.baseline_records) {
         draft.reject("life.records",
-                     fmt::format("{} are no more than monitoring.baseline_records, {}",
-                                 life.records, study.monitoring.baseline_records),
+                     fmt::format("{} is not above monitoring.baseline_records, {}", life.records,
+                                 study.monitoring.baseline_records),
                      "raise records");
     }
 }

@@ -1,4 +1,4 @@
-// The parts of reading a study, in turn; each adds what it finds wrong to the draft.
+// Steps of reading a study, in order. Each one adds the problems it finds to the draft.
 #pragma once
 
 #include <string>
@@ -9,45 +9,45 @@
 
 namespace gearpod::mc {
 
-// values.cpp: one value of a section into the study, type and range checked.
+// values.cpp: stores one value of a section in the study after checking its type and range.
 void read_value(StudyDraft& draft, const Key& key, const Entry& entry);
 
-// random_inputs.cpp: the section [random].
+// random_inputs.cpp: reads the section [random].
 void read_random(StudyDraft& draft, const Value& section);
 
-// correlations.cpp: `correlations` of that section, after its inputs.
+// correlations.cpp: reads `correlations` of that section, after its inputs.
 void read_correlations(StudyDraft& draft, const Entry& list);
 
-// presence_checks.cpp: what is missing, or given where it has no place.
+// presence_checks.cpp: rejects missing required keys and forbidden keys.
 void check_presence(StudyDraft& draft);
 
-// gear_checks.cpp: the gears among themselves.
+// gear_checks.cpp: checks the gears and how they fit together.
 void check_gears(StudyDraft& draft);
-// Toothed members of this kind of gearbox, each once; the key of a member's tooth number; true if
-// all of these keys can be used.
+// toothed_members(): toothed members of the study's kind of gearbox, each once. teeth_key(): key of
+// a member's number of teeth. teeth_usable(): true if all of these keys are usable.
 std::vector<Member> toothed_members(const Study& study);
 std::string teeth_key(Member member);
 bool teeth_usable(const StudyDraft& draft);
 
-// tooth_error_checks.cpp: planets that differ, tooth deviations, transmission errors.
+// tooth_error_checks.cpp: checks planets that differ, tooth deviations and transmission errors.
 void check_tooth_errors(StudyDraft& draft);
 
-// checks.cpp: what else no key can know alone.
+// checks.cpp: remaining checks that involve several keys.
 void check_consistency(StudyDraft& draft);
 
-// fluctuation_checks.cpp: what drives the gearbox unevenly, and whether its meshes repeat.
+// fluctuation_checks.cpp: checks the variable excitation and the strategy of integration.
 void check_fluctuations(StudyDraft& draft);
 
-// fault_checks.cpp: the fault against the tooth that carries it, and the size groups.
+// fault_checks.cpp: checks the fault against the tooth that carries it, and the size groups.
 void check_fault(StudyDraft& draft);
 
-// life_checks.cpp: what grows, between which depths, over how many records.
+// life_checks.cpp: checks the crack of a life, its depths and the number of records.
 void check_life(StudyDraft& draft);
 
-// record_checks.cpp: what is drawn for every record.
+// record_checks.cpp: checks the distributions of values that vary from record to record.
 void check_records(StudyDraft& draft);
 
-// until_checks.cpp: whether the study has the rate that ensemble.until speaks of.
+// until_checks.cpp: checks that the study has the detection rate that ensemble.until names.
 void check_until(StudyDraft& draft);
 
 }  // namespace gearpod::mc

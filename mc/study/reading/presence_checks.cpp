@@ -43,7 +43,7 @@ void check_key(StudyDraft& draft, const Key& key) {
                      fmt::format("add {} to [{}]: {}", key.name, key.section, key.doc));
     }
     if (presence.need == Need::forbidden && draft.is_given(path)) {
-        draft.reject(draft.position(path), path, "has no place here" + because, "remove it");
+        draft.reject(draft.position(path), path, "is not allowed here" + because, "remove it");
     }
 }
 
@@ -52,21 +52,21 @@ void check_exclusive_keys(StudyDraft& draft) {
         reject_second(draft,
                       given_of(draft, {fmt::format("gearbox.{}_inertia_kg_m2", member),
                                        fmt::format("gearbox.{}_inertia_over_r2_kg", member)}),
-                      "both say the moment of inertia");
+                      "both give the moment of inertia");
     }
     if (draft.study.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.kind")) {
         return;
     }
     const auto speeds = given_of(draft, {"operation.sun_speed_rpm", "operation.ring_speed_rpm",
                                          "operation.carrier_speed_rpm"});
-    reject_second(draft, speeds, "one speed sets all others");
+    reject_second(draft, speeds, "one speed determines all others");
     if (speeds.empty() && draft.usable("operation")) {
         draft.reject(draft.position("operation"), "operation", "no speed is given",
                      "add one of sun_speed_rpm, ring_speed_rpm, carrier_speed_rpm");
     }
 }
 
-// All of a missing section's required keys in one message.
+// Reports all required keys of a missing section in one message.
 void check_sections(StudyDraft& draft) {
     for (const std::string_view name : section_names()) {
         const std::string section(name);

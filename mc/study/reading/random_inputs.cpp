@@ -28,15 +28,15 @@ void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
     }
     const auto bound = [](double value) { return fmt::format("{}", value); };
     std::string what =
-        fmt::format("{} draws values from {} to {}, but {} must be {}", distribution.name(),
+        fmt::format("{} has values from {} to {}, but {} must be {}", distribution.name(),
                     bound(support.low), bound(support.high), key.name, key.range.text());
     reject(draft, entry, key.path(), std::move(what),
            distribution.name() == "normal" ? "use lognormal or truncated-normal"
                                            : "narrow the distribution");
 }
 
-// `file` and `column` of an empirical distribution become its values; columns of the same file are
-// drawn in rows, in a group far from those that studies name.
+// Replaces `file` and `column` of an empirical distribution by its values. Columns of the same file
+// are sampled by row, in a group number far above those that studies use.
 Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     constexpr int kFileGroups = 900'000;
     Value table = entry.value;
@@ -68,7 +68,8 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     return table;
 }
 
-// What is drawn for every record is a quantile of a number that the record has.
+// Checks a distribution with per = "record". Such values are quantiles of a variate of the record,
+// so the distribution needs a quantile function.
 void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
                       const Distribution& distribution) {
     const std::string per = key.path() + ".per";
@@ -77,12 +78,12 @@ void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
     }
     if (!record_quantity(key.path())) {
         reject(draft, entry, per,
-               fmt::format("{} belongs to the gearbox, the same in all its records", key.name),
-               "leave per out; records have operation.torque_N_m, a speed, sensor.gain and "
-               "sensor.noise_m_s2 of their own");
+               fmt::format("{} is the same in all records of a gearbox", key.name),
+               "remove per; only operation.torque_N_m, a speed, sensor.gain and sensor.noise_m_s2 "
+               "can vary from record to record");
     } else if (distribution.rows().group > 0) {
-        reject(draft, entry, per, "values of a record are drawn each by itself, not in rows",
-               "leave rows out, and give values");
+        reject(draft, entry, per, "values that vary from record to record cannot be sampled by row",
+               "remove rows, and give values");
     } else if (!distribution.has_quantile()) {
         reject(draft, entry, per,
                fmt::format("{} takes its values in turn, from gearbox to gearbox",
@@ -91,7 +92,7 @@ void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
     }
 }
 
-// Inputs that draw the same rows have as many.
+// Inputs that use the same rows must have the same number of values.
 void check_rows(StudyDraft& draft) {
     for (const RandomInput& input : draft.study.random) {
         const Distribution::Rows rows = input.distribution.rows();
@@ -101,9 +102,9 @@ void check_rows(StudyDraft& draft) {
         const std::size_t count = first->distribution.rows().count;
         if (rows.group > 0 && rows.count != count) {
             draft.reject(draft.given_random[input.key], "random." + input.key + ".values",
-                         fmt::format("has {} values, but {} of the same rows has {}", rows.count,
+                         fmt::format("has {} values, but {} with the same rows has {}", rows.count,
                                      first->key, count),
-                         "give as many, or other rows");
+                         "give the same number of values, or another value of rows");
         }
     }
 }
@@ -172,7 +173,7 @@ void read_random(StudyDraft& draft, const Value& section) {
             read_random_section(draft, entry);
         }
     }
-    // In the order of the schema, whatever the order in the file.
+    // Sorted in the order of the schema, whatever their order in the file.
     const auto rank = [](const RandomInput& input) {
         const auto keys = schema();
         return std::find_if(keys.begin(), keys.end(),

@@ -1,4 +1,4 @@
-// read_study(): the whole of it.
+// read_study(): reads, completes and checks a study.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace gearpod::mc {
 
 namespace {
 
-// Whether keys of the section begin with `name` and a dot: a table within the section.
+// True if keys of the section begin with `name` and a dot: a table within the section.
 bool is_subsection(const std::string& section, const std::string& name) {
     const auto keys = schema();
     return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
@@ -23,7 +23,7 @@ bool is_subsection(const std::string& section, const std::string& name) {
     });
 }
 
-// `prefix` is that of a table within the section, with its dot.
+// `prefix`: name of the table within the section and a dot, or empty.
 void read_entries(StudyDraft& draft, const std::string& section, const std::string& prefix,
                   const std::vector<Entry>& entries) {
     for (Entry entry : entries) {
@@ -49,7 +49,8 @@ void read_section(StudyDraft& draft, const Entry& section) {
 
 void read_title(StudyDraft& draft, const Entry& entry) {
     if (entry.value.kind == Value::Kind::text && !is_printable(entry.value.text)) {
-        draft.reject(entry.position, "title", "holds control characters", "write one line of text");
+        draft.reject(entry.position, "title", "contains control characters",
+                     "write one line of text");
     } else if (entry.value.kind == Value::Kind::text) {
         draft.study.title = entry.value.text;
     } else {
@@ -58,7 +59,7 @@ void read_title(StudyDraft& draft, const Entry& entry) {
     }
 }
 
-// A top-level name that is no section: a key outside its section, or a misspelling.
+// Rejects a top-level name that is no section: a key outside its section, or a misspelling.
 void reject_unknown_section(StudyDraft& draft, const Entry& entry) {
     for (const Key& key : schema()) {
         if (key.name == entry.name) {
@@ -73,7 +74,7 @@ void reject_unknown_section(StudyDraft& draft, const Entry& entry) {
     const std::string words = suggest(entry.name, candidates);
     draft.reject(entry.position, entry.name, "unknown section", words);
     if (words.starts_with("did you mean")) {
-        // Not missing as well.
+        // The section that was meant is not reported as missing as well.
         draft.bad.insert(std::string(nearest(entry.name, candidates)));
     }
 }
@@ -98,14 +99,14 @@ void read_sections(StudyDraft& draft, const Value& document) {
             read_section(draft, entry);
         }
     }
-    // After all nominal values, because it fills in those that are absent.
+    // Read after all nominal values, because it sets those that are absent.
     const Entry* random = document.find("random");
     if (random != nullptr && random->value.kind == Value::Kind::table) {
         read_random(draft, random->value);
     }
 }
 
-// The basic ones that the motion has signals for.
+// By default the basic features for which the type of motion has signals.
 void fill_features(Study& study) {
     if (study.features.use.empty()) {
         for (const features::Feature& feature : features::all_features()) {
@@ -122,7 +123,7 @@ void fill_detectors(Study& study) {
     }
 }
 
-// Of a held sun's gearbox the ring is driven and has the torque, else the sun.
+// By default the sun is the input and has the given torque, or the ring if the sun is fixed.
 void fill_operation(StudyDraft& draft) {
     Operation& o = draft.study.operation;
     const Member usual = o.fixed == Member::sun ? Member::ring : Member::sun;
@@ -134,7 +135,7 @@ void fill_operation(StudyDraft& draft) {
     }
 }
 
-// No path leads to a sensor that sits on a bearing, or that has nothing to measure.
+// No transmission path by default if the sensor is on a bearing or has nothing to measure.
 void fill_path(StudyDraft& draft) {
     Study& study = draft.study;
     if (!draft.is_given("effects.path") &&
@@ -150,7 +151,7 @@ void fill_lanes(StudyDraft& draft) {
     }
 }
 
-// Where no mesh repeats, all are marched.
+// Without identical mesh periods, all of them are integrated.
 void fill_horizon(StudyDraft& draft) {
     if (!draft.is_given("numerics.horizon") && !why_no_mesh_repeats(draft.study).empty()) {
         draft.study.numerics.horizon = Horizon::march;

@@ -1,4 +1,4 @@
-// Checks of what [random] draws for every record.
+// Checks of the distributions in [random] that vary from record to record.
 #include <fmt/format.h>
 
 #include "mc/study/reading/parts.hpp"
@@ -7,7 +7,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The key that says the same in short, and what it is set to.
+// Short form of a record distribution: its key and the scatter that it gives.
 struct ShortForm {
     std::string key;
     double scatter;
@@ -37,26 +37,26 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
     const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
     if (std::get<NumberAccess>(key.access).get(study).value_or(0.0) <= 0.0) {
         draft.reject(at, "random." + input.key + ".per",
-                     "records scatter about a value above 0, and the study's is 0",
+                     "needs a nominal value above 0, about which the records scatter",
                      fmt::format("give {} in [{}]", key.name, key.section));
     }
     const ShortForm same = short_form(study, *record_quantity(input.key));
     if (same.scatter > 0.0) {
-        draft.reject(at, "random." + input.key + ".per", "given beside " + same.key,
-                     "say in one place how records scatter");
+        draft.reject(at, "random." + input.key + ".per", "conflicts with " + same.key,
+                     "give the scatter of records only once");
     }
     if (study.ensemble.threshold_records > 1) {
         draft.reject("ensemble.threshold_records",
-                     fmt::format("{} records of a gearbox differ in noise alone, and {} differs "
-                                 "from record to record",
+                     fmt::format("the {} records of a gearbox differ only in their noise, but {} "
+                                 "varies from record to record",
                                  study.ensemble.threshold_records, input.key),
-                     "leave threshold_records out, or per in [random]");
+                     "remove threshold_records, or per in [random]");
     }
 }
 
 }  // namespace
 
-// Only on a study that is sound otherwise.
+// Runs only on a study without other problems.
 void check_records(StudyDraft& draft) {
     if (!draft.problems.empty()) {
         return;

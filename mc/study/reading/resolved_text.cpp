@@ -1,4 +1,4 @@
-// resolved_text(): a study as TOML.
+// resolved_text(): writes a study as TOML.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -9,10 +9,10 @@
 namespace gearpod::mc {
 namespace {
 
-// The shortest decimal number in the file's unit that converts back to exactly `si`.
+// Shortest decimal number in the file's unit that converts back to exactly `si`.
 std::string number_text(double si, double to_si) {
     if (si == 0.0) {
-        return "0";  // without the sign, which "-0", an integer, would lose
+        return "0";  // without the sign: "-0" would be read as an integer and lose it
     }
     const double near = si / to_si;
     for (const int digits : {15, 16, 17}) {
@@ -47,7 +47,7 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-// The value of one key as TOML, "" if it is not given.
+// Value of one key as TOML; "" if it is not given.
 class ValueText {
   public:
     ValueText(const Study& study, const Key& key) : study_(study), key_(key) {}

@@ -1,4 +1,5 @@
-// Interfering tones as a study file lists them: [{ frequency_Hz = 50, amplitude_m_s2 = 0.1 }, ...].
+// Reads interfering tones as a study file lists them: [{ frequency_Hz = 50, amplitude_m_s2 = 0.1 },
+// ...].
 #pragma once
 
 #include <functional>
@@ -10,7 +11,7 @@
 
 namespace gearpod::mc {
 
-// Called with what is wrong and a remedy; names the tone by its place in the list.
+// Called with a problem, which names the tone by its position in the list, and a remedy.
 using RejectTone = std::function<void(std::string what, std::string remedy)>;
 
 std::vector<Tone> read_tones(const Value& list, const RejectTone& reject);

@@ -1,4 +1,4 @@
-// Checks of what differs from the ideal gearbox: planets, tooth deviations and transmission errors.
+// Checks of deviations from the ideal gearbox: planets, tooth deviations and transmission errors.
 #include <fmt/format.h>
 
 #include "mc/study/gears.hpp"
@@ -20,7 +20,7 @@ void check_phases(StudyDraft& draft, const std::string& mesh, const std::vector<
     }
 }
 
-// Lists with a value for each planet.
+// Checks lists that have one value for each planet.
 void check_planet_lists(StudyDraft& draft) {
     const Study& s = draft.study;
     if (s.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.planets")) {
@@ -47,11 +47,11 @@ void check_teeth_listed(StudyDraft& draft, const std::string& key, const std::ve
     if (!list.empty() && static_cast<int>(list.size()) != teeth &&
         draft.all_usable({key, teeth_key, "gearbox.planets"})) {
         draft.reject(key, fmt::format("has {} deviations for {} teeth", list.size(), teeth),
-                     "give one for each tooth, of planets one planet after the other");
+                     "give one for each tooth; for planets, one planet after the other");
     }
 }
 
-// Measured deviations, one a tooth.
+// Checks measured deviations, one for each tooth.
 void check_measured_teeth(StudyDraft& draft) {
     if (!teeth_usable(draft)) {
         return;

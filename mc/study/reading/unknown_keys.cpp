@@ -11,7 +11,7 @@ namespace gearpod::mc {
 namespace {
 
 struct Guess {
-    const Key* key = nullptr;  // what was probably meant
+    const Key* key = nullptr;  // key that was probably meant
     std::string words;
 };
 
@@ -31,7 +31,7 @@ Guess guess_by_unit(const std::string& section, const std::string& name) {
     return {};
 }
 
-// A key whose name without its unit is near.
+// Key with a similar name apart from the unit, or nullptr.
 const Key* near_without_unit(const std::string& section, const std::string& name) {
     std::vector<std::string_view> stems;
     for (const Key& key : schema()) {

@@ -1,4 +1,4 @@
-// A key that no section has, and what was probably meant.
+// Messages about unknown keys, with the key that was probably meant.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace gearpod::mc {
 
-// Rejects an unknown key of a section, "random." + section in [random]. The key that was probably
-// meant counts as bad, not as missing.
+// Rejects an unknown key of a section; `prefix` is "random." in [random]. The key that was probably
+// meant is marked as bad, so that it is not reported as missing.
 void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
                         const Entry& entry);
 

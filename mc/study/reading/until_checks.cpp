@@ -22,7 +22,7 @@ void reject(StudyDraft& draft, const std::string& key, std::string what, std::st
 
 }  // namespace
 
-// Only on a study that is sound otherwise: its sizes and features are then what they are.
+// Runs only on a study without other problems, whose sizes and features are valid.
 void check_until(StudyDraft& draft) {
     const Study& study = draft.study;
     const Until& until = study.ensemble.until;
@@ -45,7 +45,7 @@ void check_until(StudyDraft& draft) {
         for (const analysis::SizeGroup& group : groups) {
             sizes += (sizes.empty() ? "" : ", ") + size_text(study, group);
         }
-        reject(draft, "size", fmt::format("{:g} is no fault size of this study", *until.size),
+        reject(draft, "size", fmt::format("{:g} is not a fault size of this study", *until.size),
                "its sizes are " + sizes);
     }
 }

@@ -98,8 +98,9 @@ class ValueReader {
         }
         for (const Value& element : value_.elements) {
             if (element.kind != Value::Kind::text) {
-                reject(fmt::format("must be a list of strings, but holds {}", element.kind_name()),
-                       "");
+                reject(
+                    fmt::format("must be a list of strings, but contains {}", element.kind_name()),
+                    "");
             } else {
                 texts.push_back(element.text);
             }
@@ -156,8 +157,8 @@ class ValueReader {
             return false;
         }
         if (value_.elements.size() > kMostElements) {
-            reject(fmt::format("has {} values, and at most {} are computed with",
-                               value_.elements.size(), kMostElements),
+            reject(fmt::format("has {} values, but at most {} are allowed", value_.elements.size(),
+                               kMostElements),
                    "give fewer");
             return false;
         }

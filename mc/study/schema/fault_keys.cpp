@@ -1,4 +1,4 @@
-// Keys of [fault]: those of every fault, then those of the kinds.
+// Keys of [fault]: those of every fault, then those of each kind.
 #include <algorithm>
 
 #include "mc/study/faults/all_faults.hpp"
@@ -35,21 +35,21 @@ bool planet_fault(const Study& s) {
     return s.fault.kind != nullptr && s.fault.member == Member::planet;
 }
 
-// Required for a fault.
+// Required for every fault.
 Presence faulty_member(const Study& s) {
     return s.fault.kind == nullptr
                ? may(s)
                : Presence{Need::required, is_kind(*s.fault.kind), {"fault.kind"}};
 }
 
-// Only for a fault in a planet.
+// Forbidden for faults that are not in a planet.
 Presence planet_number(const Study& s) {
     return s.fault.kind == nullptr || planet_fault(s)
                ? may(s)
                : Presence{Need::forbidden, "only for fault.member = \"planet\"", {"fault.member"}};
 }
 
-// Required for one.
+// Required for a fault in a planet, else forbidden.
 Presence planet_side(const Study& s) {
     return planet_fault(s)
                ? Presence{Need::required, "fault.member is \"planet\"", {"fault.member"}}
@@ -65,7 +65,8 @@ std::optional<Need> need_of(const FaultKind& kind, std::string_view name) {
     return std::nullopt;
 }
 
-// Of a key of kinds: with those that have it. Without a fault all may be given.
+// Presence of a key that only some kinds have: as those kinds need it, else forbidden. Without a
+// fault all may be given.
 Presence of_kinds(const Study& s, std::string_view name) {
     if (s.fault.kind == nullptr) {
         return may(s);
@@ -91,7 +92,7 @@ const Key kFaultKeys[] = {
 };
 // clang-format on
 
-// Once each; a key that kinds share stands with the first of them.
+// Lists each key once; a key that several kinds share stands with the first of them.
 std::vector<Key> all_keys() {
     std::vector<Key> all(std::begin(kFaultKeys), std::end(kFaultKeys));
     for (const FaultKind* kind : all_faults()) {

@@ -40,45 +40,46 @@ std::span<const ChoiceName> path_names() {
 }
 
 using U = Fluctuations;
-// A speed that comes near zero is no speed to march in mesh phase; noise reaches six times its rms.
+// Limited so that the speed stays well above zero: time integration in mesh phase divides by it.
+// Noise can reach six times its rms.
 constexpr Range kSpeedAmplitude = from_to(0, 0.3);
 constexpr Range kSpeedNoise = from_to(0, 0.05);
 
 // clang-format off
 const Key kOperationKeys[] = {
     {"operation", "fixed", choice<&Operation::fixed>(kCentral), kNone, kAny, planetary<may>, kShared, "member that stands still"},
-    {"operation", "input", choice<&Operation::input>(kCentral), kNone, kAny, planetary<may>, kShared, "member that is driven; the sun by default, or the ring if the sun is fixed"},
-    {"operation", "torque_on", choice<&Operation::torque_on>(kCentral), kNone, kAny, planetary<may>, kShared, "member whose torque is given; the sun by default, or the ring if the sun is fixed"},
-    {"operation", "torque_N_m", number<&Operation::torque_N_m>, kNm, kNotNegative, always, kRandom, "torque on that member, or of a fixed-shaft gearbox's motor"},
+    {"operation", "input", choice<&Operation::input>(kCentral), kNone, kAny, planetary<may>, kShared, "input member; by default the sun, or the ring if the sun is fixed"},
+    {"operation", "torque_on", choice<&Operation::torque_on>(kCentral), kNone, kAny, planetary<may>, kShared, "member whose torque is given; by default the sun, or the ring if the sun is fixed"},
+    {"operation", "torque_N_m", number<&Operation::torque_N_m>, kNm, kNotNegative, always, kRandom, "torque on the member torque_on, or of the motor of a fixed-shaft gearbox"},
     {"operation", "sun_speed_rpm", number<&Operation::sun_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the sun"},
     {"operation", "ring_speed_rpm", number<&Operation::ring_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the ring"},
     {"operation", "carrier_speed_rpm", number<&Operation::carrier_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the carrier"},
-    {"operation", "load_torque_N_m", number<&Operation::load_torque_N_m>, kNm, kNotNegative, fixed_shaft<may>, kRandom, "torque of the load; in balance with the motor's by default"},
+    {"operation", "load_torque_N_m", number<&Operation::load_torque_N_m>, kNm, kNotNegative, fixed_shaft<may>, kRandom, "torque of the load; by default in balance with the motor's"},
     {"operation", "pinion_speed_rpm", number<&Operation::pinion_speed_rad_s>, kRpm, kPositive, fixed_shaft<always>, kRandom, "speed of the pinion"},
 
-    {"operation", "torque_fluctuation", number<&U::torque>, kNone, from_to(0, 10), may, kRandom, "amplitude of a sine by which all torques vary, relative to them; contacts and static equilibrium keep the mean torque"},
-    {"operation", "torque_fluctuation_order", number<&U::torque_order>, kNone, kPositive, torque_sine, kRandom, "its periods in a turn of the input member (the pinion); or give torque_fluctuation_Hz"},
-    {"operation", "torque_fluctuation_Hz", number<&U::torque_Hz>, kHz, kFrequency, torque_sine, kRandom, "its frequency; or give torque_fluctuation_order"},
-    {"operation", "torque_fluctuation_phase_deg", number<&U::torque_phase_rad>, kDeg, from_to(-360, 360), torque_sine, kRandom, "its phase at the first recorded mesh"},
-    {"operation", "torque_noise", number<&U::torque_noise>, kNone, from_to(0, 10), may, kRandom, "rms by which all torques vary at random, relative to them: Gaussian, every gearbox differently"},
-    {"operation", "torque_noise_band_Hz", number<&U::torque_noise_Hz>, kHz, kFrequency, torque_noise, kRandom, "frequency at which its spectrum has fallen to half (to a twentieth at twice that): white noise shaped by cubic B-splines"},
-    {"operation", "speed_fluctuation", number<&U::speed>, kNone, kSpeedAmplitude, integration, kRandom, "amplitude of a sine by which the speed varies, relative to it; the input's torque speeds all masses up"},
-    {"operation", "speed_fluctuation_order", number<&U::speed_order>, kNone, kPositive, speed_sine, kRandom, "its periods in a turn of the input member (the pinion)"},
-    {"operation", "speed_fluctuation_phase_deg", number<&U::speed_phase_rad>, kDeg, from_to(-360, 360), speed_phase, kRandom, "its phase at the first recorded mesh"},
-    {"operation", "speed_noise", number<&U::speed_noise>, kNone, kSpeedNoise, integration, kRandom, "rms by which the speed varies at random, relative to it"},
-    {"operation", "speed_noise_band_Hz", number<&U::speed_noise_Hz>, kHz, kFrequency, speed_noise, kRandom, "frequency at which its spectrum has fallen to half, at the mean speed"},
+    {"operation", "torque_fluctuation", number<&U::torque>, kNone, from_to(0, 10), may, kRandom, "relative amplitude of a sinusoidal fluctuation of all torques; contacts and static equilibrium are those of the mean torque"},
+    {"operation", "torque_fluctuation_order", number<&U::torque_order>, kNone, kPositive, torque_sine, kRandom, "periods of the torque fluctuation in a turn of the input member (the pinion); alternative to torque_fluctuation_Hz"},
+    {"operation", "torque_fluctuation_Hz", number<&U::torque_Hz>, kHz, kFrequency, torque_sine, kRandom, "frequency of the torque fluctuation; alternative to torque_fluctuation_order"},
+    {"operation", "torque_fluctuation_phase_deg", number<&U::torque_phase_rad>, kDeg, from_to(-360, 360), torque_sine, kRandom, "phase of the torque fluctuation at the first recorded mesh period"},
+    {"operation", "torque_noise", number<&U::torque_noise>, kNone, from_to(0, 10), may, kRandom, "relative rms of a random fluctuation of all torques: Gaussian, different in every gearbox"},
+    {"operation", "torque_noise_band_Hz", number<&U::torque_noise_Hz>, kHz, kFrequency, torque_noise, kRandom, "frequency at which the spectrum of torque_noise has fallen to half (to a twentieth at twice this frequency): white noise shaped by cubic B-splines"},
+    {"operation", "speed_fluctuation", number<&U::speed>, kNone, kSpeedAmplitude, integration, kRandom, "relative amplitude of a sinusoidal fluctuation of the speed; the input torque accelerates all masses"},
+    {"operation", "speed_fluctuation_order", number<&U::speed_order>, kNone, kPositive, speed_sine, kRandom, "periods of the speed fluctuation in a turn of the input member (the pinion)"},
+    {"operation", "speed_fluctuation_phase_deg", number<&U::speed_phase_rad>, kDeg, from_to(-360, 360), speed_phase, kRandom, "phase of the speed fluctuation at the first recorded mesh period"},
+    {"operation", "speed_noise", number<&U::speed_noise>, kNone, kSpeedNoise, integration, kRandom, "relative rms of a random fluctuation of the speed"},
+    {"operation", "speed_noise_band_Hz", number<&U::speed_noise_Hz>, kHz, kFrequency, speed_noise, kRandom, "frequency at which the spectrum of speed_noise has fallen to half, at the mean speed"},
 
     {"effects", "motion", choice<&Effects::motion>(kMotions), kNone, kAny, may, kShared, "degrees of freedom"},
     {"effects", "foundation", choice<&Effects::foundation>(kFoundations), kNone, kAny, tooth_model, kShared, "compliance of the gear bodies under the teeth"},
     {"effects", "contact", choice<&Effects::contact>(kContacts), kNone, kAny, tooth_model, kShared, "law of the contact between teeth"},
     {"effects", "contact_onset", choice<&Effects::contact_onset>(kOnsets), kNone, kAny, tooth_model, kShared, "start and end of tooth contact: abrupt, with the full stiffness at the ends of the nominal path of contact, or extended, when the deflected gears close the gap that the tip corners leave before and after it"},
     {"effects", "shear", boolean<&Effects::shear>, kNone, kAny, tooth_model, kShared, "shear energy of the teeth"},
-    {"effects", "separation", choice<&Effects::separation>(kSeparations), kNone, kAny, may, kShared, "whether teeth lose contact: one-sided, or two-sided with contact of the back flanks"},
+    {"effects", "separation", choice<&Effects::separation>(kSeparations), kNone, kAny, may, kShared, "loss of contact of the teeth: none, one-sided, or two-sided with contact of the back flanks"},
     {"effects", "inertial_terms", boolean<&Effects::inertial_terms>, kNone, kAny, planetary<may>, kShared, "Coriolis and centrifugal terms of the turning carrier"},
     {"effects", "mesh_damping", choice<&Effects::mesh_damping>(kDampings), kNone, kAny, may, kShared, "law of mesh damping"},
     {"effects", "gravity", boolean<&Effects::gravity>, kNone, kAny, may, kShared, "weight of all bodies; it turns in the frame of a turning carrier"},
-    {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, from_to(-360, 360), gravity, kShared, "where it pulls, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
-    {"effects", "path", listed<&Effects::path, signals::path_windows>(path_names()), kNone, kAny, may, kShared, "window of the transmission path"},
+    {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, from_to(-360, 360), gravity, kShared, "direction of gravity, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
+    {"effects", "path", listed<&Effects::path, signals::path_windows>(path_names()), kNone, kAny, may, kShared, "window function of the transmission path"},
 };
 // clang-format on
 

@@ -26,7 +26,7 @@ Presence damping(const Study& s, MeshDamping kind, const std::string& why) {
     return {need, why, {"effects.mesh_damping", kMotion}};
 }
 
-// Required with that key, and else forbidden.
+// Required if that key is given, else forbidden.
 Presence with(const std::optional<double>& given, const std::string& because,
               const std::string& only, std::string_view governor) {
     return given ? Presence{Need::required, because, {governor}}
@@ -36,11 +36,11 @@ Presence with(const std::optional<double>& given, const std::string& because,
 }  // namespace
 
 Presence with_baseline(const Study& s) {
-    return compares_records(s) ? kOptional
-                               : Presence{Need::forbidden,
-                                          "only with features of the change since the gearbox's "
-                                          "baseline record (change_...) or over its (own_...)",
-                                          {"features.use"}};
+    return compares_records(s)
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only with features that use a baseline record (change_..., own_...)",
+                          {"features.use"}};
 }
 Presence of_life(const Study& s, Need need) {
     const Need there = s.life.interval_h ? need : Need::forbidden;
@@ -56,7 +56,7 @@ Presence life_needs(const Study& s) {
 Presence paris_needs(const Study& s) {
     return s.life.interval_h && !s.life.curve_h.empty()
                ? Presence{Need::forbidden,
-                          "the curve of life.curve_h says how deep the crack is",
+                          "life.curve_h gives the depth of the crack",
                           {"life.curve_h"}}
                : life_needs(s);
 }
@@ -110,10 +110,10 @@ Presence tooth_module(const Study& s) {
 }
 
 Presence shifted_teeth(const Study& s) {
-    return has_gears(s) ? kOptional
-                        : Presence{Need::forbidden,
-                                   "it needs the gears' teeth and module",
-                                   {"gearbox.module_mm"}};
+    return has_gears(s)
+               ? kOptional
+               : Presence{
+                     Need::forbidden, "only with tooth numbers and module", {"gearbox.module_mm"}};
 }
 
 Presence relief_shape(const Study& s) {
@@ -156,7 +156,7 @@ Presence constant_stiffness(const Study& s) {
     return is(s, ToothProfile::constant)
                ? Presence{Need::required, "gearbox.tooth_profile is \"constant\"", {kProfile}}
                : Presence{Need::forbidden,
-                          "only for gearbox.tooth_profile = \"constant\": the teeth give it",
+                          "only for gearbox.tooth_profile = \"constant\"; else the teeth define it",
                           {kProfile}};
 }
 
@@ -176,7 +176,7 @@ Presence foundation(const Study& s) {
 }
 
 Presence ring_foundation(const Study& s) {
-    // Sainsot's formula is fitted to external gears.
+    // Sainsot's formula is fitted to external gears only.
     return s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s)
                ? Presence{Need::required,
                           "effects.foundation is \"elastic-ring\"",
@@ -187,7 +187,7 @@ Presence ring_foundation(const Study& s) {
 Presence blank_part(const Study& s, Member member, BlankPart part) {
     if (s.effects.foundation == Foundation::none || stiffness_given(s)) {
         return {Need::forbidden,
-                "it takes from elastic gear bodies, and effects.foundation is \"none\"",
+                "only for elastic gear bodies, but effects.foundation is \"none\"",
                 {"effects.foundation"}};
     }
     const MemberValues& body = s.gearbox.bodies[member];
@@ -213,14 +213,13 @@ Presence backlash(const Study& s) {
 Presence tooth_quality(const Study& s) {
     return has_gears(s) ? kOptional
                         : Presence{Need::forbidden,
-                                   "tolerances need the gears' teeth and module",
+                                   "tolerances need tooth numbers and module",
                                    {"gearbox.module_mm"}};
 }
 
 Presence bearings_move(const Study& s) {
     return s.effects.torsional() ? Presence{Need::forbidden,
-                                            "rigid bearings hold the planets in their places: "
-                                            "effects.motion",
+                                            "the bearings of this model are rigid: effects.motion",
                                             {kMotion}}
                                  : kOptional;
 }
@@ -266,7 +265,7 @@ Presence gravity(const Study& s) {
 }
 
 Presence mass(const Study& s) {
-    // Without inertia, but not without weight.
+    // A quasi-static gearbox needs its masses only for their weight.
     if (s.effects.quasi_static() && s.effects.gravity) {
         return {Need::required, "effects.gravity = true", {kMotion, "effects.gravity"}};
     }
@@ -277,7 +276,7 @@ Presence inertia(const Study& s) {
     return s.gearbox.has_teeth() && s.gearbox.transverse_module_m()
                ? kOptional
                : Presence{Need::forbidden,
-                          "its radius is unknown without tooth numbers and module",
+                          "the radius is unknown without tooth numbers and module",
                           {kProfile}};
 }
 
@@ -304,14 +303,14 @@ Presence bearing(const Study& s) {
 }
 
 Presence damping_ratio(const Study& s) {
-    return damping(s, MeshDamping::ratio, "effects.mesh_damping = \"ratio\" goes with it");
+    return damping(s, MeshDamping::ratio, "belongs to effects.mesh_damping = \"ratio\"");
 }
 Presence damping_time(const Study& s) {
     return damping(s, MeshDamping::proportional,
-                   "effects.mesh_damping = \"proportional\" goes with it");
+                   "belongs to effects.mesh_damping = \"proportional\"");
 }
 Presence damping_constant(const Study& s) {
-    return damping(s, MeshDamping::constant, "effects.mesh_damping = \"constant\" goes with it");
+    return damping(s, MeshDamping::constant, "belongs to effects.mesh_damping = \"constant\"");
 }
 
 Presence acceleration_detail(const Study& s) {
@@ -324,7 +323,7 @@ Presence acceleration_detail(const Study& s) {
 
 Presence with_tones(const Study& s) {
     return s.sensor.tones.empty()
-               ? Presence{Need::forbidden, "there are none: sensor.tones", {"sensor.tones"}}
+               ? Presence{Need::forbidden, "no tones are given: sensor.tones", {"sensor.tones"}}
                : acceleration_detail(s);
 }
 
@@ -332,14 +331,14 @@ Presence noise_rms(const Study& s) {
     constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
     return s.sensor.noise_density_m_s2_per_sqrt_Hz
                ? Presence{Need::forbidden,
-                          "noise_density_m_s2_per_sqrt_Hz says the accelerometer's noise",
+                          "noise_density_m_s2_per_sqrt_Hz gives the accelerometer's noise",
                           {kDensity, kMotion}}
                : acceleration_detail(s);
 }
 
 Presence noise_density(const Study& s) {
     return s.life.interval_h ? Presence{Need::forbidden,
-                                        "the records of a life have white noise, "
+                                        "the records of a life have white noise, given by "
                                         "sensor.noise_m_s2: life.interval_h",
                                         {"life.interval_h", kMotion}}
                              : acceleration_detail(s);
@@ -353,7 +352,7 @@ Presence white_records(const Study& s) {
     constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
     return s.sensor.noise_density_m_s2_per_sqrt_Hz
                ? Presence{Need::forbidden,
-                          "noise_density_m_s2_per_sqrt_Hz colours the noise, which is tilted white",
+                          "tilting needs white noise: noise_density_m_s2_per_sqrt_Hz colours it",
                           {kDensity, kMotion}}
                : acceleration_detail(s);
 }
@@ -375,7 +374,7 @@ Presence length_edges(const Study& s) {
     return s.fault.kind == nullptr || !s.fault.kind->size().unit.suffix.empty()
                ? kOptional
                : Presence{Need::forbidden,
-                          "the fault's size is a pure number: size_edges groups it",
+                          "the fault's size is a pure number: use size_edges",
                           {"fault.kind"}};
 }
 
@@ -383,7 +382,7 @@ Presence number_edges(const Study& s) {
     return s.fault.kind == nullptr || s.fault.kind->size().unit.suffix.empty()
                ? kOptional
                : Presence{Need::forbidden,
-                          "the fault's size is a length: size_edges_mm groups it",
+                          "the fault's size is a length: use size_edges_mm",
                           {"fault.kind"}};
 }
 

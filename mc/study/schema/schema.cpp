@@ -70,7 +70,7 @@ struct KindText {
     }
 };
 
-// Words of the text, indented, in lines of 80 columns.
+// Text wrapped to lines of at most 80 columns, each one indented.
 std::string wrapped(const std::string& text, std::size_t indent) {
     constexpr std::size_t kWidth = 80;
     std::string out, line;
@@ -131,8 +131,9 @@ std::string schema_help(std::string_view word) {
         text += std::string(random ? "" : "[random]\n") +
                 "  SECTION.KEY = { ..., per = \"record\" }\n" +
                 wrapped(
-                    "drawn anew for every record of a gearbox: operation.torque_N_m, a speed, "
-                    "sensor.gain or sensor.noise_m_s2; by default for the gearbox",
+                    "a new random value for every record of a gearbox; for operation.torque_N_m, a "
+                    "speed, sensor.gain or sensor.noise_m_s2. By default there is one value for "
+                    "each gearbox",
                     6);
         random = true;
     }
@@ -141,9 +142,8 @@ std::string schema_help(std::string_view word) {
             std::string(random ? "" : "[random]\n") +
             "  correlations = [{ between = [\"SECTION.KEY\", \"SECTION.KEY\"], rank = R }, ...]\n" +
             wrapped(
-                "rank correlation (Spearman's, between -1 and 1) of two inputs that have "
-                "distributions of their own, through a Gaussian copula; 0 for pairs that "
-                "are not given",
+                "rank correlation (Spearman's, between -1 and 1) of two random inputs, by a "
+                "Gaussian copula, which keeps their distributions; 0 for pairs that are not given",
                 6);
     }
     return text;

@@ -1,5 +1,6 @@
-// The keys of a study file as data: one line a key in *_keys.cpp, those of a fault in its kind's
-// file. Reading, ranges, units, spelling, help and the resolved text all come from it.
+// Keys of a study file as data: one line per key in *_keys.cpp, those of a kind of fault in its own
+// file. Reading, ranges, units, spelling suggestions, help and the resolved text are derived from
+// it.
 #pragma once
 
 #include <span>
@@ -14,17 +15,17 @@ namespace gearpod::mc {
 // All keys in the order in which they are shown.
 std::span<const Key> schema();
 
-// The sections in order; "random" among them.
+// Names of all sections in order, including "random".
 std::span<const std::string_view> section_names();
 
-// The key of that section and name, or nullptr.
+// Key of that section and name, or nullptr.
 const Key* find_key(std::string_view section, std::string_view name);
 
-// The text of a choice, as a study file would say it.
+// Name of the value of a choice key, as a study file spells it.
 std::string_view choice_text(const Study& study, std::string_view section, std::string_view name);
 
-// A reference of the keys with unit, range, default and meaning, for help, 80 columns wide: those
-// with `word` in section, name or meaning, whatever its case. "" if there is none.
+// Reference of the keys for help, at most 80 columns wide: type, range and meaning. Lists the keys
+// with `word` in section, name or meaning, ignoring case; "" if there is none.
 std::string schema_help(std::string_view word = "");
 
 }  // namespace gearpod::mc

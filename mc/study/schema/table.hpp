@@ -1,4 +1,4 @@
-// The tables of keys that make the schema.
+// Tables of keys that make up the schema.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace gearpod::mc {
 
-// The tables in the order in which their keys are shown.
+// Tables in the order in which their keys are shown.
 std::span<const Key> gearbox_keys();
 std::span<const Key> operation_keys();
 std::span<const Key> fault_keys();

@@ -1,5 +1,6 @@
-// Accelerations that the turning carrier frame adds to a body at (x, y) with velocity (vx, vy):
-// Coriolis and centrifugal, Liang (2016), Eqs. 4.2.1-4.2.4 at constant speed. One struct a choice.
+// Inertial accelerations in the rotating carrier frame of a body at (x, y) with velocity (vx, vy):
+// Coriolis and centrifugal terms of Liang (2016), Eqs. 4.2.1-4.2.4, at constant speed. One struct
+// includes them, the other omits them.
 #pragma once
 
 #include <cmath>
@@ -17,7 +18,7 @@ struct WithInertialTerms {
     static GEARPOD_INLINE Real y(Real y, Real vx, Real w) {
         return w * std::fma(w, y, Real(-2) * vx);
     }
-    // The steady pull r_c Omega^2 on a planet, along its radius.
+    // Constant centrifugal acceleration r_c Omega^2 of a planet, along its radius.
     template <class Real>
     static GEARPOD_INLINE Real pull(Real acceleration, Real direction) {
         return acceleration * direction;
@@ -39,8 +40,8 @@ struct WithoutInertialTerms {
     }
 };
 
-// Absolute acceleration along the axes of a frame that turns with w, whatever the model's choice:
-// (x'' - 2 w y' - w^2 x, y'' + 2 w x' - w^2 y).
+// Absolute acceleration along the axes of a frame that rotates with w: (x'' - 2 w y' - w^2 x, y'' +
+// 2 w x' - w^2 y). It applies whether or not the model includes inertial terms.
 template <class Real>
 GEARPOD_INLINE Real absolute_x(Real ax, Real x, Real vy, Real w) {
     return std::fma(-w, std::fma(w, x, Real(2) * vy), ax);

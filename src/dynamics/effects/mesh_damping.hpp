@@ -1,5 +1,5 @@
-// Damping of a tooth mesh as factor(gearbox) times shape(stiffness), one law a struct.
-// The split lets the shape be tabulated once over the mesh phase for all gearboxes.
+// Damping of a tooth mesh as factor(gearbox) times shape(stiffness), one struct per law. The shape
+// can thus be tabulated once over the mesh phase for all gearboxes.
 #pragma once
 
 #include <cmath>
@@ -22,13 +22,13 @@ struct ProportionalDamping {
     static double factor(double mu_s, double, double) { return mu_s; }
 };
 
-// c the same at every phase.
+// Constant c at all phases.
 struct ConstantDamping {
     static double shape(double) { return 1.0; }
     static double factor(double c_N_s_m, double, double) { return c_N_s_m; }
 };
 
-// Calls f with the law that `kind` names.
+// Calls f with the law of `kind`.
 template <typename F>
 auto with_mesh_damping(MeshDamping kind, F&& f) {
     switch (kind) {

@@ -1,14 +1,14 @@
-// Force of a tooth mesh as a function of its deflection d and the rate r of it, one struct per law.
-// A positive force presses the teeth together. e is the static transmission error of the pair: the
-// gap between its flanks in unloaded perfect rotation, in metres along the line of action.
+// Force of a tooth mesh as a function of its deflection d and its rate r, one struct per law. A
+// positive force is compressive. e is the static transmission error of the pair: the gap between
+// its flanks in unloaded uniform rotation, in metres along the line of action.
 //
 // Sources: Yang (2022), Eqs. 71-72, except that a mesh out of contact has no damping force either;
 // Ambarisha and Parker (2007) for the law without back contact.
 //
-// Unilateral contact: each tooth pair, or each slice of it, is a spring that pushes and does not
-// pull. With stiffness k_j and gap e_j it carries k_j max(0, d - e - e_j) (the thin-slice and
-// contact models of Velex and Maatar, J. Sound Vib. 191, 1996). Pairs coupled through elastic gear
-// bodies have the k_j of all of them in contact.
+// Unilateral contact: each tooth pair, or each slice of it, is a spring that transmits only
+// compression. With stiffness k_j and gap e_j it carries k_j max(0, d - e - e_j) (the thin-slice
+// and contact models of Velex and Maatar, J. Sound Vib. 191, 1996). For pairs coupled through
+// elastic gear bodies, k_j are the values with all of them in contact.
 #pragma once
 
 #include <limits>
@@ -17,11 +17,13 @@
 
 namespace gearpod::dynamics {
 
-// with_error: k (d - e) + c (d' - e').
-// separating: the same while d - e > 0; nothing in the gap; on the back flanks k (d - e + 2b) +
-// c (d' - e') once d - e < -2b.
-// unilateral: on the front flanks the sum of k_j max(0, d - e - e_j), with c (d' - e') while any
-// spring pushes; on the back flanks as separating.
+// Mesh laws:
+// - linear: k d + c d'.
+// - with_error: k (d - e) + c (d' - e').
+// - separating: the same while d - e > 0; zero in the gap; on the back flanks k (d - e + 2b) + c
+//   (d' - e') once d - e < -2b.
+// - unilateral: on the front flanks the sum of k_j max(0, d - e - e_j), with c (d' - e') while any
+//   spring is in contact; on the back flanks as separating.
 enum class MeshLaw {
 #define GEARPOD_MESH_LAW(NAME, ...) NAME,
 #include "dynamics/effects/mesh_laws.def"
@@ -31,18 +33,18 @@ enum class MeshLaw {
 // Backlash 2b of a mesh that never touches on its back flanks.
 inline constexpr double kNoBackContact = std::numeric_limits<double>::infinity();
 
-// Tooth pairs of a gear pair that may be engaged at once under unilateral contact, and springs of
-// all of them and their slices.
+// Limits for unilateral contact: tooth pairs of a gear pair engaged at once, and springs of all of
+// them and their slices.
 inline constexpr int kMostToothPairs = 8;
 inline constexpr int kMostContacts = 48;
 
-// True if flanks may part under that law.
+// True if flanks can separate under that law.
 constexpr bool separates(MeshLaw law) {
     return law == MeshLaw::separating || law == MeshLaw::unilateral;
 }
 
-// Each law states whether it has an error of the pair, whether flanks may part, and whether it has
-// single tooth pairs. `Pairs` holds the data of all gear pairs at one moment, [pair][lane].
+// Each law states whether it has an error of the pair, whether flanks can separate, and whether it
+// has single tooth pairs. `Pairs` holds the data of all gear pairs at one instant, [pair][lane].
 struct LinearMesh {
     static constexpr bool kHasError = false;
     static constexpr bool kSeparates = false;
@@ -108,13 +110,13 @@ struct UnilateralContact {
         static constexpr int kRows = kPairs * W;
         Real k[kRows], c[kRows];
         Real e[kRows], de[kRows];
-        // [contact][pair][lane], N/m and m; the stiffness is 0 where none is engaged.
+        // [contact][pair][lane], N/m and m; the stiffness is 0 where no tooth pair is engaged.
         Real tooth_k[kMostContacts * kRows], tooth_e[kMostContacts * kRows];
-        // Constant during the steps [kept_from, kept_until): gap of a tooth pair in the middle of
-        // its path of contact, and by how much it grows along the path, m.
+        // Gap of a tooth pair in the middle of its path of contact, and its growth along the path,
+        // m. Both are constant during the steps [kept_from, kept_until).
         Real gap[kMostToothPairs * kRows], growth[kMostToothPairs * kRows];
         Real backlash[W];
-        int contacts = 1;  // in use
+        int contacts = 1;  // number in use
         int kept_from = 0, kept_until = 0;
     };
     // Forces of one gear pair in all lanes, N, from its deflections and their rates, [lane].
@@ -148,9 +150,9 @@ struct UnilateralContact {
     }
 };
 
-// Force of one gear pair in a loop over lanes. Unilateral contact computes all lanes beforehand,
-// tooth pair by tooth pair; the other laws compute a lane where it is needed. deflection(x, lane)
-// gives the pair's deflection from positions and its rate from velocities.
+// Force of one gear pair in a loop over lanes. Unilateral contact computes all lanes in advance,
+// tooth pair by tooth pair; the other laws compute each lane on demand. deflection(x, lane) gives
+// the pair's deflection from positions, and its rate from velocities.
 template <class Mesh, int W, class Real, class Deflection>
 struct PairForce {
     const Deflection& deflection;

@@ -1,4 +1,4 @@
-// The force that every spring-damper of the lockstep motions gives.
+// Force of a spring-damper, common to all lockstep models.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace gearpod::dynamics {
 
-// Force of a spring-damper with deflection d and rate r.
+// Force for deflection d and rate r.
 template <class Real>
 GEARPOD_INLINE Real spring_damper(Real k, Real d, Real c, Real r) {
     return std::fma(k, d, c * r);

@@ -8,7 +8,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-// Patterns of one gearbox, a column each, in the order of the rows' values.
+// Force patterns of one gearbox, one column each, in the order of the rows' values.
 Eigen::MatrixXd columns_of(const MarchPlan& plan, const Excitation& excitation,
                            const dynamics::GearboxInputs& in) {
     const int degrees = dynamics::degrees_of_freedom(plan.layout);
@@ -36,7 +36,7 @@ DrivenForces<W> make_driven_forces(const MarchPlan& plan, const Excitation& exci
     assert(inputs.size() == W);
     const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(plan.layout)), 0.0);
     std::vector<Eigen::MatrixXd> lane;
-    Eigen::MatrixXd size;  // largest over the lanes: where anything acts
+    Eigen::MatrixXd size;  // largest absolute entries over the lanes; zero entries are omitted
     for (const auto& in : inputs) {
         Eigen::MatrixXd columns = columns_of(plan, excitation, in);
         if (over_mass) {

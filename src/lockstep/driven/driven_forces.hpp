@@ -1,5 +1,6 @@
-// The forces of an excitation on W gearboxes: patterns over the degrees of freedom, fixed for a
-// tile, times values at every stage node of a mesh period (excitation_rows.hpp).
+// Forces of a time-varying excitation on W gearboxes. Each is a pattern over the degrees of
+// freedom, constant for a tile, times a value at every stage node of a mesh period
+// (excitation_rows.hpp).
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace gearpod::lockstep {
 
 template <int W>
 struct DrivenForces {
-    static constexpr int kMaxColumns = 4;  // torque, gravity along x and y, uneven turning
+    static constexpr int kMaxColumns = 4;  // torque, gravity along x and y, angular acceleration
     static constexpr int kMaxEntries = 4 * (9 + 3 * dynamics::kMaxPlanets);
 
     int columns = 0;
@@ -22,7 +23,7 @@ struct DrivenForces {
     int degree[kMaxEntries] = {};
     alignas(64) double pattern[kMaxEntries][W] = {};
 
-    // Rows of values, [distinct stage node][value][lane]. Nodes that two steps share are one.
+    // Rows of values, [distinct stage node][value][lane]. A node shared by two steps has one row.
     const double* rows = nullptr;
     int nodes_per_step = 0, values = 0;
 
@@ -33,7 +34,7 @@ struct DrivenForces {
         return row + (columns + value) * W;
     }
 
-    // sums[degree of freedom][lane] += all patterns times their values.
+    // sums[degree of freedom][lane] += sum over the columns of pattern times value.
     GEARPOD_INLINE void add(const double* row, double* __restrict sums) const {
         for (int c = 0; c < columns; ++c) {
             const double* __restrict value = row + c * W;
@@ -49,7 +50,8 @@ struct DrivenForces {
     }
 };
 
-// Patterns in N, or, `over_mass`, in m/s^2; `rows` is left null. `inputs` holds W gearboxes.
+// Computes the patterns in N, or in m/s^2 if `over_mass`. Leaves `rows` null. `inputs` holds W
+// gearboxes.
 template <int W>
 DrivenForces<W> make_driven_forces(const MarchPlan& plan, const Excitation& excitation,
                                    std::span<const dynamics::GearboxInputs> inputs, bool over_mass);

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// The kernel of so many lanes.
+// Selects the kernel for this number of lanes.
 template <class Kernel>
 Kernel* by_lanes(std::size_t lanes, Kernel* one, Kernel* four, Kernel* eight) {
     assert(lanes == 8 || lanes == 4 || lanes == 1);
     return lanes == 8 ? eight : lanes == 4 ? four : one;
 }
 
-// With zeros before and behind.
+// Pads the knots with zeros at both ends.
 machine::AlignedVector with_margins(const Fluctuation& f, std::size_t lanes) {
     machine::AlignedVector knots(f.knot.size() + 2 * kSplineMargin * lanes);
     std::copy(f.knot.begin(), f.knot.end(),
@@ -132,7 +132,7 @@ void ExcitationRows::fill_torque(int mesh) {
     }
 }
 
-// The weight turns backwards in a frame that turns forwards.
+// In a frame that rotates forwards, the weight rotates backwards.
 void ExcitationRows::fill_gravity(int mesh, int column) {
     const Gravity& g = *excitation_.gravity;
     const double start =
@@ -152,8 +152,8 @@ void ExcitationRows::fill_pace(int mesh) {
          slope_.data(), period_.data(), excitation_.turning_m_s.data(), rows_.data()});
 }
 
-// The classical Runge-Kutta method has nodes at the start, middle and end of a step: Simpson's rule
-// to its end, the parabola through the three to its middle.
+// The classical Runge-Kutta method has nodes at the start, middle and end of a step. The time at
+// the end follows from Simpson's rule, the time at the middle from the parabola through the three.
 void ExcitationRows::integrate_time(int mesh) {
     assert(nodes_per_step_ == 2 && position_.size() % 2 == 1);
     const auto lanes = static_cast<std::size_t>(lanes_);

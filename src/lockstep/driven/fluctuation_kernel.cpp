@@ -36,7 +36,7 @@ GEARPOD_INLINE void add_sines(const SineRows& r) {
     }
 }
 
-// De Boor, A Practical Guide to Splines.
+// Cubic B-spline and its derivative: de Boor, A Practical Guide to Splines.
 template <int W>
 GEARPOD_INLINE void add_splines(const SplineRows& r) {
     const double last = r.count - 3.0;
@@ -80,7 +80,7 @@ GEARPOD_INLINE void add_splines(const SplineRows& r) {
     }
 }
 
-// With dphase/dt = r / T: dr/dt = dr/dphase r / T.
+// Since dphase/dt = r / T, dr/dt = dr/dphase r / T.
 template <int W>
 GEARPOD_INLINE void write_pace(const PaceRows& r) {
     for (int n = 0; n < r.nodes; ++n) {

@@ -1,12 +1,12 @@
-// The parts of a fluctuation at many nodes of W gearboxes in lockstep.
+// SIMD kernels that evaluate fluctuations at the stage nodes of W gearboxes.
 #pragma once
 
 namespace gearpod::lockstep {
 
-// At nodes n of phase phase[n] and time time[n][lane]: adds
+// Arguments of add_sines. At nodes n with phase phase[n] and time time[n][lane], it adds
 //   amplitude sin(2 pi z),  z = turns_per_mesh phase + turns_per_s time + turns,
-// to sum[n][lane], and its derivative by the phase at fixed time to slope[n][lane] unless that is
-// null. The others are [lane].
+// to sum[n][lane]. Unless slope is null, it adds the derivative by the phase at fixed time to
+// slope[n][lane]. The other arrays are [lane].
 struct SineRows {
     int nodes = 0;
     const double* phase = nullptr;
@@ -22,11 +22,12 @@ void add_sines_1(const SineRows& rows);
 void add_sines_4(const SineRows& rows);
 void add_sines_8(const SineRows& rows);
 
-// At the same nodes: adds the cubic B-spline of knots ([knot][lane]) at
+// Arguments of add_splines. At the same nodes, it adds the cubic B-spline with knots [knot][lane]
+// at
 //   time knots_per_s + first_knot
-// to sum, and its derivative by the phase, with `period` seconds a mesh period, to slope unless
-// that is null. Knots before the first and behind the last of `count` are 0; kSplineMargin of them
-// must be stored as zeros at both ends, and do count.
+// to sum. Unless slope is null, it adds the derivative by the phase, with `period` seconds per mesh
+// period, to slope. The spline is 0 outside its `count` knots. These must include kSplineMargin
+// zeros at each end.
 inline constexpr int kSplineMargin = 4;
 struct SplineRows {
     int nodes = 0, count = 0;
@@ -42,9 +43,9 @@ void add_splines_1(const SplineRows& rows);
 void add_splines_4(const SplineRows& rows);
 void add_splines_8(const SplineRows& rows);
 
-// From the variation x of a speed and its derivative by the phase at every node: the pace
-// (PaceValue) as three values, and before it the acceleration of the train's turning, in rows of
-// `values` values that lie `first_value` from their beginning.
+// Arguments of write_pace. Inputs are the variation x of a speed and its derivative by the phase at
+// every node. It writes the acceleration of the train's rotation and then the three PaceValue
+// values. Rows have `values` values; these start at index `first_value`.
 struct PaceRows {
     int nodes = 0, values = 0, first_value = 0;
     const double* variation = nullptr;

@@ -1,4 +1,4 @@
-// Models under forces that vary with time (driven_forces.hpp): each is another model and those.
+// Models under time-varying forces (driven_forces.hpp): a base model plus these forces.
 #pragma once
 
 #include "lockstep/driven/driven_forces.hpp"
@@ -6,17 +6,18 @@
 
 namespace gearpod::lockstep {
 
-// A model's lanes and the forces on them.
+// Lanes of a model together with the forces on them.
 template <class ModelLanes, int W>
 struct DrivenLanes : ModelLanes {
     DrivenForces<W> drive;
 };
 
-// Of a model that explicit methods march (dynamics/*_motion.hpp), in double precision.
+// Explicitly integrated model (dynamics/*_motion.hpp) with time-varying forces, in double
+// precision.
 template <class Model>
 struct Forced : Model {
-    using Lanes = DrivenLanes<typename Model::Lanes, Model::kWidth>;  // patterns over the mass
-    // Filled for a stage node together with the meshes (load_pairs).
+    using Lanes = DrivenLanes<typename Model::Lanes, Model::kWidth>;  // patterns divided by mass
+    // Loaded for a stage node together with the meshes (load_pairs).
     struct Pairs : Model::Pairs {
         const double* row;
     };
@@ -29,14 +30,14 @@ struct Forced : Model {
     }
 };
 
-// Of the model that implicit methods march (implicit_stage.hpp).
+// Implicitly integrated model (implicit_stage.hpp) with time-varying forces.
 template <class Model>
 struct ForcedMatrixMotion : Model {
     using Lanes = DrivenLanes<ImplicitLanes<Model::kWidth>, Model::kWidth>;  // patterns in N
     struct Pairs : Model::Pairs {
         const double* row;
     };
-    // To the forces of a stage that no mesh gives, N.
+    // Adds the forces that no mesh exerts to those of a stage, N.
     static GEARPOD_INLINE void add_forces(const Lanes& p, const Pairs& pairs,
                                           double* __restrict forces) {
         p.drive.add(pairs.row, forces);

@@ -1,6 +1,6 @@
-// Models of a train whose speed fluctuates. The frame that x and y turn with has the speed and the
-// angular acceleration of the stage node (PaceValue); that every mass resists is one of the forces
-// (dynamics::uneven_turning_force).
+// Models of a train with fluctuating speed. The frame of x and y rotates with the speed and angular
+// acceleration of the stage node (PaceValue). The inertia forces of the masses under this
+// acceleration are among the time-varying forces (dynamics::uneven_turning_force).
 #pragma once
 
 #include <cmath>
@@ -27,8 +27,8 @@ struct alignas(64) FrameTurning {
             dw[l] = p.speed[l] * change[l];
         }
     }
-    // What a body at (x, y) with velocity (vx, vy) is accelerated by in the frame, Liang (2016),
-    // Eqs. 4.2.1-4.2.4: Coriolis, centrifugal and Euler.
+    // Apparent acceleration of a body at (x, y) with velocity (vx, vy) in the frame: Coriolis,
+    // centrifugal and Euler terms of Liang (2016), Eqs. 4.2.1-4.2.4.
     GEARPOD_INLINE double x(int l, double x, double y, double vy) const {
         return std::fma(w[l], std::fma(w[l], x, 2.0 * vy), dw[l] * y);
     }
@@ -77,7 +77,7 @@ struct PacedTranslational
     }
 
   private:
-    // The centrifugal pull r_c w^2 along a planet's radius.
+    // Adds the centrifugal acceleration r_c w^2 along each planet's radius.
     static GEARPOD_INLINE void pull_planets(const Lanes& p, const double* row,
                                             double* __restrict a) {
         const double* speed = p.drive.pace(row, pace_speed);

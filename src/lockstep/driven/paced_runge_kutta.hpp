@@ -1,7 +1,8 @@
-// Classical Runge-Kutta in mesh phase for a train whose speed fluctuates: time runs unevenly,
+// Classical Runge-Kutta method in mesh phase for a train with fluctuating speed:
 //   dq/dphase = T v,   dv/dphase = T a(q, v),   dz/dphase = T (A z + b u)
-// with T, seconds a mesh period, at the stage nodes. The sensor's low-pass z (sensor_filter.hpp) is
-// a filter in time; so it is integrated beside the motion and has no coefficients of its own.
+// where T is the seconds per mesh period at the stage nodes. The sensor's low-pass filter z
+// (sensor_filter.hpp) is defined in time. It is therefore integrated together with the motion and
+// needs no precomputed coefficients.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace gearpod::lockstep {
 struct PacedRungeKutta4 {
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages : ExplicitStages<Model, 3> {
-        // Seconds of the step at the speeds of its nodes, and halves of the first two.
+        // Step length, s, at the speed of each stage node, and half of the first two.
         alignas(64) double h[3][W], half[2][W];
     };
 
@@ -36,7 +37,7 @@ struct PacedRungeKutta4 {
             s.half[0][l] = 0.5 * s.h[0][l];
             s.half[1][l] = 0.5 * s.h[1][l];
         }
-        // A loop, for the compiler to write the accelerations out once.
+        // A loop makes the compiler emit the accelerations only once.
         for (int stage = 0; stage < 4; ++stage) {
             if (stage != 2) {
                 load_node<Model>(plan, lanes, overrides, i, (stage + 1) / 2, s);
@@ -64,7 +65,8 @@ struct PacedRungeKutta4 {
     }
 
   private:
-    // All but the last stage's share in the velocity; s.q and s.v become that stage's.
+    // Adds all but the last stage's contribution to the velocity; sets s.q and s.v to the last
+    // stage's arguments.
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void most_of_step(int size, int channels, double* __restrict q,
                                             double* __restrict v, Stages<Model>& s) {
@@ -75,8 +77,8 @@ struct PacedRungeKutta4 {
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                // The rates of the position at the four stages are v, v + h0 a1 / 2,
-                // v + hm a2 / 2 and v + hm a3.
+                // The position rates at the four stages are v, v + h0 a1 / 2, v + hm a2 / 2 and v +
+                // hm a3.
                 const double all = (h0[l] + 4.0 * hm[l] + h1[l]) / 6.0;
                 const double change = std::fma(hm[l] * h0[l], s.a[0][j + l],
                                                std::fma(hm[l] * hm[l], s.a[1][j + l],
@@ -105,8 +107,8 @@ struct PacedRungeKutta4 {
         }
     }
 
-    // Meshes and forces at a stage node. Errors change with the phase, so their rates follow the
-    // speed.
+    // Loads meshes and forces at a stage node. Transmission errors are functions of the phase, so
+    // their rates are proportional to the speed.
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void load_node(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                          const MeshOverrides& overrides, int i, int node,
@@ -131,7 +133,8 @@ struct PacedRungeKutta4 {
         Model::source_accelerations(lanes, q, v, a, s.pairs.row, input);
     }
 
-    // One gearbox's filter on one channel: input to x, x to y (sensor_filter.hpp).
+    // Filter states of one gearbox and channel: two sections in series, input to x and x to y
+    // (sensor_filter.hpp).
     struct Sections {
         double x, dx, y, dy;
     };
@@ -170,7 +173,7 @@ struct PacedRungeKutta4 {
     }
 };
 
-// What a method is at a speed that fluctuates.
+// Maps a method to its variant for variable speed.
 template <class Method>
 struct Paced;
 template <>

@@ -1,4 +1,4 @@
-// What a row of an excitation's values at a stage node holds (excitation_rows.hpp).
+// Layout of a row of excitation values at a stage node (excitation_rows.hpp).
 #pragma once
 
 #include "lockstep/plan/excitation.hpp"
@@ -6,15 +6,17 @@
 
 namespace gearpod::lockstep {
 
-// What a row holds after its columns, if the speed fluctuates: seconds a mesh period, the speed
-// over its mean, and how fast that changes, 1/s.
+// Values after a row's columns if the speed fluctuates: seconds per mesh period, speed relative to
+// its mean, and the rate of change of that, 1/s.
 enum PaceValue { pace_period, pace_speed, pace_change, pace_values };
 
-// Forces that an excitation applies (DrivenForces), and values in a row: these, and a pace.
+// Number of force patterns of an excitation (DrivenForces), and number of values in a row: these
+// plus the speed values.
 int columns_in(const Excitation& excitation);
 int values_in_row(const Excitation& excitation);
 
-// Stage nodes a step, the last of which is the next step's first if both exist.
+// Distinct stage nodes per step: a node at the end of a step counts as the first one of the next
+// step if both exist.
 int distinct_nodes_per_step(const PhaseGrid& grid);
 
 }  // namespace gearpod::lockstep

@@ -1,7 +1,8 @@
-// The pair of Bogacki and Shampine (1989), explicit, orders 3 and 2: three stages make the step of
-// order 3; a fourth, at its end, tells how far the embedded one of order 2 lies from it. That stage
-// would be the next step's first but for the jumps of stiffness, so it is left out of the march:
-// only a plan whose stage nodes include 1 asks for the estimate (a pilot, step_pilot.hpp).
+// Explicit embedded pair of Bogacki and Shampine (1989), orders 3 and 2. Three stages give the step
+// of order 3. A fourth, at the step's end, estimates the difference from the embedded method of
+// order 2. It could serve as the next step's first stage only if the stiffness did not jump. It is
+// therefore omitted, unless the plan's stage nodes include 1 to request the estimate (a pilot,
+// step_pilot.hpp).
 #pragma once
 
 #include "lockstep/integrators/explicit_stage.hpp"
@@ -14,7 +15,7 @@ struct BogackiShampine {
     static constexpr double kStageNodes[] = {0.0, 0.5, 0.75};
     static constexpr double kStepsInBand = 20.0;
     static constexpr StepCost kCost{0.9, 0.9, 0.9};
-    static constexpr std::size_t kEstimateNode = 3;  // place of node 1 among the stage nodes
+    static constexpr std::size_t kEstimateNode = 3;  // index of node 1 among the stage nodes
 
     template <class Complex>
     static Complex growth(Complex z) {
@@ -49,7 +50,7 @@ struct BogackiShampine {
         }
 
         const bool estimates = plan.grid.stage_nodes.size() > kEstimateNode;
-        // A loop, for the compiler to write the accelerations out once.
+        // A loop makes the compiler emit the accelerations only once.
         for (int stage = 0; stage < (estimates ? 4 : 3); ++stage) {
             const Real* const from_q = stage == 0 ? x.q : s.q;
             const Real* const from_v = stage == 0 ? x.v : s.v;
@@ -67,8 +68,8 @@ struct BogackiShampine {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                // 2/9, 3/9 and 4/9 of the stages' slopes; the velocities' follow from the first two
-                // accelerations.
+                // The stage slopes have the weights 2/9, 3/9 and 4/9. The velocity slopes follow
+                // from the first two accelerations.
                 const int at = j + l;
                 const Real a1 = s.a[0][at], a2 = s.a[1][at], a3 = s.a[2][at];
                 const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[at]);
@@ -81,7 +82,7 @@ struct BogackiShampine {
     }
 
   private:
-    // s.q and s.v become those of the fourth stage.
+    // Sets s.q and s.v to the arguments of the fourth stage.
     template <class Model, class Step, int W = Model::kWidth>
     static GEARPOD_INLINE void end_of_step(const Step& x, Stages<Model>& s) {
         using Real = RealOf<Model>;
@@ -93,7 +94,7 @@ struct BogackiShampine {
         }
     }
 
-    // From the four stages: how far orders 3 and 2 lie apart.
+    // Estimates the error as the difference between orders 3 and 2, from the four stages.
     template <class Model, class Step, int W = Model::kWidth>
     static GEARPOD_INLINE void estimate(const Step& x, Stages<Model>& s) {
         using Real = RealOf<Model>;

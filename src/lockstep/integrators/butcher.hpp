@@ -1,4 +1,4 @@
-// Butcher's method of order 5 with six stages, explicit (J. C. Butcher, On Runge-Kutta processes of
+// Explicit method of Butcher with six stages, order 5 (J. C. Butcher, On Runge-Kutta processes of
 // high order, 1964).
 #pragma once
 
@@ -25,10 +25,11 @@ struct Butcher {
         {0.0, -1.0 / 2, 1.0},
         {3.0 / 16, 0.0, 0.0, 9.0 / 16},
         {-3.0 / 7, 2.0 / 7, 12.0 / 7, -12.0 / 7, 8.0 / 7},
-        {7.0 / 90, 0.0, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}};  // the step
+        {7.0 / 90, 0.0, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}};  // the full step
 
-    // The positions follow from the accelerations as the velocities do, by the table times itself,
-    // so only those are kept. Its last column: the sum of a row, the share of the step.
+    // Square of the table. It gives the positions from the accelerations, as the table gives the
+    // velocities, so only accelerations are stored. The last column is the sum of each row of the
+    // table, the stage's node.
     static constexpr auto kTwice = [] {
         std::array<std::array<double, kStages + 1>, kStages + 1> twice{};
         for (std::size_t row = 0; row <= kStages; ++row) {
@@ -74,7 +75,7 @@ struct Butcher {
                                     const Filter& filter, const MeshOverrides& overrides, int i,
                                     State& state, Stages<Model>& s) {
         const ExplicitStep<Model, State> x(plan, lanes, i, state);
-        // A loop, for the compiler to write the accelerations out once.
+        // A loop makes the compiler emit the accelerations only once.
         for (int stage = 0; stage < kStages; ++stage) {
             const bool first = stage == 0;
             if (first || kNodeOfStage[stage] != kNodeOfStage[stage - 1]) {
@@ -97,7 +98,8 @@ struct Butcher {
     }
 
   private:
-    // What the accelerations of the stages before `Row` come to, by the table and by it twice.
+    // Weighted sum of the accelerations of the stages before `Row`: rise() uses the table, slope()
+    // its square.
     template <int Row, class Stages>
     static GEARPOD_INLINE auto rise(const Stages& s, int at) {
         using Real = std::remove_cvref_t<decltype(s.q[0])>;
@@ -122,7 +124,7 @@ struct Butcher {
         return std::fma(x.h[l], total, Real(kTwice[Row][kStages]) * x.v[at]);
     }
 
-    // s.q and s.v become the stage's, of those after the first.
+    // Sets s.q and s.v to the arguments of a stage after the first.
     template <class Model, class Step, int... Before>
     static GEARPOD_INLINE void move_to(int stage, const Step& x, Stages<Model>& s,
                                        std::integer_sequence<int, Before...>) {

@@ -1,11 +1,12 @@
-// Central differences on the steps' middles (the Stoermer-Verlet method that drifts, kicks and
-// drifts; Hairer, Lubich and Wanner, Acta Numerica 2003), explicit, order 2, one evaluation a step:
+// Central difference method, explicit, order 2, one evaluation per step at its midpoint
+// (Stoermer-Verlet in drift-kick-drift form; Hairer, Lubich and Wanner, Acta Numerica 2003):
 //     x = q + h/2 q',   a = a(x, u),   q' += h a,   q = x + h/2 q'.
-// The velocity u of dampers and turning frame should be q' + h/2 a. Instead it takes what the step
-// before fell short of, u = q' + w / h with w = h^2/2 a of that step; a mesh period's first step
-// takes its own, from a second evaluation. So the impulses of the dampers are late by a step but
-// none is lost, also where steps of different lengths meet at a contact transition. A step sees the
-// stiffness inside itself alone, and jumps between steps cost no order.
+// The velocity u for dampers and the rotating frame should be q' + h/2 a. The method uses the
+// previous step's acceleration instead: u = q' + w / h with w = h^2/2 a of that step. The first
+// step of a mesh period uses its own acceleration, from a second evaluation. The impulses of the
+// dampers are thus one step late, but none is lost, even where steps of different lengths meet at a
+// contact transition. A step uses only the stiffness inside itself, so jumps between steps do not
+// reduce the order.
 #pragma once
 
 #include "lockstep/integrators/explicit_stage.hpp"
@@ -16,14 +17,15 @@ struct CentralDifference {
     static constexpr const char* kName = "central-difference";
     static constexpr int kOrder = 2;
     static constexpr double kStageNodes[] = {0.5};
-    // Its low-pass is off by (2 pi / steps)^2 / 12 there: 7e-4, and 3e-3 with half as many.
+    // Relative error of the low-pass filter there: (2 pi / steps)^2 / 12, or 7e-4; 3e-3 with half
+    // as many steps.
     static constexpr double kStepsInBand = 70.0;
     static constexpr StepCost kCost{0.32, 0.34, 0.34};
-    // Where no sample parts two steps, positions have drifted to the second one's middle already,
-    // this part of its length ahead of the velocities.
+    // Between steps without a sample, positions have already drifted to the midpoint of the next
+    // step. They are then ahead of the velocities by this fraction of its length.
     static constexpr double kPositionsAhead = 0.5;
 
-    // The trapezoidal rule with the input at the step's middle alone.
+    // Trapezoidal rule with the input at the step's midpoint only.
     template <class System>
     static auto filter(const System& s) {
         auto map = s.trapezoidal();
@@ -32,7 +34,7 @@ struct CentralDifference {
         return map;
     }
 
-    // s.v is u. Between two steps that no sample parts, state.q is at the second one's middle.
+    // s.v is u. Between two steps without a sample, state.q is at the midpoint of the second.
     template <class Model>
     using Stages = ExplicitStages<Model, 1>;
 
@@ -83,8 +85,8 @@ struct CentralDifference {
     }
 
   private:
-    // From a step's middle to its end, or on to the next one's middle; and what brings the end's
-    // velocity to the next u. Seconds.
+    // Times in seconds: `drift` from a step's midpoint to its end, or on to the next midpoint;
+    // `reach` from the end velocity to the next u.
     template <class Real, int W>
     struct Ahead {
         alignas(64) Real drift[W], reach[W];

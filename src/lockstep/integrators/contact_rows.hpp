@@ -1,5 +1,4 @@
-// Rows of W values for one stage node: springs of unilateral contact, with their stiffness and
-// gaps.
+// Rows of W values for one stage node: stiffness and gaps of the springs of unilateral contact.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +30,7 @@ GEARPOD_INLINE void divide(const Real* __restrict values, const Real* __restrict
     }
 }
 
-// Converts a row of the plan's doubles to the numbers of the integration.
+// Converts a row of the plan's doubles to the precision of the integration.
 template <int W, class Real>
 GEARPOD_INLINE void round_row(const double* __restrict values, Real* __restrict row) {
 #pragma omp simd
@@ -47,7 +46,7 @@ GEARPOD_INLINE void clear_errors(typename Model::Pairs& m) {
     std::fill(std::begin(m.de), std::end(m.de), Real(0));
 }
 
-// Rows that stay constant from this step to the next at which other teeth are engaged.
+// Sets the rows that stay constant from this step until other teeth engage.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overrides, int step,
                               typename Model::Pairs& m) {
@@ -77,7 +76,7 @@ GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overri
     }
 }
 
-// Stiffness and gap of a spring at a position on the flank; `shared`: the gap that it has in all
+// Sets stiffness and gap of a spring at a position on the flank; `shared` is the gap common to all
 // lanes, m.
 template <int W, class Real>
 GEARPOD_INLINE void load_contact(double stiffness, double place, double shared,
@@ -92,7 +91,7 @@ GEARPOD_INLINE void load_contact(double stiffness, double place, double shared,
     }
 }
 
-// Stiffness and gaps of all pairs' springs at a stage node, after those of the pairs.
+// Loads stiffness and gaps of all pairs' springs at a stage node; call it after loading the pairs.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_contacts(const MarchPlan& plan, const MeshOverrides& overrides, int step,
                                   int node, typename Model::Pairs& m) {
@@ -113,7 +112,7 @@ GEARPOD_INLINE void load_contacts(const MarchPlan& plan, const MeshOverrides& ov
                             m.tooth_e + row);
         }
     }
-    if (known == 0) {  // one spring carries all
+    if (known == 0) {  // one spring carries the whole load
         std::copy_n(m.k, pairs * W, m.tooth_k);
     }
     for (const PairOverride& o : overrides.faults) {

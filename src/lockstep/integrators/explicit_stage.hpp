@@ -1,5 +1,5 @@
-// What the steps of all explicit methods share: their scratch, where a step starts from, and a
-// stage's motion and accelerations.
+// Common parts of all explicit methods: workspace, start of a step, and the motion and
+// accelerations of a stage.
 #pragma once
 
 #include "lockstep/integrators/march_steps.hpp"
@@ -7,7 +7,7 @@
 
 namespace gearpod::lockstep {
 
-// Scratch of one tile for a method that keeps so many accelerations; small enough to stay in the
+// Workspace of one tile for a method that stores `Kept` accelerations; small enough for the
 // first-level cache.
 template <class Model, int Kept, int W = Model::kWidth>
 struct alignas(64) ExplicitStages {
@@ -18,7 +18,7 @@ struct alignas(64) ExplicitStages {
     Real input[Kept][2 * Model::kMaxSources * W];  // of the sensor
 };
 
-// Step `i` of a march: lengths in seconds, and the motion that it advances.
+// Step `i` of a mesh period: its lengths in seconds, and the motion that it advances.
 template <class Model, class State, int W = Model::kWidth>
 struct ExplicitStep {
     using Real = RealOf<Model>;
@@ -45,7 +45,7 @@ struct ExplicitStep {
     }
 };
 
-// stage_q = q + t dq, stage_v = v + t dv. Each of the slopes may be what it overwrites.
+// stage_q = q + t dq, stage_v = v + t dv. The outputs may alias the slopes.
 template <int W, class Real>
 GEARPOD_INLINE void move(int size, const Real* t, const Real* q, const Real* dq, const Real* v,
                          const Real* dv, Real* stage_q, Real* stage_v) {
@@ -58,7 +58,7 @@ GEARPOD_INLINE void move(int size, const Real* t, const Real* q, const Real* dq,
     }
 }
 
-// Accelerations of a motion and what the sensor sees of it.
+// Accelerations of a motion, and the resulting sensor input.
 template <class Model, class Real>
 GEARPOD_INLINE void accelerate(const typename Model::Lanes& lanes, const Real* q, const Real* v,
                                const typename Model::Pairs& pairs, Real* a, Real* input) {

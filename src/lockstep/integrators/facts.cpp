@@ -8,7 +8,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-// `kernels`: those of its line in integrators.def.
+// `kernels` lists the kernel kinds of its line in integrators.def.
 template <class Method>
 IntegratorFacts facts_of(std::string_view kernels) {
     IntegratorFacts facts{};

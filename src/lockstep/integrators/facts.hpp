@@ -1,4 +1,4 @@
-// What integrators say of themselves (method.hpp), for code that knows only their names.
+// Properties of the integrators (method.hpp), for code that selects them at run time.
 #pragma once
 
 #include <complex>
@@ -21,7 +21,7 @@ struct IntegratorFacts {
     double steps_in_band;
     StepCost cost;
     bool is_explicit, marches_singles;
-    bool marches_forced, marches_paced;  // under forces that vary, at a speed that does
+    bool marches_forced, marches_paced;  // under time-varying forces, at variable speed
     ImplicitSpan span;                   // 0 for an explicit method
     std::complex<double> (*growth)(std::complex<double>);  // or null
     FilterMap (*filter)(const FilterSystem&);
@@ -29,10 +29,10 @@ struct IntegratorFacts {
 
 const IntegratorFacts& facts(Integrator integrator);
 
-// In the order in which they are shown.
+// All integrators, in display order.
 std::span<const Integrator> all_integrators();
 
-// Those of which a fact is true: "rk4 and central-difference".
+// Names of the integrators that have a property: "rk4 and central-difference".
 std::string names_of(bool IntegratorFacts::*fact);
 
 inline const char* name(Integrator integrator) {

@@ -1,5 +1,5 @@
-// A step of the sensor's low-pass by the method that marches the motion, as coefficients for the
-// kernels (sensor_filter.hpp).
+// Coefficients of one step of the sensor's low-pass filter, by the method that integrates the
+// motion, for the kernels (sensor_filter.hpp).
 #pragma once
 
 #include <span>

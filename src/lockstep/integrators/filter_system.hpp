@@ -1,5 +1,5 @@
-// The sensor's low-pass z' = A z + b u (sensor_filter.hpp) along one step of h seconds, as the
-// methods' filter() sees it: what z becomes is linear in z and in the input u at the stages.
+// Sensor's low-pass filter z' = A z + b u (sensor_filter.hpp) over one step of h seconds, as the
+// argument of the methods' filter(). The result is linear in z and in the input u at the stages.
 #pragma once
 
 #include <Eigen/Dense>
@@ -18,7 +18,7 @@ struct FilterMap {
 struct FilterSystem {
     using Matrix = Eigen::Matrix4d;
     using Map = FilterMap;
-    // A vector as the sum of z (columns 0-3) and u at the stages (the others).
+    // A vector as a linear combination of z (columns 0-3) and of u at the stages (other columns).
     using Parts = Eigen::Matrix<double, 4, 4 + kFilterInputs>;
 
     Matrix a;  // h A
@@ -40,7 +40,7 @@ struct FilterSystem {
     }
     static Map map(const Parts& end) { return {end.leftCols<4>(), end.rightCols<kFilterInputs>()}; }
 
-    // With the input at the step's ends, nodes 0 and 2.
+    // Trapezoidal rule with the input at the step's ends, nodes 0 and 2.
     Map trapezoidal() const {
         const Matrix solve = (one() - a / 2.0).inverse();
         Map result;

@@ -1,7 +1,7 @@
-// The generalized-alpha method (Chung and Hulbert, J. Appl. Mech. 60, 1993), order 2: the equation
-// of motion holds for forces at one time within the step and accelerations at another, so that
-// modes much faster than the step decay by a chosen factor. It carries an acceleration from step to
-// step; where the stiffness jumps, that starts afresh from the equation of motion, so that the
+// Generalized-alpha method (Chung and Hulbert, J. Appl. Mech. 60, 1993), order 2. The equation of
+// motion uses forces at one time within the step and accelerations at another. Modes much faster
+// than the step are thereby damped by a chosen factor. The method carries an acceleration from step
+// to step. Where the stiffness jumps, it recomputes this from the equation of motion, so that the
 // order survives contact transitions.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace gearpod::lockstep {
 
-// Whether the stiffness of some pair jumps at the start of a step, or no step came before it.
-// What all lanes share decides, so that a lane's bits do not depend on its neighbours.
+// True if the stiffness of any pair jumps at the start of a step, or if it is the first step. Only
+// data shared by all lanes decide, so that a lane's bits do not depend on other lanes.
 inline bool jumps(const MarchPlan& plan, int step) {
     if (step == 0) {
         return true;
@@ -31,10 +31,10 @@ inline bool jumps(const MarchPlan& plan, int step) {
     return false;
 }
 
-// The method's rho is the factor by which a step multiplies what is much too fast for it: 1 keeps
-// it as Newmark's method does, 0 removes it at once. With 0.8 a mode that the step does not resolve
-// halves in three steps, and what it does resolve loses next to nothing. The acceleration that it
-// carries along belongs to a time `kLag` steps before the step's end.
+// Coefficients of the method. rho is the factor by which one step multiplies modes much too fast
+// for it: 1 preserves them as Newmark's method does, 0 removes them at once. With 0.8 an unresolved
+// mode halves in three steps, and resolved modes are hardly damped. The carried acceleration
+// belongs to a time `kLag` steps before the step's end.
 struct ChungHulbert {
     static constexpr double kRho = 0.8;
     static constexpr double kMass = (2.0 * kRho - 1.0) / (kRho + 1.0);  // alpha_m
@@ -56,8 +56,8 @@ struct GeneralizedAlpha {
     static constexpr StepCost kCost{2.4, 2.0, 1.4};
     static constexpr ImplicitSpan kSpan = ChungHulbert::span();
 
-    // The trapezoidal rule on a straight line through the input at two times kLag steps before the
-    // step's ends.
+    // Trapezoidal rule with linear interpolation of the input between two times, kLag steps before
+    // the step's ends.
     template <class System>
     static auto filter(const System& s) {
         constexpr double kLag = ChungHulbert::kLag;
@@ -71,9 +71,10 @@ struct GeneralizedAlpha {
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages {
         static constexpr int kSize = Model::kMaxDegrees * W;
-        // Of the stage, without its own acceleration; in the end, when the carried one holds.
+        // Stage values without the stage's own acceleration; afterwards, values at the time of the
+        // carried acceleration.
         double x[kSize], v[kSize];
-        double a[kSize], stage[kSize];                // carried along; of the stage
+        double a[kSize], stage[kSize];                // carried from step to step; of the stage
         double input[2][2 * Model::kMaxSources * W];  // of the sensor
         StageScratch<Model> meshes{};
     };
@@ -84,7 +85,8 @@ struct GeneralizedAlpha {
                                     const MeshOverrides& overrides, int i, TileState& state,
                                     Stages<Model>& s) {
         using C = ChungHulbert;
-        // The carried acceleration's part in V and Q of the stage, and in what it adds up to.
+        // Weights of the carried acceleration in the stage's V and Q, and of both accelerations in
+        // the update.
         constexpr double kPart = 1.0 - C::kForce;
         constexpr double kOld = C::kMass / (1.0 - C::kMass), kNew = 1.0 / (1.0 - C::kMass);
         constexpr double kInV = kPart * (1.0 - C::kGamma - C::kGamma * kOld);
@@ -133,7 +135,7 @@ struct GeneralizedAlpha {
             }
         }
         Model::source_accelerations(lanes, s.x, s.v, s.a, s.input[1]);
-        // The method has no middle; its coefficients are 0.
+        // The method has no middle node; its coefficients are 0.
         step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[0], s.input[1]);
     }
 };

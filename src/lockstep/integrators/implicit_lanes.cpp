@@ -8,7 +8,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-// Rows of the meshes, [pair][degree].
+// Deflection rows of the meshes, [pair][degree of freedom].
 Eigen::MatrixXd mesh_rows(const dynamics::GearboxLayout& layout) {
     Eigen::MatrixXd rows(dynamics::pairs(layout), dynamics::degrees_of_freedom(layout));
     for (int pair = 0; pair < rows.rows(); ++pair) {
@@ -46,15 +46,16 @@ void set_sources(ImplicitLanes<W>& lanes, const dynamics::GearboxLayout& layout)
 
 dynamics::GearboxMatrices without_meshes(const dynamics::GearboxLayout& layout,
                                          const dynamics::GearboxInputs& in) {
-    // A constant damping would stay with meshes of no stiffness; the steps bring it.
+    // A constant damping would remain for meshes without stiffness; the steps add mesh damping
+    // themselves.
     dynamics::GearboxInputs bare = in;
     std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
     const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
     return dynamics::assemble(layout, bare, none);
 }
 
-// Which entries of C_0 and K_0 (`forces`), and of M too (`all`), some gearbox of the layout can
-// have: those of one in which everything is 1. The same for every tile, so that all of them compute
+// Sparsity pattern of C_0 and K_0 (`forces`), and with M (`all`), over all gearboxes of the layout:
+// that of a gearbox with all parameters 1. It is the same for every tile, so that all tiles compute
 // in the same order.
 struct Coupling {
     Eigen::MatrixXd forces, all;
@@ -81,7 +82,7 @@ Coupling coupled(const dynamics::GearboxLayout& layout) {
     return {forces, forces + m.mass.cwiseAbs()};
 }
 
-// One lane's column of a block: the matrices for the implicit spans a, s, and b, s^2.
+// Sets one lane of a block: the matrices for the implicit spans a (s) and b (s^2).
 template <int W>
 void set_block(const ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m,
                const Eigen::MatrixXd& rows, double a, double b, double* block) {
@@ -118,7 +119,7 @@ void set_sizes(ImplicitLanes<W>& lanes, std::size_t kinds) {
     lanes.blocks.assign((kinds + 1) * lanes.block_size, 0.0);
 }
 
-// Lane l of f, C_0 and K_0.
+// Sets lane l of f, C_0 and K_0.
 template <int W>
 void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, int l) {
     for (int i = 0; i < lanes.degrees; ++i) {

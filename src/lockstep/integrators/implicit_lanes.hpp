@@ -1,17 +1,18 @@
-// W gearboxes of any kind for the implicit integrators: every matrix that does not change from
-// step to step, factored in advance.
+// Data of W gearboxes of any kind for the implicit integrators: all matrices that do not change
+// from step to step, factored in advance.
 //
-// A stage asks for the acceleration A with
+// A stage solves for the acceleration A in
 //   M A + C V + K Q = f,   V = v + a A,   Q = x + b A,
-// where a is a share of the step, and b one of its square. C = C_0 + sum c_p r_p r_p^T and
-// K = K_0 + sum k_p r_p r_p^T: only the meshes, one row r_p a pair, change. With
-// H = M + a C_0 + b K_0, g = f - C_0 v - K_0 x and y = H^-1 g, the mesh forces F and the
-// acceleration follow from the small system
+// where a is proportional to the step, and b to its square. With one row r_p per pair,
+//   C = C_0 + sum c_p r_p r_p^T,   K = K_0 + sum k_p r_p r_p^T,
+// so only the mesh terms change. With
+//   H = M + a C_0 + b K_0,   g = f - C_0 v - K_0 x,   y = H^-1 g,
+// the mesh forces F and the acceleration follow from the small system
 //   (1 + S G) F = k R x + c R v + S R y,   H A = g - R^T F,
-//   S = diag(a c_p + b k_p),   R = rows r_p,   G = R H^-1 R^T,
-// the Woodbury identity in mechanical terms. S >= 0, so a mesh that carries nothing does no harm.
-// C_0, K_0 and the factors of H have few entries (sparse_lu.hpp), so a tile's block of them fits
-// the first-level cache.
+//   S = diag(a c_p + b k_p),   R = rows r_p,   G = R H^-1 R^T.
+// This is the Woodbury identity in mechanical terms. Since S >= 0, a mesh without load causes no
+// singularity. C_0, K_0 and the factors of H are sparse (sparse_lu.hpp), so a tile's block of them
+// fits the first-level cache.
 #pragma once
 
 #include <span>
@@ -25,30 +26,31 @@ namespace gearpod::lockstep {
 template <int W>
 struct ImplicitLanes {
     static constexpr int kMaxDegrees = 9 + 3 * dynamics::kMaxPlanets;
-    static constexpr int kMaxRowEntries = 6;  // motions that a mesh deflects by
+    static constexpr int kMaxRowEntries = 6;  // degrees of freedom in a mesh deflection
 
     int degrees = 0, pairs = 0, sources = 0;
 
-    // Shared by all lanes: rows r_p as lists of `row_entries` (of weight 0 beyond their end), and
-    // the degree of freedom (and its weight) that a source's x (2n) and y (2n + 1) follow.
+    // Data common to all lanes. Rows r_p are lists of `row_entries` entries, padded with weight 0.
+    // The x (2n) and y (2n + 1) of source n are a weighted degree of freedom each.
     int row_entries = 0;
     int row_degree[dynamics::kMaxPairs][kMaxRowEntries] = {};
     double row_weight[dynamics::kMaxPairs][kMaxRowEntries] = {};
     int source_degree[2 * dynamics::kMaxPlanets] = {};
     double source_weight[2 * dynamics::kMaxPlanets] = {};
 
-    alignas(64) double mesh_period[W] = {};                               // s
-    alignas(64) double backlash[W] = {};                                  // m
-    alignas(64) double frame_speed[W] = {};                               // rad/s
-    alignas(64) double mesh_damping_factor[dynamics::kMaxPairs][W] = {};  // times the shape
+    alignas(64) double mesh_period[W] = {};  // s
+    alignas(64) double backlash[W] = {};     // m
+    alignas(64) double frame_speed[W] = {};  // rad/s
+    // multiplies the damping shape
+    alignas(64) double mesh_damping_factor[dynamics::kMaxPairs][W] = {};
 
-    machine::AlignedVector force;  // f, [degree][lane]
+    machine::AlignedVector force;  // f, [degree of freedom][lane]
     SparseEntries coupling;        // entries of C_0 and K_0
     machine::AlignedVector c_k;    // [entry][C, K][lane]
     SparseLu lu;                   // entries of the factors of H
 
-    // One block for each step kind and, last, one for a = b = 0. In a block, by its offsets:
-    // inverted D [degree][lane]; L and U [entry][lane]; G [pair][pair][lane].
+    // One block for each step kind, and a last one for a = b = 0. Contents of a block, by offset:
+    // inverse of D [degree of freedom][lane]; L and U [entry][lane]; G [pair][pair][lane].
     machine::AlignedVector blocks;
     std::size_t block_size = 0;
     int lower = 0, upper = 0, capacitance = 0;  // offsets in a block
@@ -61,8 +63,8 @@ struct ImplicitLanes {
     }
 };
 
-// For the plan's grid and its integrator, whose span is given. `inputs` holds W gearboxes of the
-// plan's kind.
+// Makes the lanes for the plan's grid and an integrator with the given span. `inputs` holds W
+// gearboxes of the plan's kind.
 template <int W>
 ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs);

@@ -13,7 +13,7 @@
 
 namespace gearpod::lockstep {
 
-// The model that implicit integrators march: matrices of any gearbox kind, and a mesh law.
+// Model for implicit integrators: the matrices of any gearbox kind, and a mesh law.
 template <class MeshLaw, int W>
 struct MatrixMotion {
     static constexpr int kWidth = W;
@@ -28,7 +28,7 @@ struct MatrixMotion {
         return p.mesh_damping_factor[pair];
     }
 
-    // Absolute acceleration of the sources along the axes of the frame: [source][x, y][lane].
+    // Absolute acceleration of the sources along the frame's axes: [source][x, y][lane].
     static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* __restrict q,
                                                     const double* __restrict v,
                                                     const double* __restrict a,
@@ -48,28 +48,28 @@ struct MatrixMotion {
     }
 };
 
-// How far a stage's own acceleration A carries: V = v + a A, Q = x + b A (s and s^2).
+// Factors of a stage's own acceleration A: V = v + a A, Q = x + b A (s and s^2).
 template <int W>
 struct alignas(64) StageSpan {
     double a[W] = {}, b[W] = {};
 };
 
-// Scratch of a stage; [pair][lane] but for g and the matrix. `pairs` goes in, `force` comes out.
+// Workspace of a stage; [pair][lane] except g and the matrix. `pairs` is input, `force` is output.
 template <class Model, int W = Model::kWidth>
 struct alignas(64) StageScratch {
     static constexpr int kRows = Model::kMaxPairs * W;
     typename Model::Pairs pairs;
-    double g[Model::kMaxDegrees * W];         // forces but for the meshes', N
+    double g[Model::kMaxDegrees * W];         // forces except those of the meshes, N
     double force[kRows];                      // mesh forces, N
     double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
-    double touching[kRows], back[kRows];      // of a separating mesh: see touch()
-    double held[kRows], preload[kRows];       // of teeth that push: see push()
+    double touching[kRows], back[kRows];      // state of a separating mesh: see part()
+    double held[kRows], preload[kRows];       // state of unilateral contact: see push()
     double s[kRows];                          // S
-    double matrix[Model::kMaxPairs * kRows];  // what elimination leaves of G
+    double matrix[Model::kMaxPairs * kRows];  // remainder of G during the elimination
 };
 
-// A row of a list that the compiler cannot look behind: it shall vectorise over the lanes of one
-// entry and not gather over several entries.
+// Hides the address of a row from the compiler. It then vectorizes over the lanes of one entry,
+// instead of gathering from several entries.
 GEARPOD_INLINE const double* one_row(const double* row) {
     asm("" : "+r"(row));
     return row;
@@ -124,7 +124,7 @@ GEARPOD_INLINE void substitute(const SparseEntries& entries, const double* facto
     }
 }
 
-// y = H^-1 g: forwards through L, over D, backwards through U.
+// Solves H y = g: forward substitution with L, scaling by D, backward substitution with U.
 template <int W>
 GEARPOD_INLINE void solve_constant_part(const ImplicitLanes<W>& p, const double* __restrict block,
                                         const double* __restrict g, double* y) {
@@ -205,20 +205,20 @@ GEARPOD_INLINE void mesh_loads(const ImplicitLanes<W>& p, const StageSpan<W>& sp
     }
 }
 
-// Solves (1 + S G) F = force in place by elimination of S^-1 + G, whose inverted pivots
-// e_i = s_i / (1 + s_i g_ii) exist for s_i = 0 too. No pivoting: 1 + s_i g_ii is at least 1, since
-// G is positive and all but symmetric. `matrix` is scratch.
+// Solves (1 + S G) F = force in place by elimination of S^-1 + G. The inverted pivots e_i = s_i /
+// (1 + s_i g_ii) exist even for s_i = 0. Pivoting is unnecessary: 1 + s_i g_ii is at least 1,
+// because G is positive definite and nearly symmetric. `matrix` is workspace.
 template <int W>
 GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const double* __restrict s,
                                  double* __restrict matrix, double* __restrict force) {
     alignas(64) double e[dynamics::kMaxPairs * W];
-    alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the pairs done
+    alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the eliminated pairs
     alignas(64) double factor[W];
     for (int i = 0; i < pairs * W; i += W) {
         spread<W>(0.0, sum + i);
     }
     for (int i = 0; i < pairs; ++i) {
-        const double* left = i == 0 ? g : matrix;  // of G; the first pivot finds all of it
+        const double* left = i == 0 ? g : matrix;  // remainder of G; all of it for the first pivot
         const double* row = left + i * pairs * W;
         const int at = i * W;
 #pragma omp simd
@@ -260,7 +260,7 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
     }
 }
 
-// Finds the flanks of a separating mesh that touch where it deflects by `front` beyond its error:
+// Determines which flanks of a separating mesh touch if it deflects by `front` beyond its error.
 // t.touching is 1 or 0; t.back is the backlash if the back flanks touch. Returns 1 if any lane
 // changed.
 template <class Model, int W = Model::kWidth>
@@ -278,8 +278,8 @@ GEARPOD_INLINE int part(int i, const double* __restrict front, StageScratch<Mode
     return changes;
 }
 
-// The same for unilateral contact: the springs that push are together a spring t.held with a
-// preload of t.preload (N) at the mesh's error; t.touching is 1 if any pushes.
+// Same for unilateral contact. The springs in contact combine to one spring t.held with a preload
+// t.preload (N) at the mesh's error. t.touching is 1 if any spring is in contact.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Model>& t) {
     constexpr int kRows = StageScratch<Model>::kRows;
@@ -312,8 +312,8 @@ GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Mode
     return changes;
 }
 
-// Finds who touches at the stage's end, where a mesh deflects by R Q = d + b (y - G F), F being
-// t.force (none at first). Returns whether any lane changed.
+// Updates the contacts at the stage's end. There a mesh deflects by R Q = d + b (y - G F) with F =
+// t.force (0 if `first`). Returns true if any lane changed.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,
                           const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
@@ -344,13 +344,13 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict ma
     return changes != 0;
 }
 
-// Rounds in which separating meshes find who touches; two or three do in nearly all stages. A lane
-// that has found it is the same in every further round. Now and then there is nothing to find: the
-// damper of flanks that just meet would part them again, and without it they meet. The last round's
-// answer then stands, for this one step of an impact.
+// Iteration limit of the contact search of separating meshes. Nearly all stages need two or three;
+// a converged lane does not change in further iterations. Occasionally no solution exists: the
+// damper of flanks that just meet would separate them, and without it they meet. The last iterate
+// is then used for this one step of an impact.
 inline constexpr int kMostRounds = 6;
 
-// Mesh forces of separating meshes.
+// Computes the forces of separating meshes.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* __restrict g,
                                       const StageSpan<W>& span, StageScratch<Model>& t) {
@@ -364,7 +364,7 @@ GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* _
     }
 }
 
-// The acceleration A of a stage from x and v; t.pairs holds the meshes. All [degree of
+// Computes the acceleration A of a stage from x and v; t.pairs holds the meshes. All are [degree of
 // freedom][lane].
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void implicit_stage(const typename Model::Lanes& p, const double* __restrict block,

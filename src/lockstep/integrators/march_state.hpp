@@ -1,11 +1,11 @@
-// What a kernel advances within a mesh period: in double precision the tile's state itself, in
-// single precision a copy of it.
+// State that a kernel advances within a mesh period: in double precision the tile's state itself,
+// in single precision a copy of it.
 //
-// Single precision carries positions as a float and what rounding took from it (Kahan 1965): a step
-// changes a position by 1e-4 of itself and less, and thousands of such changes would drown in a
-// float's 6e-8. Velocities need no such care: rounding one is a push of 6e-8 v / h, 1e-5 of the
-// accelerations that the sensor hears, and dampers forget it. Nor do the filter's states; each step
-// makes them anew.
+// Single precision represents a position by a float and its rounding error (compensated summation,
+// Kahan 1965). A step changes a position by a relative 1e-4 or less, and thousands of such changes
+// would be lost in a float's 6e-8. Velocities need no compensation. Rounding one is equivalent to
+// an acceleration of 6e-8 v / h, 1e-5 of those at the sensor, and dampers remove its effect. The
+// filter's states need none either, because each step recomputes them.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace gearpod::lockstep {
 
-// The numbers that a model's kernels compute in.
+// Floating-point type of a model's kernels.
 template <class Model>
 using RealOf = std::remove_all_extents_t<decltype(std::declval<typename Model::Pairs>().k)>;
 
@@ -45,7 +45,7 @@ struct SingleState {
     }
 };
 
-// What rounding took from a state's positions, if it is kept.
+// Rounding errors of a state's positions; none in double precision.
 struct NoRest {};
 GEARPOD_INLINE NoRest position_rest(TileState&) {
     return {};
@@ -54,7 +54,7 @@ GEARPOD_INLINE float* position_rest(SingleState& state) {
     return state.q_rest.data();
 }
 
-// sum + h rate; `i` is the sum's place in `rest`.
+// Returns sum + h rate, compensated for single precision; `i` is the index of the sum in `rest`.
 GEARPOD_INLINE double advance(double sum, double h, double rate, NoRest, int) {
     return std::fma(h, rate, sum);
 }

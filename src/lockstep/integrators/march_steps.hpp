@@ -1,8 +1,8 @@
-// The parts of a lockstep march that all integrators share: the pairs' stiffness at a stage node,
-// the sensor's filter, the samples, and the loop over the steps of a mesh period.
+// Common parts of all integrators in lockstep: the stiffness of the pairs at a stage node, the
+// sensor's filter, the samples, and the loop over the steps of a mesh period.
 //
-// A model (dynamics/*_motion.hpp) gives its lanes, sizes and accelerations for kWidth gearboxes; an
-// integrator gives its scratch, Stages<Model>, and step<Model>().
+// A model (dynamics/*_motion.hpp) provides its lanes, sizes and accelerations for kWidth gearboxes.
+// An integrator provides its workspace, Stages<Model>, and step<Model>().
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace gearpod::lockstep {
 
-// Static transmission error of all pairs at a stage node.
+// Loads the static transmission error of all pairs at a stage node.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lanes& lanes, int step,
                                 int node, typename Model::Pairs& m) {
@@ -37,8 +37,8 @@ GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lan
     }
 }
 
-// Loads the data of the mesh law for all pairs at a stage node, with shared values spread over the
-// lanes, and the place of the values of forces that vary with time (driven_forces.hpp).
+// Loads the data of the mesh law for all pairs at a stage node; shared values are copied to all
+// lanes. Also sets the row of the time-varying forces (driven_forces.hpp).
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                const MeshOverrides& overrides, int step, int node,
@@ -79,7 +79,7 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
         }
     }
     if constexpr (Model::Mesh::kHasError) {
-        if (!Model::Mesh::kHasTeeth || !plan.nodes.error.empty()) {  // else cleared already
+        if (!Model::Mesh::kHasTeeth || !plan.nodes.error.empty()) {  // otherwise already cleared
             load_errors<Model>(plan, lanes, step, node, m);
         }
     }
@@ -94,8 +94,8 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
     }
 }
 
-// Contribution of the input at the step's nodes, three or one, to a filter state; m is one lane's
-// column of coefficients, W apart, from the state's first on.
+// Contribution of the input at the step's nodes to a filter state. m points to the coefficients of
+// this state in one lane; those of successive nodes are 4 W apart.
 template <int W, class Real>
 GEARPOD_INLINE Real filter_input(const Real* m, Real u) {
     return m[0] * u;
@@ -111,7 +111,7 @@ GEARPOD_INLINE Real filter_row(const Real* m, int at, Real p, Real dp, Real sum)
     return std::fma(m[at * W], p, std::fma(m[(at + 1) * W], dp, sum));
 }
 
-// A step of one channel's filter `f` from its inputs at the step's nodes.
+// Advances one channel's filter `f` by one step from its inputs at the step's nodes.
 template <int W, class Real, class... Inputs>
 GEARPOD_INLINE void filter_channel(const Real* __restrict m, Real* __restrict f,
                                    const Inputs* __restrict... inputs) {
@@ -133,7 +133,7 @@ GEARPOD_INLINE void filter_channel(const Real* __restrict m, Real* __restrict f,
     }
 }
 
-// The sensor's step from its inputs at the step's nodes.
+// Advances the filters of all channels by one step from the inputs at its nodes.
 template <int W, class Filter, class State, class... Inputs>
 GEARPOD_INLINE void step_filter(const Filter& filter, const Step& step, int channels, State& state,
                                 const Inputs*... inputs) {
@@ -174,8 +174,8 @@ GEARPOD_INLINE void write_sample(const MarchPlan& plan, const State& state, int 
     }
 }
 
-// The cubic through both ends of a step with their rates: weights of the values there and of the
-// rates times the step's length (Hermite). Its error is of order 4, as small as that of a step.
+// Cubic Hermite interpolation within a step: weights of the end values, and of the end rates times
+// the step length. Its error is of order 4, comparable to that of a step.
 struct Between {
     double start, end, start_rate, end_rate;
 
@@ -191,7 +191,7 @@ struct Between {
     }
 };
 
-// The samples inside a step that has led from `before` to `after`.
+// Writes the samples inside a step from state `before` to state `after`.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                  const Step& step, const TileState& before, const TileState& after,
@@ -234,7 +234,33 @@ GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::La
     }
 }
 
-// Singles march on grids with a node on every sample.
+// Prefetches the plan's rows of a later step. A mesh period reads each row once, from tables larger
+// than a core's cache. A prefetch beyond a table's end has no effect.
+GEARPOD_INLINE void prefetch_row(const std::vector<double>& table, std::size_t first,
+                                 std::size_t count) {
+    constexpr std::size_t kLine = 64 / sizeof(double);
+    for (std::size_t at = 0; at < count && !table.empty(); at += kLine) {
+        __builtin_prefetch(table.data() + first + at);
+    }
+}
+
+GEARPOD_INLINE void prefetch_step(const MarchPlan& plan, int step) {
+    const StiffnessNodes& table = plan.nodes;
+    const auto row = static_cast<std::size_t>(step);
+    const std::size_t pairs = plan.grid.stage_nodes.size() * static_cast<std::size_t>(table.pairs);
+    const std::size_t contacts = pairs * static_cast<std::size_t>(table.contacts());
+    __builtin_prefetch(plan.grid.steps.data() + row);
+    for (const auto* all :
+         {&table.stiffness, &table.damping_shape, &table.error, &table.error_rate}) {
+        prefetch_row(*all, row * pairs, pairs);
+    }
+    for (const auto* all : {&table.tooth_stiffness, &table.tooth_place, &table.tooth_gap}) {
+        prefetch_row(*all, row * contacts, contacts);
+    }
+}
+
+// Loop over the steps of a mesh period. In single precision the grid must have a step boundary on
+// every sample.
 template <class Integrator, class Model, class State, class Filter>
 GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                 const Filter& filter, const MeshOverrides& overrides, State& state,
@@ -245,6 +271,7 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
     const int steps = static_cast<int>(plan.grid.steps.size());
     for (int i = 0; i < steps; ++i) {
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
+        prefetch_step(plan, std::min(i + 4, steps - 1));
         if (step.sample >= 0) {
             write_sample<Model::kWidth>(plan, state, step.sample, record);
         }

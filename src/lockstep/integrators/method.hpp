@@ -1,29 +1,31 @@
-// What an integrator says of itself, as static members of its struct beside Stages and step():
+// Properties of an integrator, as static members of its struct in addition to Stages and step():
 //
-//   kName          as study files say it
+//   kName          name in study files
 //   kOrder         of its error where the stiffness is smooth
 //   kStageNodes    positions within a step at which it needs the stiffness, ascending; 0 means the
 //                  right limit there, 1 the left limit
-//   kStepsInBand   steps in a period of the sensor's band edge with which the signal is right to
-//                  0.1 % (an implicit method's motion as well); an explicit method's low-pass
-//                  stands half as many
+//   kStepsInBand   steps per period of the sensor's band edge at which the signal is correct to
+//                  0.1 % (for an implicit method also the motion); the low-pass filter of an
+//                  explicit method tolerates half as many
 //   kCost          of a step
-//   kSpan          of an implicit method: how far the acceleration of a stage carries
-//   growth(z)      of an explicit method whose stages all see q' = v: what a step multiplies a mode
-//                  by, z = h lambda; one without it steps on the middles as central differences do
-//   filter(s)      a step of the sensor's low-pass by the same method (filter_system.hpp)
+//   kSpan          implicit methods: factors of a stage's own acceleration
+//   growth(z)      explicit methods whose stages all use q' = v: factor by which a step multiplies
+//                  a mode, z = h lambda; methods without it evaluate at the midpoints as central
+//                  differences do
+//   filter(s)      a step of the sensor's low-pass filter by the same method (filter_system.hpp)
 #pragma once
 
 namespace gearpod::lockstep {
 
-// The velocity is carried by so much of a step, the position by so much of its square.
+// Factors of a stage's own acceleration: in the velocity, times the step; in the position, times
+// its square.
 struct ImplicitSpan {
     double velocity = 0.0, position = 0.0;
 };
 
-// Cost of one step of one gearbox in a full tile, in the time that one step of rk4 takes, by the
-// gearbox's motion: the ratios that the command `accuracy` measures, as they were on an AVX-512
-// core. Numbers and no clock, so that a study makes the same choice on every machine.
+// Cost of one step of one gearbox in a full tile, relative to one step of rk4, by the gearbox's
+// model. The values are ratios measured by the command `accuracy` on an AVX-512 core. They are
+// constants, so that a study makes the same choice on every machine.
 struct StepCost {
     double planetary = 1.0, rotations = 1.0, fixed_shaft = 1.0;
 };

@@ -1,6 +1,6 @@
-// Newmark's method of average acceleration (1959; beta 1/4, gamma 1/2), order 2. The acceleration
-// at a step's start is taken afresh with the stiffness just after it, so that the order survives
-// the jumps at contact transitions.
+// Newmark's method with average acceleration (1959; beta 1/4, gamma 1/2), order 2. The acceleration
+// at a step's start is recomputed with the stiffness just after it, so that the order survives the
+// jumps at contact transitions.
 #pragma once
 
 #include "lockstep/integrators/implicit_stage.hpp"
@@ -67,7 +67,7 @@ struct Newmark {
             }
         }
         Model::source_accelerations(lanes, q, v, s.a_end, s.input[1]);
-        // The method has no middle; its coefficients are 0.
+        // The method has no middle node; its coefficients are 0.
         step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[0], s.input[1]);
     }
 };

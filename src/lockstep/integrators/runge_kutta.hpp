@@ -1,5 +1,6 @@
-// Classical Runge-Kutta, explicit, order 4: q'' = a(q, q') with the stiffness at the step's start,
-// middle and end. The sensor's low-pass is integrated beside the motion by the same method.
+// Classical explicit Runge-Kutta method, order 4: q'' = a(q, q') with the stiffness at the step's
+// start, middle and end. The same method integrates the sensor's low-pass filter together with the
+// motion.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +38,7 @@ struct RungeKutta4 {
     using Stages = ExplicitStages<Model, 3>;
 
     // The stage positions and velocities follow from the stage accelerations, so only those are
-    // kept.
+    // stored.
     template <class Model, class State, class Filter, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides, int i,
@@ -49,7 +50,7 @@ struct RungeKutta4 {
             sixth[l] = x.h[l] / Real(6);
         }
 
-        // A loop, for the compiler to write the accelerations out once.
+        // A loop makes the compiler emit the accelerations only once.
         for (int stage = 0; stage < 4; ++stage) {
             if (stage != 2) {
                 load_pairs<Model>(plan, lanes, overrides, i, (stage + 1) / 2, s.pairs);
@@ -74,7 +75,8 @@ struct RungeKutta4 {
     }
 
   private:
-    // All but the last stage's share in the velocity; s.q and s.v become that stage's.
+    // Adds all but the last stage's contribution to the velocity; sets s.q and s.v to the last
+    // stage's arguments.
     template <class Model, class Step, class Real, int W = Model::kWidth>
     static GEARPOD_INLINE void most_of_step(const Step& x, const Real* sixth, Stages<Model>& s) {
         for (int j = 0; j < x.channels * W; j += W) {
@@ -90,8 +92,7 @@ struct RungeKutta4 {
                 const Real sum = s.a[1][at] + s.a[2][at];
                 s.q[at] = std::fma(x.h[l], s.v[at], x.q[at]);
                 s.v[at] = std::fma(x.h[l], s.a[2][at], x.v[at]);
-                // New position, and the part of the new velocity that is known before the last
-                // stage.
+                // New position, and the part of the new velocity known before the last stage.
                 x.q[at] = advance(x.q[at], x.h[l], std::fma(sixth[l], s.a[0][at] + sum, x.v[at]),
                                   x.q_rest, at);
                 x.v[at] = std::fma(sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v[at]);

@@ -1,6 +1,6 @@
 // Alexander's L-stable, stiffly accurate Runge-Kutta method of order 3 with one diagonal
-// coefficient (SIAM J. Numer. Anal. 14, 1977): three implicit stages, the last at the step's end.
-// No stage lies on the step's start, so a jump of the stiffness there needs no value of its own.
+// coefficient (SIAM J. Numer. Anal. 14, 1977). It has three implicit stages, the last at the step's
+// end. No stage lies on the step's start, so a stiffness jump there needs no special treatment.
 #pragma once
 
 #include "lockstep/integrators/implicit_stage.hpp"
@@ -8,8 +8,8 @@
 
 namespace gearpod::lockstep {
 
-// Every stage has the same diagonal coefficient, a root of x^3 - 3 x^2 + 3/2 x - 1/6; the last
-// stage is the end of the step.
+// Coefficients of the method. Every stage has the same diagonal coefficient, a root of x^3 - 3 x^2
+// + 3/2 x - 1/6; the last stage is the end of the step.
 struct Alexander {
     static constexpr double kDiagonal = 0.43586652150845899942;
     static constexpr double kSecond = (1.0 + kDiagonal) / 2.0;  // node of the second stage
@@ -44,7 +44,7 @@ struct Sdirk3 {
     struct alignas(64) Stages {
         static constexpr int kSize = Model::kMaxDegrees * W;
         double x[kSize], v[kSize];  // of the stage, without its own acceleration
-        double q_end[kSize];        // and with it
+        double q_end[kSize];        // positions with it
         double v1[kSize], v2[kSize], v3[kSize], a1[kSize], a2[kSize], a3[kSize];
         double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the stages
         StageScratch<Model> meshes{};
@@ -107,8 +107,8 @@ struct Sdirk3 {
     }
 
   private:
-    // From s.x and s.v: the stage's velocity and acceleration, its positions in s.q_end and the
-    // sensor's input.
+    // Computes the stage's velocity and acceleration from s.x and s.v, its positions in s.q_end,
+    // and the sensor's input.
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                      const MeshOverrides& overrides, int i, int node,

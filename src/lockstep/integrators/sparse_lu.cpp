@@ -7,7 +7,8 @@ namespace {
 
 using Pattern = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-// The row with the fewest neighbours among those left: a greedy choice that fills in little.
+// Row with the fewest neighbours among the remaining ones; this greedy order (minimum degree)
+// causes little fill-in.
 int fewest_neighbours(const Pattern& filled, const std::vector<int>& left) {
     const auto neighbours = [&](int row) {
         return std::count_if(left.begin(), left.end(),

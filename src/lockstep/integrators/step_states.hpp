@@ -1,12 +1,12 @@
-// States at the ends of the steps of a mesh period, recorded where they are asked for.
+// States at the ends of the steps of a mesh period, recorded on request.
 #pragma once
 
 #include "lockstep/integrators/march_state.hpp"
 
 namespace gearpod::lockstep {
 
-// The part of a step by which an integrator's positions are ahead of its velocities where no sample
-// parts two steps.
+// Fraction of a step by which an integrator's positions are ahead of its velocities, between steps
+// without a sample.
 template <class Integrator>
 constexpr double positions_ahead() {
     if constexpr (requires { Integrator::kPositionsAhead; }) {
@@ -15,8 +15,8 @@ constexpr double positions_ahead() {
     return 0.0;
 }
 
-// Row `step` of MeshRecord::step_states: the state at the start of that step, or after the last
-// one.
+// Writes row `step` of MeshRecord::step_states: the state at the start of that step, or after the
+// last one.
 template <class Integrator, class Model, class State, int W = Model::kWidth>
 GEARPOD_INLINE void write_step_state(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                      int step, const State& state, MeshRecord& record) {

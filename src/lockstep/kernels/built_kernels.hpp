@@ -1,4 +1,4 @@
-// Which of the kernels that a study may ask for this program was built with.
+// Choice among the kernels that this program was built with.
 #pragma once
 
 #include <optional>
@@ -7,14 +7,15 @@
 
 namespace gearpod::lockstep {
 
-// Chooses the kernels' instruction set for all threads: the one asked for, or else the widest that
-// program and processor have. Throws std::invalid_argument where either lacks it.
+// Sets the instruction set of the kernels for all threads: the requested one, otherwise the widest
+// that both program and processor support. Throws std::invalid_argument if either does not support
+// it.
 void choose_instruction_set(std::optional<machine::InstructionSet> asked_for);
 
-// The fewest lanes of the program's kernels that hold so many gearboxes, or the most that it has.
+// Smallest available number of lanes that holds this many gearboxes, or the largest available one.
 int lanes_for(Precision precision, int gearboxes);
 
-// Throws NoSuchKernel.
+// Throws NoSuchKernel if the program has no kernels with this many lanes.
 void check_lanes(Precision precision, int lanes);
 
 }  // namespace gearpod::lockstep

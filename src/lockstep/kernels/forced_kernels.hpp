@@ -1,4 +1,5 @@
-// The kernels of an integrator and a mesh law under forces that vary, for so many lanes each.
+// Kernels of an integrator and a mesh law under time-varying forces, for each given number of
+// lanes.
 #pragma once
 
 #include "dynamics/fixed_shaft_motion.hpp"

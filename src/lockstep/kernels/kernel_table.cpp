@@ -10,7 +10,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-// The widest that each number type has: they fill the registers of AVX-512.
+// Largest numbers of lanes for each precision; they fill the registers of AVX-512.
 constexpr int kMostDoubles = 8, kMostSingles = 16;
 
 bool fills_registers(const KernelKey& key) {

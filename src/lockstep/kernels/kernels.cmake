@@ -1,9 +1,9 @@
-# Makes the kernels' files: one for each line of integrators.def, kind of kernel on it, mesh law of
-# mesh_laws.def and instruction set, so that none compiles for long.
+# Generates the kernel files: one for each line of integrators.def, kind of kernel in it, mesh law
+# of mesh_laws.def and instruction set. This keeps the compile time of each file short.
 include(CheckCXXSourceRuns)
 set(GEARPOD_LOCKSTEP_DIR ${CMAKE_CURRENT_LIST_DIR}/..)
 
-# This processor's instruction set, by the features that machine/dispatch.cpp asks for.
+# Instruction set of this processor, from the features that machine/dispatch.cpp checks.
 function(gearpod_find_native_set out)
   set(${out} baseline PARENT_SCOPE)
   if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" OR CMAKE_CROSSCOMPILING)
@@ -23,7 +23,7 @@ function(gearpod_find_native_set out)
   endif()
 endfunction()
 
-# The lines MACRO(a, b, ...) of a file as a list of "a|b|...".
+# Reads the lines MACRO(a, b, ...) of a file into a list of "a|b|...".
 function(gearpod_read_table file macro out)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(STRINGS ${file} lines REGEX "^${macro}\\(")
@@ -36,7 +36,7 @@ set(GEARPOD_GENERATED_DIR ${CMAKE_BINARY_DIR}/generated)
 gearpod_read_table(${GEARPOD_LOCKSTEP_DIR}/plan/integrators.def GEARPOD_INTEGRATOR gearpod_integrators)
 gearpod_read_table(${GEARPOD_LOCKSTEP_DIR}/../dynamics/effects/mesh_laws.def GEARPOD_MESH_LAW gearpod_mesh_laws)
 
-# A header that includes every integrator's.
+# Generated header that includes the headers of all integrators.
 set(includes "#pragma once\n")
 foreach(row ${gearpod_integrators})
   string(REPLACE "|" ";" row "${row}")
@@ -46,8 +46,9 @@ endforeach()
 file(CONFIGURE OUTPUT ${GEARPOD_GENERATED_DIR}/lockstep/integrators/all_integrators.hpp
   CONTENT "${includes}" @ONLY)
 
-# Kernels run with -O3; instrumented, or with all a debugger wants, they take minutes each for each
-# instruction set: there one set stands for all, hardly or not optimised, which gives the same bits.
+# Kernels are compiled with -O3. With sanitizers or full debug information, each would take minutes
+# per instruction set. Such builds have one instruction set with little or no optimisation, which
+# gives the same bits.
 set(gearpod_kernel_options -O3)
 if(GEARPOD_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(gearpod_one_set ON)
@@ -62,7 +63,7 @@ if(GEARPOD_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
 endif()
 list(APPEND gearpod_kernel_options -fno-trapping-math -fno-math-errno)
 
-# Which instruction sets a build has: `gearpod_sets`, and the lanes of each.
+# Instruction sets of this build, `gearpod_sets`, and the numbers of lanes of each.
 option(GEARPOD_PORTABLE "build kernels of all instruction sets and widths, not just this processor's" OFF)
 if(gearpod_one_set OR NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   set(gearpod_sets baseline)
@@ -76,7 +77,7 @@ function(gearpod_lanes set pair out)
   if(pair MATCHES "singles")
     set(lanes 16 8 4 1)
   endif()
-  # Wider registers cannot help the narrow ones.
+  # Narrow kernels gain nothing from wider registers.
   if(NOT GEARPOD_PORTABLE OR set STREQUAL "x86_64_v4")
     list(GET lanes 0 lanes)
   endif()
@@ -84,9 +85,9 @@ function(gearpod_lanes set pair out)
   set(${out} ${lanes} PARENT_SCOPE)
 endfunction()
 
-# A file of kernels, compiled with `options`: those of each row INTEGRATOR:KIND:LAW:SET:LANES, as in
-# rk4:doubles:linear:x86_64_v4:8+1. Adds its path to the list `files`, the name of its function to
-# `adders`.
+# Generates a file of kernels, compiled with `options`, with one kernel for each row
+# INTEGRATOR:KIND:LAW:SET:LANES, such as rk4:doubles:linear:x86_64_v4:8+1. Appends its path to the
+# list `files` and its function's name to `adders`.
 function(gearpod_make_kernels name options)
   set(includes "")
   set(calls "")
@@ -140,8 +141,8 @@ void add_${name}(KernelTable& table) {${calls}
   set(adders ${adders} add_${name} PARENT_SCOPE)
 endfunction()
 
-# A library of such files. What is compiled with a precompiled header is optimised as that is, so it
-# has their options.
+# Defines a library of such files. Sources compiled with a precompiled header inherit its
+# optimisation, so the whole library has the same options.
 function(gearpod_kernel_library name options)
   add_library(${name} OBJECT ${ARGN})
   target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
@@ -159,10 +160,10 @@ foreach(line ${gearpod_integrators})
     list(APPEND gearpod_kernel_kinds ${integrator}:${kind})
   endforeach()
 endforeach()
-# The names of the mesh laws.
+# Names of the mesh laws.
 list(TRANSFORM gearpod_mesh_laws REPLACE "\\|.*" "" OUTPUT_VARIABLE gearpod_law_names)
 
-# All kernels of those pairs that this build has, in `files` and `adders`.
+# Generates all kernels of those pairs in this build; appends to `files` and `adders`.
 macro(gearpod_make_kernels_of)
   foreach(pair ${ARGN})
     foreach(law ${gearpod_law_names})
@@ -175,7 +176,7 @@ macro(gearpod_make_kernels_of)
   endforeach()
 endmacro()
 
-# The list that kernel_table.cpp reads, as a file: all functions named.
+# Generates the source that defines kernel_adders(), with all given functions.
 function(gearpod_list_kernels file)
   list(TRANSFORM ARGN REPLACE "(.+)" "void \\1(KernelTable&)" OUTPUT_VARIABLE declarations)
   list(JOIN declarations ";\n" declarations)

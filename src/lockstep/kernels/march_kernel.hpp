@@ -1,5 +1,5 @@
-// A kernel, written once for all integrators, motions and instruction sets. All sets give the same
-// bits (machine/dispatch.hpp).
+// Kernel entry points, written once for all integrators, models and instruction sets. All
+// instruction sets give the same bits (machine/dispatch.hpp).
 #pragma once
 
 #include "lockstep/integrators/march_steps.hpp"
@@ -47,7 +47,7 @@ constexpr MarchKernel<typename Motion::Lanes>* march_kernel() {
     return &march_baseline<Method, Motion>;
 }
 
-// Adds the kernel of that motion; of the key, integrator, law and drive are given.
+// Adds the kernel of a model. The caller sets the key's integrator, law and excitation.
 template <machine::InstructionSet kSet, class Method, class Motion>
 void add_kernel(KernelTable& table, KernelKey key, Moving moving) {
     key.set = kSet;

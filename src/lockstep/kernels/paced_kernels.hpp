@@ -1,4 +1,4 @@
-// The kernels of an integrator and a mesh law at a speed that varies, for so many lanes each.
+// Kernels of an integrator and a mesh law at variable speed, for each given number of lanes.
 #pragma once
 
 #include "lockstep/driven/paced_motion.hpp"

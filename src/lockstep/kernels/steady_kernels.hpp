@@ -1,4 +1,5 @@
-// The kernels of an integrator and a mesh law under a steady drive, for so many lanes each.
+// Kernels of an integrator and a mesh law at constant load and speed, for each given number of
+// lanes.
 #pragma once
 
 #include "dynamics/fixed_shaft_motion.hpp"

@@ -6,7 +6,7 @@
 namespace gearpod::lockstep {
 
 double knots_per_s(double half_power_Hz) {
-    constexpr double kHalfPower = 0.2275119577344975;  // sinc^8 is one half there
+    constexpr double kHalfPower = 0.2275119577344975;  // the half-power point: sinc^8 is 1/2 there
     return half_power_Hz / kHalfPower;
 }
 

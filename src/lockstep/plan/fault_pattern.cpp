@@ -6,7 +6,8 @@
 namespace gearpod::lockstep {
 namespace {
 
-// A tooth pair of `pair` that engages nearest to `due` (mesh periods), brought into the pattern.
+// Passage of the tooth pair of `pair` that engages nearest to `due` (mesh periods), shifted into
+// [0, length).
 FaultPassage passage_near(const PairSet& pairs, int pair, double due, int length, int curve) {
     const double start = pairs.start[static_cast<std::size_t>(pair)];
     const long meshes = std::lround(due - start) % length;
@@ -18,7 +19,8 @@ void sort_passages(FaultPattern& pattern) {
               [](const auto& a, const auto& b) { return a.start < b.start; });
 }
 
-// `order`: +1 if the tooth meets the planets in their order, -1 in reverse.
+// Pattern of a sun or ring tooth. `order` is +1 if the tooth meets the planets in ascending order,
+// -1 if in descending order.
 FaultPattern central_gear_pattern(const PairSet& pairs, const PlanetTurns& planets, int teeth,
                                   int first_pair, int order) {
     FaultPattern pattern;
@@ -43,8 +45,8 @@ PlanetTurns equal_planets(int planets) {
     return turns;
 }
 
-// The sun overtakes the planets in their order, the planets overtake the ring in reverse; the other
-// way round if the sun falls behind the carrier.
+// The sun overtakes the planets in ascending order, and the planets overtake the ring in descending
+// order. Both orders are swapped if the sun turns more slowly than the carrier.
 FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetTurns& planets, int sun_teeth) {
     return central_gear_pattern(pairs, planets, sun_teeth, 0, pairs.reversed ? -1 : 1);
 }

@@ -25,7 +25,8 @@ FaultSchedule::FaultSchedule(const MarchPlan& plan, const FaultCurves& faults)
     }
 }
 
-// Where the passage that touches mesh k began, if one does: in this pattern, or in the one before.
+// Start of the passage that overlaps mesh period k, if any: one in this pattern or in the previous
+// one.
 std::optional<double> FaultSchedule::passage_start(const FaultPassage& passage, int k) const {
     for (const double from : {passage.start, passage.start - faults_.pattern.length}) {
         if (from < k + 1 && from + duration(passage) > k) {
@@ -78,7 +79,7 @@ bool FaultSchedule::continues_after(int k) const {
                                });
 }
 
-// The pair with its faulty tooth in place of the healthy one, lane by lane.
+// Stiffness of the pair with the faulty tooth, lane by lane; healthy lanes keep the plan's values.
 PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, double start) const {
     const StepPositions steps = steps_under_way(plan_.grid, k, start, duration(passage));
     const auto& curves = faults_.curve[static_cast<std::size_t>(passage.curve)];
@@ -115,7 +116,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
     return o;
 }
 
-// A lane without a fault: what the plan's nodes say.
+// Copies the plan's healthy values into a lane without a fault.
 void FaultSchedule::keep_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const {
     const StiffnessNodes& nodes = plan_.nodes;
     const auto pairs = static_cast<std::size_t>(nodes.pairs);

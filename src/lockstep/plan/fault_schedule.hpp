@@ -1,4 +1,5 @@
-// When a faulty tooth passes which pair, and the stiffness that the lanes then see.
+// Schedule of the faulty tooth's passages through the gear pairs, and the resulting stiffness of
+// all lanes.
 #pragma once
 
 #include <map>
@@ -13,33 +14,36 @@
 
 namespace gearpod::lockstep {
 
-// What marching a tile needs besides the plan: the pairs' curves for the faulty tooth.
+// Inputs for integrating a faulty tile in addition to the plan: stiffness curves of the faulty
+// tooth.
 struct FaultCurves {
     const PairSet* pairs = nullptr;
     FaultPattern pattern;
-    // [curve][lane]; a lane without a fault has none and keeps its healthy orbit to the bit. The
-    // faults of all lanes have the same number of teeth.
+    // [curve][lane]; null for a lane without a fault, whose healthy periodic orbit stays
+    // bit-identical. The faults of all lanes have the same number of teeth.
     std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
 
-    // Errors of single teeth; only with TileSettings::march_meshes.
+    // Errors of single teeth; allowed only with TileSettings::march_meshes.
     const ToothErrors* tooth_errors = nullptr;
 
     bool faulty(int lane) const;
 };
 
-// Valid as long as the plan and the faults it was made from.
+// Maps mesh periods to stiffness overrides. Keeps references: the plan and the faults must outlive
+// it.
 class FaultSchedule {
   public:
     FaultSchedule(const MarchPlan& plan, const FaultCurves& faults);
 
-    // The pairs whose stiffness the faulty tooth changes during mesh k of the pattern.
+    // Pairs whose stiffness the faulty tooth changes during mesh period k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
 
-    // The same, and the tooth errors, during mesh k of a march; k counts from any integer. Keeps
-    // the faults of a pattern's meshes, for those come again: not for several threads at once.
+    // Faults and tooth errors of mesh period k of an integration; k may be any integer. Caches the
+    // faults of each mesh period of the pattern, because these repeat; not thread-safe.
     MeshOverrides all_overrides(int k);
 
-    // Is the faulty tooth in contact during mesh k, and still at its end? Likewise of a march.
+    // True if the faulty tooth is in contact during mesh period k, and if it still is at the end of
+    // it. k may be any integer.
     bool passes(int k) const;
     bool continues_after(int k) const;
 
@@ -55,7 +59,7 @@ class FaultSchedule {
     const MarchPlan& plan_;
     const FaultCurves& faults_;
     std::vector<double> duration_;  // of each curve, mesh periods; 0 if no lane has it
-    std::map<int, std::vector<PairOverride>> kept_;  // by mesh of the pattern
+    std::map<int, std::vector<PairOverride>> kept_;  // cache, by mesh period of the pattern
 };
 
 }  // namespace gearpod::lockstep

@@ -1,17 +1,17 @@
-// Which method marches the equations of motion (lockstep/integrators has them), and in what
-// numbers.
+// Integration method of the equations of motion (implemented in lockstep/integrators) and its
+// floating-point precision.
 #pragma once
 
 namespace gearpod::lockstep {
 
-// The names of integrators.def.
+// Integrators, as listed in integrators.def.
 enum class Integrator {
 #define GEARPOD_INTEGRATOR(NAME, ...) NAME,
 #include "lockstep/plan/integrators.def"
 #undef GEARPOD_INTEGRATOR
 };
 
-// What the motion is computed in within a mesh period; from one to the next it is double.
+// Precision of the motion within a mesh period. Between mesh periods it is always double.
 enum class Precision { double_precision, single_precision };
 
 }  // namespace gearpod::lockstep

@@ -15,8 +15,15 @@ MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion) {
     if (with_motion) {
         record.motion.resize(rows *
                              static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout)));
+        record.mesh_force.resize(rows * static_cast<std::size_t>(plan.nodes.pairs));
     }
     return record;
+}
+
+void size_step_states(const MarchPlan& plan, int lanes, MeshRecord& record) {
+    record.step_states.resize(2 * (plan.grid.steps.size() + 1) *
+                              static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout)) *
+                              static_cast<std::size_t>(lanes));
 }
 
 }  // namespace gearpod::lockstep

@@ -1,4 +1,4 @@
-// Mesh stiffness on which mesh damping depends: the sum over the tooth pairs on their nominal paths
+// Mesh stiffness that mesh damping depends on: the sum over the tooth pairs on their nominal paths
 // of contact (stiffness::MeshStiffness::path_total).
 #pragma once
 
@@ -11,9 +11,9 @@ class MeshStiffness;
 
 namespace gearpod::lockstep {
 
-struct StepPositions;  // lockstep/plan/stiffness_nodes.hpp, with the functions' definitions
+struct StepPositions;  // defined in lockstep/plan/stiffness_nodes.hpp
 
-// As healthy_total and faulty_total, N/m.
+// Counterparts of healthy_total and faulty_total for the nominal paths of contact, N/m.
 std::vector<double> healthy_path_total(const stiffness::MeshStiffness& mesh, bool reversed,
                                        const StepPositions& steps);
 std::vector<double> faulty_path_total(const stiffness::MeshStiffness& healthy,

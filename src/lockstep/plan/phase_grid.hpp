@@ -1,6 +1,6 @@
-// Steps of one mesh period, the same for all lanes: a node on every contact transition of every
-// pair, so that integrators keep their order across the jumps of stiffness, and usually on every
-// sample; a sample inside a step is interpolated.
+// Time steps of one mesh period, the same for all lanes. A step boundary lies on every contact
+// transition of every pair, so that integrators keep their order across the stiffness jumps.
+// Usually one also lies on every sample; a sample inside a step is interpolated.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ struct Step {
     double length = 0.0;  // mesh periods
     int kind = 0;         // index into PhaseGrid::lengths
     int sample = -1;      // sample taken at the start of the step, or -1
-    int inside = 0;       // samples that lie within the step, past its start
+    int inside = 0;       // samples inside the step, after its start
     int first_inside = 0;
 };
 
@@ -21,15 +21,15 @@ struct PhaseGrid {
     int samples = 0;              // per mesh period, at phases i / samples
     std::vector<Step> steps;      // ascending phase, covering [0, 1)
     std::vector<double> lengths;  // distinct step lengths, mesh periods
-    // Where within a step the integrator's stages want the stiffness, ascending in [0, 1]; at 0 the
-    // limit from above, at 1 the limit from below. Those of the classical Runge-Kutta method unless
-    // set otherwise.
+    // Positions within a step at which the integrator's stages need the stiffness, ascending in [0,
+    // 1]. At 0 it is the limit from above, at 1 the limit from below. The default is the classical
+    // Runge-Kutta method.
     std::vector<double> stage_nodes{0.0, 0.5, 1.0};
 };
 
-// At least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, split at
-// `transitions` (phases in [0, 1)). Throws std::invalid_argument for samples < 1 or steps_per_mesh
-// < 1.
+// Grid of at least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, then split
+// at `transitions` (phases in [0, 1)). Throws std::invalid_argument if samples < 1 or
+// steps_per_mesh < 1.
 PhaseGrid make_phase_grid(int samples, int steps_per_mesh, std::span<const double> transitions);
 
 }  // namespace gearpod::lockstep

@@ -1,4 +1,4 @@
-// The distinct lengths among a grid's steps.
+// Distinct step lengths of a grid.
 #pragma once
 
 #include <algorithm>
@@ -7,11 +7,11 @@
 
 namespace gearpod::lockstep {
 
-// Transitions closer than this to a node, or to each other, share it: far below any step, far above
-// the rounding of phases.
+// Phase tolerance, mesh periods: closer transitions share a node. It is far below any step length
+// and far above the rounding error of phases.
 inline constexpr double kSamePhase = 1e-12;
 
-// The place of a length among the known ones, to which it is added if it is new.
+// Index of `length` in `lengths`; appends it if it is new.
 inline int find_or_add(std::vector<double>& lengths, double length) {
     const auto found = std::find_if(lengths.begin(), lengths.end(), [&](double known) {
         return std::abs(known - length) < kSamePhase;

@@ -12,8 +12,8 @@
 namespace gearpod::lockstep {
 namespace {
 
-// A pair that is touched in the reverse order, as a pair in the forward one: `last` is the position
-// at which it ends.
+// Converts the positions of a reversed contact to forward ones; `last` is the position at which the
+// contact ends.
 void mirror(StepPositions& steps, double last) {
     for (auto* positions : {&steps.node, &steps.middle}) {
         std::reverse(positions->begin(), positions->end());
@@ -23,7 +23,8 @@ void mirror(StepPositions& steps, double last) {
     }
 }
 
-// total(positions, inside, values) for each run of steps that lie in one stretch.
+// Calls total(positions, inside, values) for each run of steps that lie in the same stretch between
+// transitions or jumps, and returns all values.
 template <class Total>
 std::vector<double> by_stretches(const StepPositions& steps, std::span<const double> transitions,
                                  std::span<const double> jumps, const Total& total) {
@@ -50,7 +51,8 @@ std::vector<double> by_stretches(const StepPositions& steps, std::span<const dou
     return values;
 }
 
-// The same for pairs that are touched in either order; `last` is the position at which a pair ends.
+// Same as by_stretches(), for either direction of contact; `last` is the position at which the
+// contact ends.
 template <class Total>
 std::vector<double> in_order(const stiffness::MeshStiffness& healthy, double last,
                              const std::vector<double>& jumps, bool reversed,
@@ -99,7 +101,7 @@ std::vector<double> contact_transitions(const PairSet& pairs) {
 }
 
 StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration) {
-    // A step lies wholly inside or outside; its middle decides.
+    // A step lies entirely inside or outside the passage; its middle decides.
     const auto middle = [&](const Step& step) {
         return mesh + step.phase + 0.5 * step.length - start;
     };
@@ -163,7 +165,7 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
     nodes.stiffness.resize(grid.steps.size() * grid.stage_nodes.size() * count);
     nodes.damping_shape.resize(nodes.stiffness.size());
     for (std::size_t pair = 0; pair < count; ++pair) {
-        // From an engagement before the mesh period.
+        // Positions count from an engagement that starts before the mesh period.
         const StepPositions steps = steps_under_way(grid, 0.0, pairs.start[pair] - 1.0, kForever);
         const stiffness::MeshStiffness& mesh = *pairs.mesh[pair];
         const auto total = healthy_total(mesh, pairs.reversed, steps);

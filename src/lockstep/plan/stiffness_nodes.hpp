@@ -1,4 +1,5 @@
-// Stiffness of all pairs at the stage nodes of a phase grid: one contiguous load per pair and node.
+// Stiffness of all pairs at the stage nodes of a phase grid, stored so that each pair and node
+// needs one contiguous load.
 #pragma once
 
 #include <span>
@@ -8,46 +9,47 @@
 #include "lockstep/plan/phase_grid.hpp"
 
 namespace gearpod::stiffness {
-class FaultyMesh;  // stiffness/mesh_stiffness.hpp: kernels, which read tables, know nothing of it
+class FaultyMesh;  // defined in stiffness/mesh_stiffness.hpp, which kernels do not include
 class MeshStiffness;
 }  // namespace gearpod::stiffness
 
 namespace gearpod::lockstep {
 
-// A gearbox's gear pairs; of a planetary train sp1..spN, rp1..rpN. Pair i's tooth pairs start
-// engaging at the phases start[i] + integer, in mesh periods since sp1 was at its pitch point.
+// Gear pairs of a gearbox; sp1..spN, rp1..rpN for a planetary train. The tooth pairs of pair i
+// start to engage at the phases start[i] + integer, in mesh periods since sp1 was at its pitch
+// point.
 struct PairSet {
     std::vector<const stiffness::MeshStiffness*> mesh;
     std::vector<double> start;  // in [0, 1)
-    // The gears turn the other way (in a train: the planets past the carrier; the sun is held, or
-    // the ring drives a standing carrier): contact runs the same line of action from its end to its
-    // start.
+    // True if the gears turn in the opposite sense, so that contact runs along the same line of
+    // action from its end to its start. In a planetary train: the planets relative to the carrier,
+    // when the sun is fixed or the ring drives a fixed carrier.
     bool reversed = false;
 
     int pairs() const { return static_cast<int>(start.size()); }
     const stiffness::MeshStiffness& curve(int pair) const {
         return *mesh[static_cast<std::size_t>(pair)];
     }
-    // Phase at which the tooth pair that engages at start[pair] is at its pitch point.
+    // Phase at which the tooth pair that engages at start[pair] passes its pitch point.
     double pitch_phase(int pair) const;
-    // All tooth pairs of a healthy pair at a phase (mesh periods since sp1 was at its pitch point);
-    // at a transition the limit from later phases.
+    // Total stiffness of a healthy pair at a phase (mesh periods since sp1 was at its pitch point).
+    // At a transition, the limit from later phases.
     double total(int pair, double phase) const;
 };
 
-// The part of a phase within its mesh period, in [0, 1).
+// Fractional part of a phase, in [0, 1).
 double phase_in_period(double phase);
 
-// Phases in [0, 1), ascending, that bound the stretches of all pairs.
+// Phases in [0, 1), ascending, of all contact transitions of all pairs.
 std::vector<double> contact_transitions(const PairSet& pairs);
 
-// Steps in which the same tooth pairs of a gear pair touch; the one that begins to engage in the
-// same mesh period has age 0, the one before it 1, and so on.
+// Steps in which the same tooth pairs of a gear pair are engaged. A tooth pair that starts to
+// engage in the current mesh period has age 0, the previous one age 1, and so on.
 struct ToothEngagement {
     int pair = 0;
     int first_step = 0;
     int last_step = 0;  // one past the last
-    int youngest = 0;   // its age; further ones are a period older each
+    int youngest = 0;   // age of the youngest tooth pair; each further one is a mesh period older
 };
 
 // Stiffness and damping shape (dynamics::MeshDamping), [step][stage node][pair].
@@ -55,39 +57,40 @@ struct StiffnessNodes {
     int pairs = 0;
     std::vector<double> stiffness;      // N/m
     std::vector<double> damping_shape;  // see effects/mesh_damping.hpp
-    // Static transmission error, m, and its rate, m per mesh period; empty: none.
+    // Static transmission error, m, and its rate, m per mesh period; empty if there is none.
     std::vector<double> error, error_rate;
-    // Springs of the tooth pairs and their slices, [step][stage node][tooth pair][slice][pair], the
-    // youngest tooth pair first: stiffness in N/m, 0 where fewer are engaged; position on the path
-    // of contact, -1/2 to 1/2 from its start to its end in the sense of gears::MeshGeometry, which
-    // is its end before and after it; gap that all lanes have, m, empty if there is none. All are
-    // empty unless single tooth pairs are needed.
+    // Springs of the tooth pairs' slices, [step][stage node][tooth pair][slice][pair], youngest
+    // tooth pair first. All are empty unless the mesh law needs single tooth pairs.
+    // - tooth_stiffness: N/m, 0 where fewer tooth pairs are engaged.
+    // - tooth_place: position on the path of contact, -1/2 at its start to 1/2 at its end in the
+    //   sense of gears::MeshGeometry, clamped outside.
+    // - tooth_gap: gap common to all lanes, m; empty if there is none.
     int tooth_pairs = 0;
     int slices = 1;
     std::vector<double> tooth_stiffness, tooth_place, tooth_gap;
     int contacts() const { return tooth_pairs * slices; }
-    std::vector<ToothEngagement> engagements;  // every pair's, in order
+    std::vector<ToothEngagement> engagements;  // of all pairs, in order
 };
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);
 
-// Consecutive steps of one mesh period and where they lie: mesh periods since something began.
+// Consecutive steps of one mesh period and their positions, in mesh periods since an event.
 struct StepPositions {
     int first_step = 0;
     int last_step = 0;           // one past the last
     std::vector<double> node;    // [step - first_step][stage node]
-    std::vector<double> middle;  // [step - first_step]: decides to which stretch a step belongs
+    std::vector<double> middle;  // [step - first_step]; selects the stretch that a step belongs to
 };
 
-// The steps of mesh `mesh` (an integer count of mesh periods) during which something that began at
-// phase `start` (not reduced) and lasts `duration` is under way.
+// Steps of mesh period `mesh` (an integer count) that overlap an event that starts at phase `start`
+// (not reduced to one period) and lasts `duration`.
 StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration);
 
-// The total of a healthy pair during these steps, [step - first_step][stage node], N/m; positions
-// count from an engagement of its teeth.
+// Total stiffness of a healthy pair during these steps, [step - first_step][stage node], N/m.
+// Positions count from an engagement of its teeth.
 std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
                                   const StepPositions& steps);
-// The same while a fault passes; positions count from the engagement of its first tooth.
+// Same while a fault passes. Positions count from the engagement of the first faulty tooth.
 std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
                                  const stiffness::FaultyMesh& faulty, bool reversed,
                                  const StepPositions& steps);

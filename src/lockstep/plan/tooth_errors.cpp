@@ -14,7 +14,7 @@ int tooth_of(int mesh_period, int first, int teeth) {
     return tooth < 0 ? tooth + teeth : tooth;
 }
 
-// Gap of a tooth pair in one lane, m.
+// Gap of a tooth pair in one lane, m, and its growth along the engagement.
 struct TouchingGap {
     double gap = 0.0, growth = 0.0;
 };
@@ -28,7 +28,8 @@ TouchingGap touching_gap(const ToothErrors& errors, int pair, int k, std::size_t
         const auto tooth = static_cast<std::size_t>(tooth_of(k, teeth.first[side], gear.teeth));
         sum.gap += gear.error_m[tooth * width + lane];
         if (!gear.slope_m.empty()) {
-            // The driver's flank is touched from the root to the tip.
+            // Contact runs from root to tip on the driver's flank, and from tip to root on the
+            // other.
             const double slope = gear.slope_m[tooth * width + lane];
             sum.growth += side == teeth.driver ? slope : -slope;
         }
@@ -46,7 +47,7 @@ std::vector<PairTeeth> planetary_teeth(const PairSet& pairs, const gears::Planet
         const bool with_sun = pair == n;
         const double delay = with_sun ? gears::sun_tooth_delay(train, n, sense)
                                       : gears::ring_tooth_delay(train, n, sense);
-        // From the engagement with planet 1 to the one of the same tooth with this planet.
+        // Delay of the tooth's engagement with this planet after its engagement with planet 1.
         const double engages = pairs.start[static_cast<std::size_t>(pair - n)] + delay;
         const double first = engages - pairs.start[static_cast<std::size_t>(pair)];
         teeth.push_back({{with_sun ? 0 : 1, 2 + 2 * n + (with_sun ? 0 : 1)},

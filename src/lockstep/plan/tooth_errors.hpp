@@ -1,6 +1,7 @@
-// Errors of single teeth: the gap that a tooth pair would leave if the gears turned evenly, which
-// has to close before it pushes (unilateral contact). The same teeth meet again only after many
-// mesh periods, so every mesh period is integrated (TileSettings::march_meshes).
+// Errors of single teeth. Each is the gap that a tooth pair would have if the gears turned
+// uniformly; it must close before the pair carries load (unilateral contact). The same teeth meet
+// again only after many mesh periods, so every mesh period is integrated
+// (TileSettings::march_meshes).
 #pragma once
 
 #include <span>
@@ -11,18 +12,18 @@
 
 namespace gearpod::lockstep {
 
-// Teeth of one gear, on one of its flanks, in W realizations. Gaps are positive.
+// Errors of the teeth of one gear, on one of its flanks, in W realizations. Gaps are positive.
 struct GearErrors {
     int teeth = 0;
     machine::AlignedVector error_m;  // [tooth][lane]: index deviations
-    // Growth of the gap along the flank from the root's end of contact to the tip's, about its
-    // middle, m, [tooth][lane]. Empty: none.
+    // Growth of the gap along the flank from the contact's end near the root to that near the tip,
+    // about its middle, m, [tooth][lane]. Empty if there is none.
     machine::AlignedVector slope_m = {};
 };
 
-// Both gears of a pair: index of each, the mesh period in which its tooth 0 starts to engage there,
-// and which of the two drives in the mesh's geometry (gears::MeshGeometry): contact runs on its
-// teeth from the root to the tip, on the other's from the tip to the root.
+// Both gears of a pair: the index of each, and the mesh period in which its tooth 0 starts to
+// engage in this pair. `driver` is the driving gear in the mesh geometry (gears::MeshGeometry):
+// contact runs on its teeth from root to tip, and on the other gear's from tip to root.
 struct PairTeeth {
     int gear[2] = {};
     int first[2] = {};
@@ -38,18 +39,18 @@ struct ToothErrors {
     }
 };
 
-// Teeth that meet in a planetary train's pairs. Gears: the sun, the ring, then each planet's sun
-// side and ring side, 2 + 2N in all; a planet's sides are different flanks.
+// Teeth that meet in the pairs of a planetary train. Gears: the sun, the ring, then each planet's
+// sun side and ring side, 2 + 2N in all. The two sides of a planet are different flanks.
 std::vector<PairTeeth> planetary_teeth(const PairSet& pairs, const gears::PlanetaryTrain& train,
                                        gears::PlanetSense sense);
-// Teeth of a fixed-shaft pair: the pinion, the gear.
+// Teeth that meet in a fixed-shaft pair. Gears: the pinion, the gear.
 std::vector<PairTeeth> fixed_shaft_teeth();
 
 // Throws std::invalid_argument unless the plan has single tooth pairs and every mesh period is
 // integrated.
 void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int march_meshes);
 
-// Gaps of all pairs' tooth pairs in mesh period k, which counts from any integer.
+// Gaps of the tooth pairs of all pairs in mesh period k, which may be any integer.
 std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& errors, int k);
 
 // Gaps of a pair in a step; null if it has none.
@@ -59,7 +60,7 @@ const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step)
 // slice.
 std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int contact, int pair);
 
-// Whole gap of that spring at a stage node, m: errors of the teeth, relief, corner contact.
+// Total gap of that spring at a stage node, m: tooth errors, relief and corner contact.
 double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int contact, int lane);
 

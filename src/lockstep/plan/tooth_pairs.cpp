@@ -14,12 +14,14 @@
 namespace gearpod::lockstep {
 namespace {
 
-// Position in the mesh's own sense, from a time since the engagement began.
+// Position on the path of contact in the mesh's own sense, from the time since the engagement
+// began.
 double position_of(const PairSet& pairs, int pair, double since) {
     return pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;
 }
 
-// A slice of a tooth pair so long after its engagement began; `inside` lies in the same stretch.
+// Stiffness of one slice of a tooth pair at time `since` after its engagement began, N/m; `inside`
+// is a time within the same stretch between transitions.
 double contact_stiffness(const PairSet& pairs, int pair, int slice, double since, double inside) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
     const double middle = position_of(pairs, pair, inside);
@@ -41,7 +43,7 @@ TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase) {
 
 namespace {
 
-// Springs of one pair at one stage node, `first` the place of the first in the tables.
+// Fills the springs of one pair at one stage node; `first` is the index of the first in the tables.
 void fill_node(const PairSet& pairs, int pair, double phase, double middle, std::size_t first,
                StiffnessNodes& nodes) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
@@ -67,7 +69,7 @@ void fill_node(const PairSet& pairs, int pair, double phase, double middle, std:
 void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes) {
     const auto contacts = static_cast<std::size_t>(nodes.contacts());
     const auto count = static_cast<std::size_t>(nodes.pairs);
-    std::size_t at = 0;  // stage node
+    std::size_t at = 0;  // index of the stage node
     for (const Step& step : grid.steps) {
         const double middle = step.phase + 0.5 * step.length;
         for (const double part : grid.stage_nodes) {
@@ -139,7 +141,7 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
             tau[n] = std::clamp(position(steps.node[step * nodes + n]), stretch.begin, stretch.end);
         }
         if (pairs.reversed) {
-            std::reverse(tau.begin(), tau.end());  // ascending
+            std::reverse(tau.begin(), tau.end());  // ascending again
         }
         const TouchingTeeth teeth =
             touching_teeth(pairs, passage.pair, passage.start - passage.mesh + steps.middle[step]);

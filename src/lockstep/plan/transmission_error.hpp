@@ -1,5 +1,5 @@
-// Static transmission error of gear pairs: deviation of the unloaded flanks from perfect ones, as a
-// gap along the line of action (dynamics/effects/mesh_law.hpp).
+// Static transmission error of gear pairs: deviation of the unloaded flanks from the ideal ones,
+// expressed as a gap along the line of action (dynamics/effects/mesh_law.hpp).
 #pragma once
 
 #include <span>
@@ -9,22 +9,22 @@
 
 namespace gearpod::lockstep {
 
-// Error that repeats every mesh period,
+// Transmission error that repeats every mesh period,
 //     e(x) = sum over h >= 1 of amplitude[h-1] sin(2 pi h x + phase[h-1]),
-// x in mesh periods since the pair was at its pitch point. So it shifts with the pair's mesh phase,
-// and runs backwards where contact does. Missing phases are 0.
+// with x in mesh periods since the pair was at its pitch point. It therefore shifts with the pair's
+// mesh phase and runs backwards in reversed contact. Missing phases are 0.
 struct MeshError {
     std::vector<double> amplitude_m;
     std::vector<double> phase_rad;
 };
 
-// Error, m, and rate, m per mesh period.
+// Error, m, and its rate, m per mesh period.
 struct ErrorValue {
     double error = 0.0, rate = 0.0;
 };
 ErrorValue error_at(const MeshError& error, double x);
 
-// Adds the errors of all pairs, one each, to the table.
+// Adds the errors of all pairs (one entry per pair) to the table.
 void add_errors(const PairSet& pairs, const PhaseGrid& grid, std::span<const MeshError> errors,
                 StiffnessNodes& nodes);
 

@@ -11,7 +11,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-// The transitions as nodes: ascending, apart, with the ends of the mesh period.
+// Distinct nodes at the transitions and at the ends of the mesh period, ascending.
 std::vector<double> stretch_ends(std::span<const double> transitions) {
     std::vector<double> all(transitions.begin(), transitions.end());
     all.push_back(0.0);
@@ -31,7 +31,7 @@ void add_step(PhaseGrid& grid, double phase, double length) {
     grid.steps.push_back({phase, length, find_or_add(grid.lengths, length), -1, 0, 0});
 }
 
-// Gives every sample to the step in which it is taken.
+// Assigns every sample to the step that contains it.
 void place_samples(PhaseGrid& grid) {
     auto step = grid.steps.begin();
     for (int sample = 0; sample < grid.samples; ++sample) {
@@ -48,7 +48,7 @@ void place_samples(PhaseGrid& grid) {
     }
 }
 
-// The smallest of 1, 2, 3, 4, 6, 8, 12, ... that is not below `least`.
+// Smallest of 1, 2, 3, 4, 6, 8, 12, ... that is at least `least`.
 int round_up_to_few(double least) {
     int power = 1;
     while (power < least) {

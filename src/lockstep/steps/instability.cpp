@@ -28,7 +28,7 @@ std::vector<double> stiffest_nodes(const MarchPlan& plan) {
 
 bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
     if (!is_explicit(plan.integrator)) {
-        return false;  // the implicit methods are stable at any step
+        return false;  // implicit methods are stable for any step
     }
     const double longest = *std::max_element(plan.grid.lengths.begin(), plan.grid.lengths.end());
     const auto matrices = dynamics::assemble(plan.layout, inputs, stiffest_nodes(plan));
@@ -36,8 +36,8 @@ bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs)
            longest_stable_step(matrices, plan.integrator);
 }
 
-// The largest |eigenvalue| of a mesh period's map of (q, v), the rigid rotation taken out of q and
-// of v at its end.
+// Largest |eigenvalue| of a mesh period's map of (q, v), with the rigid rotation removed from q and
+// v at its end.
 double growth(const MarchPlan& plan, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& map) {
     if (!map.allFinite()) {
         return std::numeric_limits<double>::infinity();
@@ -52,16 +52,16 @@ double growth(const MarchPlan& plan, const Eigen::MatrixXd& mass, const Eigen::M
     return dynamics::eigenvalues(kept).cwiseAbs().maxCoeff();
 }
 
-// What the displacements are multiplied with to be as large as the velocities: else the map's
-// eigenvalues lose as many digits as the vibration's rate has.
+// Factor that scales displacements to the magnitude of velocities. Without it, the map's
+// eigenvalues would lose as many digits as the vibration's rate has.
 double velocity_scale(const dynamics::GearboxMatrices& m) {
     const double rate =
         std::sqrt((m.stiffness.diagonal().array() / m.mass.diagonal().array()).maxCoeff());
     return rate > 0.0 ? rate : 1.0;
 }
 
-// State of kUnitMotions gearboxes, lane l displaced by (first + l) - 1 of the 2n unit motions; -1
-// and those past the last: not at all.
+// State of kUnitMotions gearboxes in which lane l has unit motion (first + l) - 1 of 2n. Index -1
+// and indices past the last mean no displacement.
 TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
     const auto degrees = static_cast<std::size_t>(n);
     TileState state = still_state(degrees, channels, kUnitMotions);
@@ -76,8 +76,8 @@ TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
     return state;
 }
 
-// (rate q, v) after a mesh period, by the march itself. Column 0 is the motion from rest under the
-// load, which the others contain as well.
+// Map of (rate q, v) over a mesh period, computed by time integration. Column 0 is the motion from
+// rest under the load, which is subtracted from the others.
 Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs& inputs,
                             Eigen::Index n, double rate) {
     const std::vector<dynamics::GearboxInputs> alike(kUnitMotions, inputs);
@@ -123,8 +123,8 @@ bool above_critical_speed(const dynamics::GearboxLayout& layout,
     if (m.centrifugal.isZero(0.0)) {
         return false;
     }
-    // Scaled to unit masses, K holds at least W^2; the rigid rotation, which nothing holds, is held
-    // by far more than that.
+    // Scaled to unit masses, K must be at least W^2. The rigid rotation has no stiffness, so a much
+    // larger one is added to it.
     const Eigen::VectorXd scale = m.mass.diagonal().cwiseSqrt().cwiseInverse();
     Eigen::MatrixXd held = scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
     const Eigen::VectorXd turn = dynamics::rigid_rotation(layout).cwiseQuotient(scale).normalized();

@@ -12,13 +12,13 @@
 namespace gearpod::lockstep {
 namespace {
 
-// |R(z)|^2; without its root, as every mode asks for it thousands of times.
+// R(z)|^2; avoids the square root, because it is evaluated thousands of times per mode.
 double growth_squared(std::complex<double> z, const IntegratorFacts& integrator) {
     const std::complex<double> r = integrator.growth(z);
     return r.real() * r.real() + r.imag() * r.imag();
 }
 
-// The longest h along which |R(h lambda)| stays at most 1.
+// Largest h for which |R(h lambda)| stays at most 1 from 0 to h.
 double longest_step(std::complex<double> lambda, const IntegratorFacts& integrator) {
     const double unit = 1.0 / std::abs(lambda);
     constexpr double kResolution = 1e-3;  // of h |lambda|; the limits lie near 2.8 and 1.7 to 2.5
@@ -33,8 +33,9 @@ Eigen::VectorXcd modes(const dynamics::GearboxMatrices& m) {
     return dynamics::eigenvalues(state_matrix(m));
 }
 
-// Below this a mode is the rigid rotation: what rounding, and the linearised centrifugal term,
-// leave of its rate 0. Both scale with the stiffest spring, never with the dampers.
+// Rate below which a mode counts as the rigid rotation. Its exact rate is 0; rounding and the
+// linearized centrifugal term add a small one. Both scale with the stiffest spring, never with the
+// dampers.
 double rigid_rate(const dynamics::GearboxMatrices& m) {
     const Eigen::VectorXd rates2 =
         (m.stiffness.diagonal().array() / m.mass.diagonal().array()).matrix();
@@ -74,7 +75,7 @@ double central_difference_limit(const dynamics::GearboxMatrices& m) {
         const Eigen::MatrixXd left = m.mass - h * (m.damping + 0.25 * h * stiffness);
         return dynamics::positive_definite(left);
     };
-    // No body alone stands a longer step: m = h c + h^2/4 k.
+    // Upper bound: the longest stable step of any single body, m = h c + h^2/4 k.
     double above = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < m.mass.rows(); ++i) {
         const double c = m.damping(i, i), k = std::max(0.0, stiffness(i, i)), mass = m.mass(i, i);
@@ -106,7 +107,7 @@ StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
     Eigen::Index fastest = 0;
     modes.values.cwiseAbs().maxCoeff(&fastest);
     const double rate = std::abs(modes.values(fastest));
-    // The half of the eigenvector that holds the velocities; the displacements are far smaller.
+    // Velocity half of the eigenvector; the displacements are far smaller.
     const Eigen::Index n = m.mass.rows();
     const Eigen::VectorXcd mode = modes.vectors.col(fastest).tail(n);
 
@@ -114,7 +115,7 @@ StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
     result.rate_1_s = rate;
     double most = 0.0;
     for (const auto& spring : dynamics::spring_dampers(layout, inputs, pair_stiffness_N_m)) {
-        // The terms lambda c and k of the mode's equation lambda^2 m + lambda c + k = 0.
+        // Terms lambda c and k of the mode's equation lambda^2 m + lambda c + k = 0.
         const double deflection = std::norm(spring.row.cast<std::complex<double>>().dot(mode));
         const double by_damper = rate * spring.damping * deflection;
         const double by_spring = spring.stiffness * deflection;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto kLanes = static_cast<std::size_t>(kPilotLanes);
 
-// The tile on one grid.
+// Tile integrated on one grid.
 class PilotMarch {
   public:
     PilotMarch(const Pilot& pilot, PhaseGrid grid)
@@ -32,7 +32,8 @@ class PilotMarch {
         return state;
     }
 
-    // From the orbit: a healthy mesh period, then those of the fault's first passage and one more.
+    // Records from the periodic orbit: a healthy mesh period, those of the fault's first passage,
+    // and one more.
     std::vector<MeshRecord> records(TileState state, bool with_estimate) const {
         FaultSchedule schedule(plan_, pilot_.faults);
         std::vector<MeshRecord> all;
@@ -71,7 +72,7 @@ class PilotMarch {
     const RigidRotation rotation_;
 };
 
-// Largest of an estimate's rows over steps and mesh periods, one a lane.
+// Largest value in a row of the estimate over steps and mesh periods, per lane.
 std::vector<double> largest_in_row(const std::vector<MeshRecord>& records, std::size_t row) {
     std::vector<double> largest(kLanes, 0.0);
     for (const MeshRecord& record : records) {
@@ -85,7 +86,7 @@ std::vector<double> largest_in_row(const std::vector<MeshRecord>& records, std::
     return largest;
 }
 
-// Squared deviation of a lane's values from others, or from their own mean.
+// Squared deviation of a lane's values from others, and of themselves from 0 or from their mean.
 struct Squares {
     double deviation = 0.0, own = 0.0;
 };
@@ -108,7 +109,7 @@ double relative(const Squares& s) {
     return s.own > 0.0 ? std::sqrt(s.deviation / s.own) : 0.0;
 }
 
-// Of the worst lane; not a number counts as infinite.
+// Relative rms difference of the worst lane; NaN counts as infinite.
 double difference(const std::vector<MeshRecord>& a, const std::vector<MeshRecord>& b) {
     double worst = 0.0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -135,7 +136,7 @@ struct Candidate {
     std::size_t steps;
 };
 
-// Uniform steps of that length and everything coarser, fewest steps first.
+// Uniform steps of that length and all coarser gradings, fewest steps first.
 std::vector<Candidate> candidates(double step,
                                   const std::function<PhaseGrid(const Grading&)>& grid_of) {
     std::vector<Candidate> all;
@@ -174,7 +175,7 @@ StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double 
     const std::vector<double> position = largest_in_row(records, 0);
     const std::vector<double> velocity = largest_in_row(records, 1);
     constexpr double kSafety = 0.9, kMostGrowth = 10.0, kMostCut = 100.0;
-    // The short steps beside a transition say little about how long one could be.
+    // The short steps next to a transition contain little information on the longest possible step.
     const double most = kMostGrowth * *std::max_element(grid.lengths.begin(), grid.lengths.end());
     std::vector<double> phases, longest;
     for (std::size_t i = 0; i < grid.steps.size(); ++i) {

@@ -1,5 +1,5 @@
-// A tile whose healthy mesh periods are superposed (composition.hpp) in the lanes whose tooth pairs
-// stay in contact. The perturbation due to a fault is integrated from the superposed states.
+// Tile whose healthy mesh periods are superposed (composition.hpp) in the lanes in which all tooth
+// pairs stay in contact. The perturbation due to a fault is integrated from the superposed states.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace gearpod::lockstep {
 template <int W>
 class ComposedTile : MarchedTile<W> {
   public:
-    // The gearboxes must have tooth errors and be driven evenly.
+    // The gearboxes must have tooth errors and a steady excitation.
     using MarchedTile<W>::MarchedTile;
 
     TileResult run() {
@@ -31,11 +31,12 @@ class ComposedTile : MarchedTile<W> {
         Base::plan_, Base::record_of, Base::result_, Base::retire, Base::schedule_, Base::settings_,
         Base::settle, Base::settled_, Base::state_;
 
-    // Integrates mesh period k with its step states and returns the bounds of contact in it.
+    // Integrates mesh period k with its step states, and returns lower bounds of the contact
+    // compression in it.
     machine::AlignedVector march_part_mesh(int k, const MeshOverrides& overrides,
                                            const MeshRecord* orbit, MeshRecord& record) {
         record = new_record();
-        contact_->ask_for_steps(record);
+        size_step_states(this->plan_, W, record);
         march(k, overrides, record);
         return contact_->least_pressing(record, overrides.gaps, orbit);
     }
@@ -53,7 +54,7 @@ class ComposedTile : MarchedTile<W> {
             MeshRecord& record = part.records.emplace_back();
             part.pressing.push_back(
                 march_part_mesh(k, {{}, tooth_gaps(plan_, errors, k)}, &whole.orbit, record));
-            record.step_states = {};
+            machine::AlignedVector().swap(record.step_states);
         }
         for (int l = 0; l < W; ++l) {
             periodic[static_cast<std::size_t>(l)] =
@@ -64,8 +65,8 @@ class ComposedTile : MarchedTile<W> {
         return part;
     }
 
-    // The orbit to which parts can be added; none if no lane may be superposed, or keeps contact in
-    // the orbit itself.
+    // Integrates the periodic orbit to which the parts are added. Returns nothing if no lane may be
+    // superposed, or if no lane keeps contact on the orbit itself.
     std::optional<Composition> march_orbit() {
         Composition whole;
         whole.orbit_state = orbit_;
@@ -93,7 +94,8 @@ class ComposedTile : MarchedTile<W> {
                (settings_.compose_faulty || !faulty(lane));
     }
 
-    // The mesh periods of the span: superposed in lanes that keep contact, else integrated in full.
+    // Computes the mesh periods of the span: superposed in lanes that keep contact, fully
+    // integrated in the others.
     void march_composed() {
         result_.composed.assign(W, false);
         std::optional<Composition> orbit = march_orbit();
@@ -154,8 +156,8 @@ class ComposedTile : MarchedTile<W> {
         }
     }
 
-    // Integrates the perturbation due to faults in superposed lanes, mesh period by mesh period
-    // from the first of the run-in.
+    // Perturbation due to faults in superposed lanes, integrated mesh period by mesh period from
+    // the start of the run-in.
     class Changes {
       public:
         Changes(ComposedTile& tile, const Composition& whole, const LaneMask<W>& kept)
@@ -165,7 +167,8 @@ class ComposedTile : MarchedTile<W> {
               record_(tile.new_record()),
               healthy_(tile.state_) {}
 
-        // Changes the record of mesh k; null during the run-in.
+        // Replaces the perturbed lanes in the record of mesh period k; `into` is null during the
+        // run-in.
         void change(int k, MeshRecord* into) {
             const LaneMask<W> quiet = leave(k);
             if (std::ranges::none_of(away_, std::identity())) {
@@ -182,7 +185,8 @@ class ComposedTile : MarchedTile<W> {
         }
 
       private:
-        // Marks lanes as perturbed where a fault passes; returns those that were not before.
+        // Marks lanes as perturbed if a fault passes in mesh period k. Returns the lanes that were
+        // unperturbed before.
         LaneMask<W> leave(int k) {
             const bool passes = tile_.schedule_.passes(k);
             LaneMask<W> quiet;
@@ -214,7 +218,8 @@ class ComposedTile : MarchedTile<W> {
         LaneMask<W> away_{};
     };
 
-    // Records the signals of lanes that all keep contact.
+    // Passes superposed mesh periods to the callback settings_.hear without keeping them; requires
+    // that all lanes keep contact.
     void hear_composed(const Composition& whole, const LaneMask<W>& kept) {
         Changes changes(*this, whole, kept);
         MeshRecord composed = new_record();

@@ -13,7 +13,7 @@ std::size_t place(int k, std::size_t period) {
 void add_up(std::span<const machine::AlignedVector* const> parts, machine::AlignedVector& sum) {
     const std::size_t size = sum.size();
     double* __restrict out = sum.data();
-    if (parts.size() == 3) {  // a planetary train's: read and written once
+    if (parts.size() == 3) {  // a planetary train: one pass over memory
         const double* __restrict a = parts[0]->data();
         const double* __restrict b = parts[1]->data();
         const double* __restrict c = parts[2]->data();
@@ -89,6 +89,7 @@ void Composition::record(int k, MeshRecord& record) const {
     one(&MeshRecord::te);
     if (!record.motion.empty()) {
         one(&MeshRecord::motion);
+        one(&MeshRecord::mesh_force);
     }
 }
 
@@ -112,6 +113,7 @@ void Composition::take_orbit_once() {
             subtract(orbit.te, record.te);
             if (!record.motion.empty()) {
                 subtract(orbit.motion, record.motion);
+                subtract(orbit.mesh_force, record.mesh_force);
             }
         }
         for (TileState& state : parts[s].states) {

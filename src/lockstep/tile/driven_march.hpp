@@ -1,5 +1,5 @@
-// Marches W gearboxes that are driven unevenly (excitation.hpp) through one mesh period after the
-// other.
+// Integrates W gearboxes under a time-varying excitation (excitation.hpp), one mesh period at a
+// time.
 #pragma once
 
 #include <memory>
@@ -15,19 +15,19 @@ template <int W>
 class DrivenMarch {
   public:
     virtual ~DrivenMarch() = default;
-    // Marches `state` through mesh period `mesh` and records it. `record` must have its sizes
-    // (make_record). Mesh periods of which one is marched after the other must ascend by one, or
-    // time does not run on (ExcitationRows::fill).
+    // Integrates `state` over mesh period `mesh` and records it. `record` must have its sizes
+    // (make_record). Consecutive calls must have consecutive values of `mesh`; otherwise time does
+    // not continue (ExcitationRows::fill).
     virtual void operator()(int mesh, const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) = 0;
 };
 
-// Whether kernels exist: doubles by rk4 or sdirk3; where the speed fluctuates by rk4, with a node
-// on every sample.
+// True if kernels exist. Time-varying forces need double precision and rk4 or sdirk3. Variable
+// speed needs rk4 and a step boundary on every sample.
 bool can_be_driven(const MarchPlan& plan, const Excitation& excitation);
 
 // `inputs` holds W gearboxes of the plan's kind. Plan and excitation must outlive the result.
-// Throws std::invalid_argument where kernels are missing.
+// Throws std::invalid_argument if there is no kernel.
 template <int W>
 std::unique_ptr<DrivenMarch<W>> make_driven_march(const MarchPlan& plan,
                                                   const Excitation& excitation,

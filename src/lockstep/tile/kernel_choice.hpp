@@ -1,4 +1,4 @@
-// Which kernel marches a tile of the plan's gearboxes, and the lanes that it takes.
+// Chooses the kernel that integrates a tile of the plan's gearboxes, and makes the lanes it takes.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,15 @@
 
 namespace gearpod::lockstep {
 
-// Of so many lanes, for the instruction set in use. Throws NoSuchKernel.
+// Kernel with this number of lanes for the active instruction set. Throws NoSuchKernel.
 template <class Lanes>
 MarchKernel<Lanes>* choose_kernel(const MarchPlan& plan, Drive drive, Moving moving, int lanes) {
     return kernel_table().find<Lanes>({plan.integrator, plan.mesh_law, drive, plan.precision,
                                        machine::active_instruction_set(), moving, lanes});
 }
 
-// Calls use(lanes, moving) with what the plan's integrator marches. `inputs` holds W gearboxes of
-// the plan's kind.
+// Calls use(lanes, moving) with the lanes and the model for the plan's integrator. `inputs` holds W
+// gearboxes of the plan's kind.
 template <int W, class Real, class Use>
 auto with_lanes(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs, Use&& use) {
     const IntegratorFacts& integrator = facts(plan.integrator);

@@ -1,5 +1,5 @@
-// A tile during integration: its state, its records, the integration until the periodic orbit is
-// reached, and that of every mesh period of the span.
+// Tile during time integration: its state and records, the integration to the periodic orbit, and
+// the integration of every mesh period of the span.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/tile/driven_march.hpp"
+#include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_lanes.hpp"
@@ -37,12 +38,15 @@ class MarchedTile {
             contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
             apart_.assign(static_cast<std::size_t>(plan.nodes.pairs) * W, 0.0);
         }
+        if (settings_.with_motion) {
+            mesh_forces_.emplace(plan, inputs);
+        }
         result_.status.assign(W, LaneStatus::ok);
         result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
     }
 
   protected:
-    // A motion larger than this has diverged.
+    // A larger motion counts as diverged.
     static constexpr double kDivergedMotion_m = 1.0;
 
     bool faulty(int lane) const {
@@ -65,29 +69,24 @@ class MarchedTile {
 
     // Integrates mesh period `mesh` under its input excitation.
     void march(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
-        if (driven_ != nullptr) {
-            (*driven_)(mesh, overrides, state_, record);
-        } else {
-            (*march_mesh_)(overrides, state_, record);
-        }
-        after_mesh();
+        integrate(driven_ != nullptr, mesh, overrides, record);
     }
 
-    // The same of mesh k of the span, whose contact loss counts in the lanes of the mask.
+    // Same for mesh period k of the span; also adds the contact loss of the lanes in the mask.
     void march_counting(int k, const MeshOverrides& overrides, MeshRecord& record,
                         const LaneMask<W>& lanes) {
-        if (!contact_ || k < 0 || !counts_contact(k)) {
+        if (!contact_ || k < 0 || !counts_contact(k, settings_.contact_meshes)) {
             march(k, overrides, record);
             return;
         }
         record.step_states.swap(step_states_);
-        contact_->ask_for_steps(record);
+        size_step_states(plan_, W, record);
         march(k, overrides, record);
         contact_->add_time_apart(record, overrides.gaps, lanes, apart_);
         record.step_states.swap(step_states_);
     }
 
-    // Clears the counts of superposed lanes, whose tooth pairs do not part.
+    // Clears the contact loss of superposed lanes, whose tooth pairs never separate.
     void forget_contact(const LaneMask<W>& lanes) {
         for (int l = 0; l < W; ++l) {
             if (lanes[static_cast<std::size_t>(l)]) {
@@ -96,7 +95,7 @@ class MarchedTile {
         }
     }
 
-    // Sets TileResult::contact_loss from so many counted mesh periods; NaN in diverged lanes.
+    // Sets TileResult::contact_loss from this many counted mesh periods; NaN in diverged lanes.
     void add_contact_loss(int meshes) {
         if (!contact_) {
             return;
@@ -112,16 +111,16 @@ class MarchedTile {
         }
     }
 
-    // The same after integrating the mesh periods of the span.
+    // Same, after integrating the mesh periods of the span.
     void add_contact_loss_of_span() {
         int meshes = 0;
         for (int k = 0; k < settings_.march_meshes; ++k) {
-            meshes += counts_contact(k) ? 1 : 0;
+            meshes += counts_contact(k, settings_.contact_meshes) ? 1 : 0;
         }
         add_contact_loss(meshes);
     }
 
-    // The same for the healthy mesh period that repeats, which is integrated once more.
+    // Same for the healthy mesh period that repeats; integrates it once more.
     void add_contact_loss_of_orbit() {
         if (!contact_) {
             return;
@@ -129,7 +128,7 @@ class MarchedTile {
         LaneMask<W> all;
         all.fill(true);
         MeshRecord record = new_record();
-        contact_->ask_for_steps(record);
+        size_step_states(plan_, W, record);
         state_ = orbit_;
         march_settling(record);
         state_ = orbit_;
@@ -137,17 +136,30 @@ class MarchedTile {
         add_contact_loss(1);
     }
 
-    // Integrates a healthy mesh period that is like all others.
+    // Integrates a healthy mesh period under an excitation that repeats every mesh period.
     void march_settling(MeshRecord& record) {
-        if (driven_ != nullptr && settings_.excitation->repeats()) {
-            (*driven_)(0, {}, state_, record);
-        } else {
-            (*march_mesh_)({}, state_, record);
-        }
-        after_mesh();
+        integrate(driven_ != nullptr && settings_.excitation->repeats(), 0, {}, record);
     }
 
-    void after_mesh() {
+    // Integrates a mesh period, under the time-varying excitation if `excited`, and records the
+    // mesh forces if requested.
+    void integrate(bool excited, int mesh, const MeshOverrides& overrides, MeshRecord& record) {
+        const bool sized = !record.step_states.empty();
+        if (mesh_forces_ && !sized) {
+            record.step_states.swap(step_states_);
+            size_step_states(plan_, W, record);
+        }
+        if (excited) {
+            (*driven_)(mesh, overrides, state_, record);
+        } else {
+            (*march_mesh_)(overrides, state_, record);
+        }
+        if (mesh_forces_) {
+            mesh_forces_->write(overrides, record);
+            if (!sized) {
+                record.step_states.swap(step_states_);
+            }
+        }
         ++result_.marched;
         rotation_.remove(state_);
     }
@@ -155,11 +167,12 @@ class MarchedTile {
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
 
     // Distance of two states relative to the motion. Velocities are weighted at the sensor's band
-    // edge, filtered accelerations by the largest recorded one.
+    // edge, and filtered accelerations by the largest recorded one.
     double distance(const TileState& a, const TileState& b, const MeshRecord& record,
                     int lane) const {
         const double scale = largest<W>(b.q, lane);
-        // Where the sensor sees next to nothing, rounding must not count as motion.
+        // Lower bound of the scale, so that rounding does not count as motion where the sensor
+        // signal is nearly zero.
         const double acceleration =
             std::max(largest<W>(record.acceleration, lane),
                      0.01 * scale * plan_.low_pass_rad_s * plan_.low_pass_rad_s);
@@ -167,7 +180,7 @@ class MarchedTile {
         const double dv = largest_difference<W>(a.v, b.v, lane) / plan_.low_pass_rad_s;
         double df = 0.0;
         for (std::size_t i = static_cast<std::size_t>(lane); i < a.filter.size();
-             i += 2 * W) {  // the sections' outputs; their rates follow
+             i += 2 * W) {  // outputs of the filter sections; their rates follow
             df = std::max(df, std::abs(a.filter[i] - b.filter[i]));
         }
         const double motion = scale > 0.0 ? std::max(dq, dv) / scale : 0.0;
@@ -180,20 +193,22 @@ class MarchedTile {
                !std::isfinite(largest<W>(state_.filter, lane));
     }
 
-    // Takes a diverged lane out of the integration: its records become NaN, its state zero.
+    // Removes a diverged lane from the integration: sets its records to NaN and its periodic orbit
+    // to zero.
     void retire(int lane) {
         result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {
             fill_lane<W>(record.acceleration, lane, NAN);
             fill_lane<W>(record.te, lane, NAN);
             fill_lane<W>(record.motion, lane, NAN);
+            fill_lane<W>(record.mesh_force, lane, NAN);
         }
         fill_lane<W>(orbit_.q, lane, 0.0);
         fill_lane<W>(orbit_.v, lane, 0.0);
         fill_lane<W>(orbit_.filter, lane, 0.0);
     }
 
-    // Marks lanes that did not return to their orbit within the allowed mesh periods.
+    // Sets the status of lanes that did not converge to their periodic orbit within max_meshes.
     void mark_unsettled(const std::array<bool, W>& settled) {
         for (std::size_t l = 0; l < W; ++l) {
             if (!settled[l]) {
@@ -202,7 +217,7 @@ class MarchedTile {
         }
     }
 
-    // Integrates until every lane's mesh period repeats the one before, and keeps that one.
+    // Integrates until the mesh period of every lane repeats the previous one, and keeps that one.
     void settle() {
         result_.records.push_back(new_record());
         orbit_ = state_;
@@ -234,7 +249,8 @@ class MarchedTile {
             }
         }
         settled_ = settled;
-        // Teeth that separate may move without ever repeating; marched mesh by mesh they need not.
+        // Separating teeth need not have a periodic motion, and full integration does not require
+        // one.
         const bool may_wander = settings_.march_meshes > 0 && dynamics::separates(plan_.mesh_law);
         if (!may_wander) {
             mark_unsettled(settled);
@@ -242,7 +258,7 @@ class MarchedTile {
         state_ = orbit_;
     }
 
-    // Adds the record of mesh k of the span.
+    // Appends the record of mesh period k of the span.
     MeshRecord& add_record(int k) {
         result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
         return result_.records.emplace_back(new_record());
@@ -253,7 +269,8 @@ class MarchedTile {
             .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
     }
 
-    // Integrates every mesh period of the span, into a record of its own or for settings_.hear.
+    // Integrates every mesh period of the span. Each goes into its own record, or to settings_.hear
+    // if `heard`.
     void march_everything(bool heard) {
         MeshRecord unkept = new_record();
         const auto keep_state = [&] {
@@ -279,7 +296,7 @@ class MarchedTile {
         }
     }
 
-    // Hands the kept records to settings_.hear.
+    // Passes the kept records to settings_.hear and discards them.
     void hear_records() {
         for (int k = 0; k < settings_.march_meshes; ++k) {
             settings_.hear(k, record_of(k));
@@ -293,14 +310,16 @@ class MarchedTile {
     FaultSchedule schedule_;
     const TileSettings& settings_;
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
-    const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
+    const std::unique_ptr<DrivenMarch<W>> driven_;  // null for a steady excitation
     const RigidRotation rotation_;
-    std::optional<ToothContact> contact_;  // where teeth can part
-    machine::AlignedVector apart_;         // ToothContact::add_time_apart of the counted meshes
-    machine::AlignedVector step_states_;   // MeshRecord::step_states of these
+    std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
+    std::optional<ToothContact> contact_;       // present if teeth can separate
+    // sums of ToothContact::add_time_apart over the counted mesh periods
+    machine::AlignedVector apart_;
+    machine::AlignedVector step_states_;  // MeshRecord::step_states of the counted mesh periods
     TileState state_;
-    TileState orbit_;        // the healthy orbit at an integer phase
-    LaneMask<W> settled_{};  // on that orbit
+    TileState orbit_;        // healthy periodic orbit at an integer phase
+    LaneMask<W> settled_{};  // lanes that converged to that orbit
     TileResult result_;
 };
 

@@ -1,5 +1,5 @@
-// Marches W gearboxes through one mesh period after the other: an integrator together with the
-// parameters of its gearboxes.
+// Integrates W gearboxes over one mesh period at a time: an integrator together with the parameters
+// of its gearboxes.
 #pragma once
 
 #include <memory>
@@ -10,18 +10,18 @@
 
 namespace gearpod::lockstep {
 
-// Immutable.
+// Immutable; may be used by several threads.
 template <int W>
 class MeshMarch {
   public:
     virtual ~MeshMarch() = default;
-    // Marches `state` through one mesh period that begins at an integer phase and records it.
+    // Integrates `state` over one mesh period that starts at an integer phase, and records it.
     // `record` must have its sizes (make_record).
     virtual void operator()(const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) const = 0;
 };
 
-// The march that the plan's gearbox kind, effects and integrator call for. `inputs` holds W
+// Makes the kernel call for the plan's gearbox kind, effects and integrator. `inputs` holds W
 // gearboxes of the plan's kind. The plan must outlive the result. Throws std::invalid_argument for
 // single precision with an integrator that has no such kernels, and for W = 16 in double precision.
 template <int W>

@@ -9,6 +9,7 @@
 
 #include "lockstep/driven/driven_forces.hpp"
 #include "lockstep/driven/excitation_rows.hpp"
+#include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/static_lanes.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
 #include "machine/stop.hpp"
@@ -30,7 +31,8 @@ double largest_stiffness(const StiffnessNodes& nodes) {
     return *std::max_element(nodes.stiffness.begin(), nodes.stiffness.end());
 }
 
-// Springs of a pair under unilateral contact: one that carries all where single teeth are unknown.
+// Springs per pair under unilateral contact; a single one carries the whole load if tooth pairs are
+// not resolved.
 int contacts_of(const MarchPlan& plan) {
     return plan.mesh_law == dynamics::MeshLaw::unilateral ? std::max(1, plan.nodes.contacts()) : 0;
 }
@@ -54,6 +56,9 @@ class QuasiStatic {
             contact_time_.engaged.assign(pairs, 0.0);
             contact_time_.apart.assign(pairs * W, 0.0);
         }
+        if (settings_.with_motion) {
+            mesh_forces_.emplace(plan, inputs);
+        }
         result_.status.assign(W, LaneStatus::ok);
         drive(inputs);
         if (plan.grid.stage_nodes.front() != 0.0) {
@@ -68,8 +73,8 @@ class QuasiStatic {
         add_record(0, {}, !one_by_one);
         if (one_by_one) {
             for (int k = 0; k < settings_.march_meshes; ++k) {
-                result_.content.push_back(
-                    add_record(k, schedule_.all_overrides(k), counts_contact(k)));
+                result_.content.push_back(add_record(k, schedule_.all_overrides(k),
+                                                     counts_contact(k, settings_.contact_meshes)));
             }
         } else {
             solve_pattern();
@@ -123,7 +128,7 @@ class QuasiStatic {
             state_.tooth_e[i] =
                 plan_.nodes.tooth_gap.empty() ? 0.0 : plan_.nodes.tooth_gap[first + i / W];
         }
-        if (known == 0) {  // one carries all
+        if (known == 0) {  // one spring carries the whole load
             std::copy(state_.k.begin(), state_.k.end(), state_.tooth_k.begin());
             std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
         }
@@ -154,7 +159,7 @@ class QuasiStatic {
         }
     }
 
-    // [contact][pair][lane]
+    // Row of one spring in [contact][pair][lane].
     template <class Rows>
     double* tooth_row(Rows& rows, std::size_t slot, int pair) const {
         return rows.data() + (slot * static_cast<std::size_t>(plan_.nodes.pairs) +
@@ -162,7 +167,7 @@ class QuasiStatic {
                                  W;
     }
 
-    // The varying forces; there is no speed for inertia to feel.
+    // Sets up the time-varying forces; without inertia there is no effect of the speed.
     void drive(std::span<const dynamics::GearboxInputs> inputs) {
         if (settings_.excitation == nullptr) {
             return;
@@ -188,7 +193,8 @@ class QuasiStatic {
         }
     }
 
-    // `counted`: adds the mesh period to the contact loss.
+    // Solves and records one mesh period, and returns the index of its record. `counted` adds it to
+    // the contact loss.
     int add_record(int mesh, const MeshOverrides& overrides, bool counted) {
         machine::leave_if_stopped();
         if (rows_ != nullptr) {
@@ -204,6 +210,10 @@ class QuasiStatic {
                 load_forces(i);
                 solve_static(lanes_, state_);
                 write(static_cast<std::size_t>(sample), record);
+                if (mesh_forces_) {
+                    mesh_forces_->at(i, overrides, state_.q, std::vector<double>(state_.q.size()),
+                                     record.mesh_force.data() + sample * plan_.nodes.pairs * W);
+                }
                 note_status();
                 if (counted && contact_) {
                     contact_->add_position(i, state_.q, overrides.gaps, 1.0 / plan_.grid.samples,
@@ -251,7 +261,7 @@ class QuasiStatic {
                 result_.contact_loss[i] = NAN;
             }
             for (MeshRecord& record : result_.records) {
-                for (auto* values : {&record.te, &record.motion}) {
+                for (auto* values : {&record.te, &record.motion, &record.mesh_force}) {
                     for (std::size_t i = l; i < values->size(); i += W) {
                         (*values)[i] = NAN;
                     }
@@ -266,10 +276,11 @@ class QuasiStatic {
     const TileSettings& settings_;
     StaticLanes<W> lanes_;
     const machine::AlignedVector steady_force_;
-    DrivenForces<W> forces_;                // only with
+    DrivenForces<W> forces_;                // used only with
     std::unique_ptr<ExcitationRows> rows_;  // an excitation
     StaticState<W> state_;
-    std::optional<ToothContact> contact_;  // where teeth can part
+    std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
+    std::optional<ToothContact> contact_;       // present if teeth can separate
     ContactTime contact_time_;
     TileResult result_;
 };

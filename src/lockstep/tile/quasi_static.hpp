@@ -1,19 +1,19 @@
-// A tile of W gearboxes without inertia: the static equilibrium K(phase) q = f at every sample. It
-// remembers nothing, so that a mesh period depends only on the teeth that touch in it: one healthy
-// record, and one for each mesh of the pattern in which a fault passes.
+// Quasi-static tile: W gearboxes without inertia, in static equilibrium K(phase) q = f at every
+// sample. It has no memory, so a mesh period depends only on the teeth engaged in it. There is one
+// healthy record, and one for each mesh period of the pattern in which a fault passes.
 //
-// Records hold the transmission error and, if asked for, the motion. They have no acceleration: a
-// body that moves without inertia shakes no sensor.
+// Records hold the transmission error and, if requested, the motion. They have no acceleration,
+// because a model without inertia has no vibration to measure.
 #pragma once
 
 #include "lockstep/tile/tile.hpp"
 
 namespace gearpod::lockstep {
 
-// Takes what run_tile takes. The free rigid rotation is left out. A lane whose load meets no
-// stiffness (all teeth that could carry it broken) has no equilibrium: `diverged`, its records say
-// NaN. One whose contacts open and close without end is `unsettled`. The centrifugal pull of the
-// layout's inertial terms counts as a load.
+// Takes the same arguments as run_tile. The free rigid rotation is omitted. A lane whose load meets
+// no stiffness (all teeth that could carry it are broken) has no equilibrium: it is `diverged` and
+// its records are NaN. A lane whose contacts keep opening and closing is `unsettled`. The
+// centrifugal force of the layout's inertial terms counts as a load.
 template <int W>
 TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                             const FaultCurves& faults, const TileSettings& settings);

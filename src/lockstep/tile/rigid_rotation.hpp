@@ -1,5 +1,5 @@
-// The free rotation of a tile's gearboxes as a whole: no spring holds it, so it drifts with every
-// rounding and says nothing about vibration.
+// Free rotation of a gearbox as a rigid body. No spring constrains it, so it drifts with rounding
+// errors, and it does not affect vibration.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,24 +13,25 @@ namespace gearpod::lockstep {
 
 class RigidRotation {
   public:
-    // `inputs`: one gearbox a lane.
+    // `inputs` has one gearbox per lane.
     RigidRotation(const dynamics::GearboxLayout& layout,
                   std::span<const dynamics::GearboxInputs> inputs);
 
-    // Takes it out of positions and velocities.
+    // Removes the rotation from positions and velocities.
     void remove(TileState& state) const;
 
   private:
     void remove(machine::AlignedVector& motion) const;
 
     Eigen::VectorXd turn_;
-    std::vector<Eigen::VectorXd> weight_;  // a lane's phi M / phi M phi: measures it in a motion
+    // per lane: phi M / phi M phi, projects a motion onto the rotation
+    std::vector<Eigen::VectorXd> weight_;
 };
 
-// Neither displaced nor moving, the sensor's filter at rest.
+// State with zero displacement and velocity, and the sensor's filter at rest.
 TileState still_state(std::size_t degrees, int channels, std::size_t lanes);
 
-// Static equilibrium under the load at phase 0, the sensor's filter at rest.
+// Static equilibrium under the load at phase 0, with the sensor's filter at rest.
 TileState rest_state(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
 
 }  // namespace gearpod::lockstep

@@ -7,19 +7,21 @@
 namespace gearpod::lockstep {
 namespace {
 
-// A pivot below this part of its diagonal is rounding: nothing holds that motion.
+// A smaller pivot, relative to its diagonal, is rounding error: no stiffness constrains that
+// motion.
 constexpr double kNoPivot = 1e-12;
-// A load below this part of the largest one is rounding.
+// A smaller load, relative to the largest one, is rounding error.
 constexpr double kNoLoad = 1e-6;
-// Share of its stiffness that a mesh out of contact keeps: a planet between two gaps then rests between
-// them, and its contacts close when the gaps do. Its force is a billionth of a contact's.
+// Fraction of the stiffness that a mesh keeps when out of contact. A planet between two gaps then
+// rests between them, and its contacts close when the gaps do. The resulting force is a billionth
+// of a contact force.
 constexpr double kOpenMesh = 1e-9;
 // Larger than any gap, m.
 constexpr double kNoGap = 1.0;
-// Contacts change a few times until they fit the load.
+// Iteration limit; contacts usually change only a few times before they match the load.
 constexpr int kMostChanges = 60;
 
-// Meshes as springs on d - preload: all in contact on their front flanks.
+// Starts with all meshes in contact on their front flanks, as springs on d - preload.
 template <int W>
 GEARPOD_INLINE void close_contacts(StaticState<W>& s) {
     const int size = static_cast<int>(s.k.size());
@@ -29,7 +31,7 @@ GEARPOD_INLINE void close_contacts(StaticState<W>& s) {
     }
 }
 
-// K with the meshes held, and f with their preloads.
+// Assembles K with the current contacts, and f with their preloads.
 template <int W>
 GEARPOD_INLINE void assemble_equations(const StaticLanes<W>& lanes, StaticState<W>& s) {
     std::copy(lanes.stiffness.begin(), lanes.stiffness.end(), s.factor.begin());
@@ -58,7 +60,8 @@ GEARPOD_INLINE void assemble_equations(const StaticLanes<W>& lanes, StaticState<
     }
 }
 
-// K = L D L^T in place, rows of L below the diagonal; 1 / D, or 0 for a motion that nothing holds.
+// Factors K = L D L^T in place (rows of L below the diagonal). `inverse` is 1 / D, or 0 for an
+// unconstrained motion.
 template <int W>
 GEARPOD_INLINE void factorise(int n, double* __restrict factor, double* __restrict inverse) {
     for (int i = 0; i < n; ++i) {
@@ -140,7 +143,7 @@ GEARPOD_INLINE void substitute(const StaticLanes<W>& lanes, StaticState<W>& s) {
     }
 }
 
-// A pair of which one flank or the other touches, or none.
+// Updates a pair that touches on its front flank, on its back flank, or not at all.
 template <int W>
 GEARPOD_INLINE void change_contact(const double* __restrict d, const StaticLanes<W>& lanes,
                                    int pair, StaticState<W>& s) {
@@ -163,7 +166,8 @@ GEARPOD_INLINE void change_contact(const double* __restrict d, const StaticLanes
     }
 }
 
-// Unilateral contact of a pair; a pair out of contact gets the smallest gap of its springs.
+// Updates a pair with unilateral contact. A pair out of contact gets the smallest gap of its
+// springs as preload.
 template <int W>
 GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W>& lanes, int pair,
                                  StaticState<W>& s) {
@@ -205,7 +209,7 @@ GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W
     }
 }
 
-// Opens and closes contacts by the deflections; says which lanes had to.
+// Opens and closes contacts according to the deflections; marks the lanes that changed.
 template <int W>
 GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>& s) {
     double* __restrict restless = s.restless.data();

@@ -10,8 +10,9 @@
 namespace gearpod::lockstep {
 namespace {
 
-// Inertia is left out, so the matrices' centrifugal terms are not part of it; the pull that turns
-// with the carrier is in the force and stays.
+// Stiffness without the matrices' centrifugal terms, because inertia is omitted, plus a spring on
+// the rigid rotation. The centrifugal force that rotates with the carrier is part of the load and
+// remains.
 Eigen::MatrixXd held_stiffness(const dynamics::GearboxMatrices& m, const Eigen::VectorXd& turn,
                                double mesh_stiffness_N_m) {
     const double size = std::max(m.stiffness.diagonal().maxCoeff(), mesh_stiffness_N_m);

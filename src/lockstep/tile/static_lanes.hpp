@@ -18,14 +18,14 @@ struct StaticLanes {
     // Deflection of pair p: the sum of weight[i] q[motion[i]] over first[p] <= i < first[p + 1].
     std::vector<int> first, motion;
     std::vector<double> weight;
-    // Stiffness without the meshes, lower triangle [row (row + 1) / 2 + column][lane]. The free
-    // rigid rotation phi is held by a spring on phi . q, which a balanced load leaves at zero.
+    // Stiffness without the meshes, lower triangle [row (row + 1) / 2 + column][lane]. A spring on
+    // phi . q constrains the free rigid rotation phi; a balanced load leaves it at zero.
     machine::AlignedVector stiffness;
     machine::AlignedVector force;       // [degree of freedom][lane], N
-    machine::AlignedVector force_size;  // [lane]: the largest of them
+    machine::AlignedVector force_size;  // [lane]: largest absolute entry of the force
     machine::AlignedVector backlash;    // [lane], m
     bool separating = false;
-    int contacts = 0;  // springs of a pair under unilateral contact
+    int contacts = 0;  // springs per pair under unilateral contact
 };
 
 template <int W>
@@ -46,7 +46,7 @@ extern template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayou
                                                     std::span<const dynamics::GearboxInputs>,
                                                     double, int);
 
-// Meshes at one phase, the solution, and room to find it.
+// Meshes at one phase, the solution, and workspace.
 template <int W>
 struct StaticState {
     explicit StaticState(const StaticLanes<W>& lanes);
@@ -54,10 +54,10 @@ struct StaticState {
     // Springs under unilateral contact, [contact][pair][lane], N/m and m.
     machine::AlignedVector tooth_k, tooth_e;
     machine::AlignedVector q;  // [degree of freedom][lane], m
-    // [lane], 1 or 0: some load meets no stiffness; the contacts did not come to rest.
+    // [lane], 1 or 0. loose: a load meets no stiffness. restless: the contacts did not converge.
     machine::AlignedVector loose, restless;
 
-    machine::AlignedVector held, preload;                // [pair][lane] in contact
+    machine::AlignedVector held, preload;                // [pair][lane], of the current contacts
     machine::AlignedVector factor, inverse, right_hand;  // of the equations
 };
 
@@ -65,9 +65,9 @@ extern template struct StaticState<1>;
 extern template struct StaticState<4>;
 extern template struct StaticState<8>;
 
-// Solves for state.q with state.k and state.e. A body that no stiffness holds and no load moves
-// stays where it is, at zero; a load that meets no stiffness marks its lane `loose`, whose q is of
-// no use then. Lanes never mix.
+// Solves for state.q from state.k and state.e. A body without stiffness and without load stays at
+// zero. A load that meets no stiffness marks its lane `loose`, and its q is then invalid. Lanes do
+// not affect each other.
 void solve_static_1(const StaticLanes<1>& lanes, StaticState<1>& state);
 void solve_static_4(const StaticLanes<4>& lanes, StaticState<4>& state);
 void solve_static_8(const StaticLanes<8>& lanes, StaticState<8>& state);

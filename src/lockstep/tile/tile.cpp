@@ -38,7 +38,7 @@ class TileMarch : MarchedTile<W> {
         Base::march_everything, Base::mark_unsettled, Base::new_record, Base::orbit_, Base::result_,
         Base::retire, Base::schedule_, Base::settings_, Base::settle, Base::state_;
 
-    // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
+    // Integrates one mesh period of the pattern; quiet lanes stay on their periodic orbit.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,
                             const std::array<bool, W>& finished) {
         const std::vector<PairOverride> passages = schedule_.overrides(k);
@@ -78,8 +78,8 @@ class TileMarch : MarchedTile<W> {
         copy_lanes<W>(orbit_, state_, quiet);
     }
 
-    // Marches the pattern from the healthy orbit; where a disturbance outlives the pattern, again
-    // from its own end, until that repeats.
+    // Integrates the pattern from the healthy periodic orbit. If a perturbation lasts longer than
+    // the pattern, repeats it from its end state until the pattern itself repeats.
     void march_pattern() {
         const int length = faults_.pattern.length;
         result_.content.assign(static_cast<std::size_t>(length), 0);
@@ -109,7 +109,8 @@ class TileMarch : MarchedTile<W> {
         mark_unsettled(finished);
     }
 
-    // From the healthy march's states: what a fault's passages change, until it has decayed.
+    // Integrates the perturbation due to the fault's passages from the healthy solution's states,
+    // until it has decayed.
     void march_changes() {
         MeshRecord unseen = new_record();
         bool away = false;

@@ -1,9 +1,10 @@
-// A tile of W gearboxes from rest to everything their sensors will see: the healthy orbit, marched
-// until it repeats, and the fault's passage, marched until the orbit is back.
+// Integration of a tile of W gearboxes from rest: first to the healthy periodic orbit, then through
+// the fault's passage until the motion returns to that orbit.
 //
-// A linear train under steady load and speed settles on an orbit that repeats every mesh period. A
-// faulty tooth disturbs it and the disturbance decays. So a few recorded mesh periods, arranged by
-// `Pattern`, stand for the Z_p Z_r meshes that windowing looks at. Horizon::march marches them all.
+// A linear train under steady load and speed converges to an orbit that repeats every mesh period.
+// A faulty tooth perturbs it and the perturbation decays. A few recorded mesh periods, arranged by
+// `Pattern`, therefore represent all Z_p Z_r mesh periods that windowing uses. Horizon::march
+// integrates all of them.
 #pragma once
 
 #include <span>
@@ -14,8 +15,9 @@
 namespace gearpod::lockstep {
 
 // `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
-// one. A lane's result never depends on its neighbours. Tiles of 16 march in single precision.
-// Throws std::invalid_argument for an excitation that the settings or the plan cannot march.
+// gearbox. A lane's result never depends on the other lanes. Tiles of 16 lanes are integrated in
+// single precision. Throws std::invalid_argument if the settings or the plan do not support the
+// excitation.
 template <int W>
 TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings);

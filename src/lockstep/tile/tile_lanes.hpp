@@ -1,4 +1,4 @@
-// Single lanes of a tile's arrays, whose last index is the lane.
+// Access to single lanes of a tile's arrays, whose last index is the lane.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace gearpod::lockstep {
 template <int W>
 using LaneMask = std::array<bool, W>;
 
-// Values of a lane: for (i = lane; ...; i += W).
+// Sets all values of a lane (indices lane, lane + W, ...).
 template <int W>
 void fill_lane(machine::AlignedVector& values, int lane, double value) {
     for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
@@ -54,6 +54,7 @@ void copy_lanes(const MeshRecord& from, MeshRecord& to, const LaneMask<W>& lanes
     copy_lanes<W>(from.acceleration, to.acceleration, lanes);
     copy_lanes<W>(from.te, to.te, lanes);
     copy_lanes<W>(from.motion, to.motion, lanes);
+    copy_lanes<W>(from.mesh_force, to.mesh_force, lanes);
 }
 
 template <int W>

@@ -12,51 +12,59 @@ namespace gearpod::lockstep {
 enum class LaneStatus { ok, diverged, unsettled };
 
 struct TileSettings {
-    double tolerance = 1e-10;  // of the state, relative, when orbit or decay count as reached
-    int max_meshes = 200;      // of one approach to the orbit or of one decay
-    int march_meshes = 0;      // 0: reuse; else: record so many meshes one by one
-    // Marched before them: with tooth errors, or an excitation that does not repeat, there is no
-    // orbit to start from; the tile starts from the one without.
+    double tolerance = 1e-10;  // relative, of the state; criterion for convergence and decay
+    int max_meshes = 200;      // limit for convergence to the periodic orbit, or for one decay
+    int march_meshes = 0;      // 0: reuse the periodic orbit; otherwise: record this many
+    // Mesh periods integrated before the recorded ones. With tooth errors, or an excitation that
+    // does not repeat, no periodic orbit exists to start from. The tile then starts from the
+    // periodic orbit without them.
     int run_in_meshes = 0;
-    // Of lanes whose tooth pairs all stay in contact: compose those meshes of what each gear's
-    // errors do (composition.hpp). Only with tooth errors, driven evenly.
+    // Superposes the mesh periods of lanes whose tooth pairs all stay in contact from the effects
+    // of each gear's errors (composition.hpp). Requires tooth errors and a steady excitation.
     bool compose = false;
-    // Lanes with a fault too: what its passages change is marched from the composed states.
+    // Also superposes lanes with a fault; the perturbation due to its passages is integrated from
+    // the superposed states.
     bool compose_faulty = false;
-    bool with_motion = false;
-    // Of meshes that are marched one by one: keep the state at the beginning of each.
+    bool with_motion = false;  // also records motions and mesh forces
+    // Number of mesh periods, from the first, in which contact loss is counted; 0: one in
+    // kContactMeshes.
+    int contact_meshes = 0;
+    // Keeps the state at the start of each fully integrated mesh period.
     bool keep_states = false;
-    // States that were kept of the same gearboxes without faults and with the same settings, or
-    // null: what the faults leave as it was is not marched again.
+    // States kept from the same gearboxes without faults and with the same settings, or null. If
+    // given, only mesh periods that the faults change are integrated.
     const std::vector<TileState>* healthy = nullptr;
-    // Takes the record of each mesh k that is marched one by one, in order; it is not kept then.
-    // Null: all of them are.
+    // Receives the record of each fully integrated mesh period k in order, instead of keeping it.
+    // Null: all records are kept.
     std::function<void(int k, const MeshRecord&)> hear;
-    // What drives these gearboxes unevenly, or null. One that does not repeat every mesh period
-    // needs march_meshes.
+    // Time-varying excitation of these gearboxes, or null. An excitation that does not repeat every
+    // mesh period requires march_meshes.
     const Excitation* excitation = nullptr;
 };
 
-// In place of a record: the mesh is as it was without faults, to the tolerance, or was heard.
+// Content index without a record: the mesh period equals the healthy one to the tolerance, or its
+// record went to `hear`.
 inline constexpr int kUnchanged = -1;
 
-// Recorded mesh periods: 0 is the healthy one; mesh k of the span shows records[content[k mod L]].
-// With TileSettings::healthy the records are those of the changed meshes, with `hear` the healthy
-// one alone.
+// Recorded mesh periods. Record 0 is the healthy one; mesh period k of the span has
+// records[content[k mod L]]. With TileSettings::healthy, the records are those of the changed mesh
+// periods. With `hear`, only the healthy one is kept.
 struct TileResult {
     std::vector<MeshRecord> records;
-    std::vector<int> content;        // L = content.size()
-    std::vector<TileState> states;   // kept ones: before each marched mesh and after the last
+    std::vector<int> content;  // L = content.size()
+    // kept states: before each integrated mesh period, and after the last
+    std::vector<TileState> states;
     std::vector<LaneStatus> status;  // per lane
-    // Per lane, with TileSettings::compose: its healthy meshes were composed, not marched.
+    // Per lane, with TileSettings::compose: true if its healthy mesh periods were superposed.
     std::vector<char> composed;
-    // [gear pair][lane]: the contact loss ratio, the share of its engagement within the nominal
-    // path of contact in which a tooth pair carries no load, averaged over the tooth pairs. Counted
-    // in one of kContactMeshes mesh periods of the span with its faults (tooth_contact.hpp); where
-    // mesh periods repeat, in the healthy one. Superposed meshes have none. Empty where teeth
-    // cannot part, and with TileSettings::healthy.
+    // [gear pair][lane]: contact loss ratio, averaged over the tooth pairs. It is the fraction of a
+    // tooth pair's engagement, within the nominal path of contact, in which it carries no load.
+    // Counted in one of kContactMeshes mesh periods of the span including its faults
+    // (tooth_contact.hpp), or as set by TileSettings::contact_meshes. If mesh periods repeat, it is
+    // counted in the healthy one. Superposed mesh periods have no contact loss. Empty if teeth
+    // cannot separate, and with TileSettings::healthy.
     machine::AlignedVector contact_loss;
-    int marched = 0;  // mesh periods that the tile marched or solved in all
+    int marched = 0;  // total number of mesh periods integrated or solved
 };
 
 }  // namespace gearpod::lockstep

@@ -9,7 +9,7 @@
 namespace gearpod::lockstep {
 namespace {
 
-constexpr int kStretches = 24;  // of a mesh period
+constexpr int kStretches = 24;  // per mesh period
 
 // Static transmission error of a pair at a stage node, m.
 double static_error(const MarchPlan& plan, int step, std::size_t node, int pair) {
@@ -22,10 +22,10 @@ double static_error(const MarchPlan& plan, int step, std::size_t node, int pair)
 
 }  // namespace
 
-// The gaps of a pair that differ between lanes, step by step.
+// Lane-dependent gaps of a pair, step by step.
 class ToothContact::OwnGaps {
   public:
-    // `size`: values of all tooth pairs and lanes.
+    // `size` is the number of tooth pairs times lanes.
     OwnGaps(std::span<const PairGaps> all, int pair, std::size_t size)
         : all_(all), pair_(pair), none_(size, 0.0) {}
 
@@ -81,7 +81,7 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
              length,
              static_error(plan_, step, node, pair),
              {}};
-    if (plan_.nodes.tooth_pairs == 0) {  // one carries all
+    if (plan_.nodes.tooth_pairs == 0) {  // one spring carries the whole load
         own.teeth.push_back({0, 0, 0.0, 0.0, true});
     }
     const bool gaps = !plan_.nodes.tooth_gap.empty();
@@ -102,14 +102,8 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
     nodes_[p].push_back(std::move(own));
 }
 
-void ToothContact::ask_for_steps(MeshRecord& record) const {
-    record.step_states.resize(2 * (plan_.grid.steps.size() + 1) *
-                              static_cast<std::size_t>(dynamics::degrees_of_freedom(plan_.layout)) *
-                              mesh_period_s_.size());
-}
-
-// d += sign times the pair's deflection or its rate at the steps' ends; `first_degree`: where the
-// positions or the velocities begin in a row of step states.
+// Adds sign times the pair's deflection, or its rate, at the step ends to d. `first_degree` is the
+// index at which positions or velocities start in a row of step states.
 void ToothContact::deflect(const MeshRecord& record, int pair, double sign,
                            std::size_t first_degree, machine::AlignedVector& d) const {
     const std::size_t lanes = mesh_period_s_.size(), rows = plan_.grid.steps.size() + 1;
@@ -128,8 +122,8 @@ void ToothContact::deflect(const MeshRecord& record, int pair, double sign,
     }
 }
 
-// The least deflection, m, at a stage node of a step of so many seconds: positions at which
-// integrators evaluate forces lie on the chord, or on the tangents at the step's ends.
+// Lower bound of the deflection, m, at a stage node of a step. Positions at which integrators
+// evaluate forces lie on the chord, or on the tangents at the step's ends.
 void ToothContact::least_deflection(const Node& node, const double* __restrict at,
                                     const double* __restrict rate, double* __restrict least) const {
     const std::size_t width = mesh_period_s_.size();
@@ -192,7 +186,8 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
             }
         }
     }
-    // A value that is not finite stays so until the end of the mesh period.
+    // A value that is not finite stays so until the end of the mesh period, so checking the end is
+    // enough.
     for (std::size_t i = record.step_states.size() - 2 * degrees * width;
          i < record.step_states.size(); ++i) {
         if (!std::isfinite(record.step_states[i])) {
@@ -204,7 +199,7 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
     return least;
 }
 
-// `d` holds the pair's deflection, `weight` what each lane adds.
+// `d` holds the pair's deflection; `weight` is added in each lane without contact.
 void ToothContact::add_apart(const Node& node, std::size_t pair, const double* __restrict d,
                              OwnGaps& own, const double* __restrict weight,
                              machine::AlignedVector& apart) const {

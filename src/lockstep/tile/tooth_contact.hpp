@@ -1,6 +1,6 @@
-// Contact of single tooth pairs during a mesh period, seen at the integrator's steps: a lower bound
-// of how far each is pressed together, and the contact loss ratio, the share of its engagement in
-// which it carries no load.
+// Contact of single tooth pairs during a mesh period, evaluated at the integrator's steps: a lower
+// bound of the compression of each, and the contact loss ratio. The latter is the fraction of its
+// engagement in which a tooth pair carries no load.
 #pragma once
 
 #include <cstdint>
@@ -11,48 +11,52 @@
 
 namespace gearpod::lockstep {
 
-// True for the mesh periods in which contact loss is counted: one in kContactMeshes, spread evenly
-// over a span and over the teeth of every gear (multiples of the golden ratio), mesh 0 among them.
+// True for mesh periods in which contact loss is counted. These are one in kContactMeshes,
+// including mesh period 0. Multiples of the golden ratio spread them evenly over a span and over
+// the teeth of every gear.
 inline constexpr unsigned kContactMeshes = 144;
-constexpr bool counts_contact(int mesh) {
+// With a positive `first`, counts the first `first` mesh periods instead.
+constexpr bool counts_contact(int mesh, int first = 0) {
+    if (first > 0) {
+        return mesh < first;
+    }
     return static_cast<std::uint32_t>(mesh) * 2654435769u < 0xffffffffu / kContactMeshes;
 }
 
 // Sums over time, mesh periods.
 struct ContactTime {
     std::vector<double> engaged;   // [pair]: tooth pairs on the nominal path of contact
-    machine::AlignedVector apart;  // [pair][lane]: of that, without contact
+    machine::AlignedVector apart;  // [pair][lane]: part of this without contact
 
-    // [pair][lane], the contact loss ratio; NaN of a pair whose teeth were not engaged.
+    // Contact loss ratio, [pair][lane]; NaN for a pair whose teeth were not engaged.
     machine::AlignedVector ratio() const;
 };
 
 class ToothContact {
   public:
-    // `mesh_period_s` holds one value a lane. The plan must outlive the object.
+    // `mesh_period_s` has one value per lane. The plan must outlive the object.
     ToothContact(const MarchPlan& plan, std::vector<double> mesh_period_s);
 
-    // Sizes the record's step states, which the other functions read.
-    void ask_for_steps(MeshRecord& record) const;
-
-    // A lower bound of how far the tooth pairs are pressed together, [stretch][pair][tooth
-    // pair][lane], m; infinite where a tooth pair is not engaged, minus infinite where the motion
-    // is not finite. It covers the positions at which the integrator evaluates the contact forces
-    // of each step. `gaps` are those of the mesh (tooth_gaps). With `orbit`, the record of a mesh
-    // period without errors, the bound is that of the difference from it; such bounds add up to
+    // Lower bound of the compression of the tooth pairs, [stretch][pair][tooth pair][lane], m. It
+    // is infinite where a tooth pair is not engaged, and minus infinite if the motion is not
+    // finite. It covers all positions at which the integrator evaluates the contact forces of a
+    // step. `gaps` are those of the mesh period (tooth_gaps). With `orbit`, the record of a mesh
+    // period without errors, it bounds the difference from that record; such bounds add up to
     // bounds of sums.
     machine::AlignedVector least_pressing(const MeshRecord& record, std::span<const PairGaps> gaps,
                                           const MeshRecord* orbit) const;
 
-    // Adds the time of a mesh period during which tooth pairs are apart within the nominal path of
-    // contact, mesh periods, [pair][lane], in the lanes of the mask.
+    // Adds the time during which tooth pairs are separated within the nominal path of contact, in
+    // mesh periods, [pair][lane], for the lanes in the mask.
     void add_time_apart(const MeshRecord& record, std::span<const PairGaps> gaps,
                         std::span<const bool> lanes, machine::AlignedVector& apart) const;
-    // Time that the tooth pairs of a gear pair spend on the nominal path in a mesh period.
+    // Time that the tooth pairs of a gear pair spend on the nominal path, mesh periods per mesh
+    // period.
     double time_engaged(int pair) const { return engaged_[static_cast<std::size_t>(pair)]; }
 
-    // The same of one step's start, at which the positions are `q`, [degree of freedom][lane]: adds
-    // `weight` for each tooth pair on the nominal path, and for each that is apart.
+    // Same for the start of one step with positions `q`, [degree of freedom][lane]. Adds `weight`
+    // to the engaged time of each tooth pair on the nominal path, and to the time apart of each
+    // separated one.
     void add_position(int step, const machine::AlignedVector& q, std::span<const PairGaps> gaps,
                       double weight, ContactTime& time) const;
 
@@ -61,18 +65,18 @@ class ToothContact {
         std::size_t degree = 0;
         double weight = 0.0;
     };
-    // A slice of a tooth pair at a stage node.
+    // Slice of a tooth pair at a stage node.
     struct Tooth {
-        std::size_t contact = 0, tooth = 0;  // in the tables of springs and of tooth pairs
+        std::size_t contact = 0, tooth = 0;  // indices in the tables of springs and of tooth pairs
         double place = 0.0;                  // on the path of contact (StiffnessNodes::tooth_place)
-        double shared = 0.0;                 // the part of its gap that all lanes have, m
+        double shared = 0.0;                 // part of its gap common to all lanes, m
         bool nominal = false;                // within the nominal path of contact
     };
-    // A stage node of a step at which tooth pairs of a gear pair are engaged.
+    // Stage node of a step, with the tooth pairs of a gear pair engaged at it.
     struct Node {
         int step = 0;
-        bool first = false;   // the first stage node of its step
-        double part = 0.0;    // of the step
+        bool first = false;   // first stage node of its step
+        double part = 0.0;    // position within the step, 0 to 1
         double length = 0.0;  // of the step, mesh periods
         double error = 0.0;   // static transmission error of the gear pair, m
         std::vector<Tooth> teeth;
@@ -91,7 +95,7 @@ class ToothContact {
     const std::vector<double> mesh_period_s_;
     const std::size_t contacts_;
     std::vector<std::vector<Node>> nodes_;  // [pair], by step and stage node
-    std::vector<std::vector<Entry>> row_;   // [pair]: of its deflection
+    std::vector<std::vector<Entry>> row_;   // [pair]: sparse weights of its deflection
     std::vector<double> engaged_;           // [pair]
 };
 

@@ -12,8 +12,8 @@
 namespace gearpod::signals {
 namespace {
 
-// The function itself costs microseconds: it is asked for few, wide pieces of high degree, and
-// these for the narrow ones.
+// Boost's quantile costs microseconds. It is evaluated for few, wide pieces of high degree, from
+// which the narrow pieces are interpolated.
 constexpr int kWidePieces = 128;
 constexpr int kWidePowers = 10;
 constexpr int kNarrowInWide = kChiPieces / kWidePieces;
@@ -24,7 +24,7 @@ double quantile_of_normal(const boost::math::chi_squared& chi, double z) {
                    : boost::math::quantile(boost::math::complement(chi, tail));
 }
 
-// [k][i]: the Chebyshev polynomial T_k at the i-th root of T_kPowers.
+// values[k][i] is the Chebyshev polynomial T_k at the i-th root of T_kPowers.
 template <int kPowers>
 const auto& polynomials_at_roots() {
     static const auto values = [] {
@@ -39,7 +39,7 @@ const auto& polynomials_at_roots() {
     return values;
 }
 
-// Chebyshev interpolation on [-1, 1] at the roots, rewritten in powers.
+// Coefficients, by power of t, of the Chebyshev interpolant of `function` on [-1, 1].
 template <int kPowers, typename Function>
 std::array<double, kPowers> interpolate(Function function) {
     using Powers = std::array<double, kPowers>;

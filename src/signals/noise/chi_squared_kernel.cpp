@@ -8,7 +8,8 @@ namespace {
 
 static_assert(kChiPowers == 6);
 
-// One by one: a piece is one cache line, which gathering over lanes would look up six times.
+// Evaluates value by value: a piece is one cache line, which a gather over lanes would access six
+// times.
 GEARPOD_INLINE void all_values(long values, const double* __restrict pieces,
                                double* __restrict value) {
     constexpr double kScale = 0.5 * kChiPieces / kChiRange;

@@ -1,16 +1,17 @@
-// The kernel behind ChiSquaredTransform; see chi_squared.hpp.
+// Kernel and table layout of ChiSquaredTransform; see chi_squared.hpp.
 #pragma once
 
 namespace gearpod::signals {
 
-// |z| <= kChiRange in kChiPieces pieces of equal width, each a polynomial of kChiPowers powers of
-// the place in it, -1 to 1. A piece takes a cache line.
+// The range |z| <= kChiRange is divided into kChiPieces pieces of equal width. Each piece is a
+// polynomial of kChiPowers coefficients in the position within it, -1 to 1, and occupies one cache
+// line.
 inline constexpr double kChiRange = 9.5;
 inline constexpr int kChiPieces = 1024;
 inline constexpr int kChiPowers = 6;
 inline constexpr int kChiStride = 8;
 
-// Every value z becomes its polynomial's; beyond the range, that at its end.
+// Replaces every value z by the polynomial of its piece; beyond the range, by the value at its end.
 void chi_squared_values(long values, const double* pieces, double* value);
 
 }  // namespace gearpod::signals

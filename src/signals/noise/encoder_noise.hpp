@@ -1,8 +1,9 @@
 // Noise of the transmission error signal after time-synchronous averaging.
 //
-// White noise of rms sigma_e on each sample of the transmission error becomes, in the mean over the
-// Z_r independent turns, exactly white noise of variance sigma_e^2 / Z_r: it is drawn there, one
-// normal per averaged sample, and serves all noise levels by scaling.
+// White noise of rms sigma_e on each sample of the transmission error is averaged over Z_r
+// independent turns. The result is exactly white noise of variance sigma_e^2 / Z_r. The averaged
+// noise is generated directly, one normal variate per averaged sample, and scaled to all noise
+// levels.
 #pragma once
 
 #include <cmath>
@@ -12,8 +13,8 @@
 
 namespace gearpod::signals {
 
-// Fills `noise` (one gearbox, Z_p P_te samples) for sigma_e = 1, its mean removed like the
-// signal's. Engine: a 64-bit uniform random bit generator.
+// Fills `noise` (one gearbox, Z_p P_te samples) for sigma_e = 1 and removes its mean, as is done
+// for the signal. Engine: a 64-bit uniform random bit generator.
 template <typename Engine>
 void draw_encoder_noise(Engine& engine, int ring_teeth, std::span<double> noise) {
     draw_normals(engine, noise);

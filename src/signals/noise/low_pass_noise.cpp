@@ -13,17 +13,18 @@ namespace {
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
-// The gains' recursion gains a factor of 0.3 or less each sample, twice the rate of the largest
-// zero of sampled smooth noise (Astrom, Hagander, Sternby 1984): 48 are within rounding.
+// Number of samples with gains of their own. The error of the gains shrinks by a factor of 0.3 or
+// less per sample, so 48 samples converge to rounding. That is twice the rate of the largest zero
+// of sampled smooth noise (Astrom, Hagander, Sternby 1984).
 constexpr int kTransient = 48;
 
-// On the unit circle, in the upper half plane: two of the four.
+// Poles of the filter in the upper half plane, two of the four, normalised to the unit circle.
 std::array<Complex, 2> poles() {
     return {std::polar(1.0, 0.625 * pi), std::polar(1.0, 0.875 * pi)};
 }
 
-// c_k over the variance: autocovariance = sum of 2 Re(c_k exp(p_k w_c tau)). By residues r of H,
-// c_k = -r_k sum over all poles j of r_j / (p_k + p_j).
+// Weights c_k over the variance, where the autocovariance is the sum of 2 Re(c_k exp(p_k w_c tau)).
+// From the residues r of H: c_k = -r_k sum over all poles j of r_j / (p_k + p_j).
 std::array<Complex, 2> covariance_weights() {
     const auto upper = poles();
     const std::array<Complex, 4> all{upper[0], upper[1], std::conj(upper[0]), std::conj(upper[1])};
@@ -58,7 +59,7 @@ LowPassNoise::LowPassNoise(double low_pass_per_sample) {
         throw std::invalid_argument("low-pass noise: sampled too finely for its low-pass");
     }
     const auto pole = poles(), weight = covariance_weights();
-    State covariance{};  // of the next state with this sample
+    State covariance{};  // covariance of the next state with this sample
     for (std::size_t k = 0; k < 2; ++k) {
         const Complex decay = std::exp(2.0 * pi * low_pass_per_sample * pole[k]);
         real_[k] = decay.real();
@@ -76,7 +77,7 @@ LowPassNoise::LowPassNoise(double low_pass_per_sample) {
     };
     std::array<State, 4> known{};  // covariance of the predicted state, symmetric
     for (int sample = 0; sample < kTransient; ++sample) {
-        State of_sample;  // covariance of prediction and predicted sample
+        State of_sample;  // covariance of the prediction with the predicted sample
         for (std::size_t i = 0; i < 4; ++i) {
             of_sample[i] = known[i][0] + known[i][2];
         }
@@ -87,7 +88,7 @@ LowPassNoise::LowPassNoise(double low_pass_per_sample) {
             gain.state[i] = (covariance[i] - turned_sample[i]) / unknown;
         }
         gains_.push_back(gain);
-        std::array<State, 4> half, next;  // turned from one side, then from the other
+        std::array<State, 4> half, next;  // rotated on one side, then on both
         for (std::size_t i = 0; i < 4; ++i) {
             half[i] = turned(known[i]);
         }

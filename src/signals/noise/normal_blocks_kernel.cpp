@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kPairs = kNormalBlock / 2;
 
-// The word as a number in [1, 2^64], rounded once: its upper and lower half each become the lowest
-// bits of a double. Odd, for the middle of each pair of words.
+// Converts a word to a number in [1, 2^64], rounded once. Its upper and lower halves each become
+// the lowest bits of a double. The word is made odd, which selects the middle of each pair of
+// words.
 GEARPOD_INLINE double to_double(std::uint64_t word) {
     constexpr std::uint64_t kHighBits = 0x4530000000000000;  // 2^84
     constexpr std::uint64_t kLowBits = 0x4330000000000000;   // 2^52
@@ -23,8 +24,9 @@ GEARPOD_INLINE double to_double(std::uint64_t word) {
     return (high - (0x1p84 + 0x1p52)) + low;
 }
 
-// The upper 52 bits of the angle's word are an angle in (-pi/4, pi/4), in the middle of each step;
-// of the lower two one turns it to the opposite side, the other reflects it about the diagonal.
+// Box-Muller transform of all blocks. The upper 52 bits of the angle's word give an angle in
+// (-pi/4, pi/4), in the middle of each step. Of the two lowest bits, one rotates it to the opposite
+// side and the other reflects it about the diagonal.
 GEARPOD_INLINE void all_blocks(long blocks, const std::uint64_t* __restrict words,
                                double* __restrict normals) {
     for (long block = 0; block < blocks; ++block) {

@@ -1,8 +1,9 @@
-// Standard normal variables by the transform of Box and Muller (1958): from uniform u1, u2
+// Standard normal variates by the transform of Box and Muller (1958). For uniform u1, u2
 //
 //     sqrt(-2 ln u1) cos(2 pi u2),   sqrt(-2 ln u1) sin(2 pi u2)
 //
-// are independent and exactly normal. Every operation is one that all instruction sets round alike.
+// are independent and exactly normal. All instruction sets round every operation used in the same
+// way.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +13,19 @@
 
 namespace gearpod::signals {
 
-// So many words make as many values: the first half give u1, the second half u2, the first half of
-// the values are the cosines.
+// Number of words in a block, which give as many variates. The first half of the words give u1, the
+// second half u2; the first half of the variates are the cosines.
 inline constexpr std::size_t kNormalBlock = 16;
 
-// Any 64 bits are a good word. u1 runs from 2^-64, so that |z| <= 9.42, and is rounded to 53 bits,
-// u2 has 54 of its own; but for that the relative error is below 2e-15. As many values as words, a
-// multiple of kNormalBlock, or std::invalid_argument is thrown.
+// Converts words of 64 random bits into normal variates. u1 is at least 2^-64, so that |z| <= 9.42,
+// and is rounded to 53 bits; u2 has 54 bits. Apart from that the relative error is below 2e-15.
+// Throws std::invalid_argument unless both spans have the same size, a multiple of kNormalBlock.
 void normals_from_words(std::span<const std::uint64_t> words, std::span<double> normals);
 
-// Takes the words of whole blocks from the engine: a 64-bit uniform random bit generator, with
-// fill(std::span<std::uint64_t>) if it is quicker at many; or what has normals(values) of its own.
+// Fills `values` with standard normals, taking the words of whole blocks from the engine. The
+// engine is a 64-bit uniform random bit generator, optionally with fill(std::span<std::uint64_t>)
+// for faster bulk generation. An engine with a member normals(values) generates the variates
+// itself.
 template <typename Engine>
 void draw_normals(Engine& engine, std::span<double> values) {
     if constexpr (requires { engine.normals(values); }) {

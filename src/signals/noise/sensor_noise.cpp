@@ -21,7 +21,7 @@ void noise_of_bin(std::span<const double> samples, double along, double across,
     if (turns < 2 || normals.size() != turns || noise.size() != turns) {
         throw std::invalid_argument("noise of a bin: samples and normals disagree in number");
     }
-    // Direction of the samples; any direction serves where they are all zero.
+    // Direction of the samples. Any direction is valid where they are all zero.
     std::vector<double> direction(samples.begin(), samples.end());
     double length = std::sqrt(dot(direction, direction));
     if (length == 0.0) {
@@ -32,7 +32,8 @@ void noise_of_bin(std::span<const double> samples, double along, double across,
         d /= length;
     }
     std::vector<double> side(normals.begin(), normals.end());
-    for (int pass = 0; pass < 2; ++pass) {  // the second removes what rounding left of the first
+    // the second pass removes the rounding error of the first
+    for (int pass = 0; pass < 2; ++pass) {
         const double parallel = dot(side, direction);
         for (std::size_t i = 0; i < turns; ++i) {
             side[i] -= parallel * direction[i];

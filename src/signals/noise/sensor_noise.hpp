@@ -1,13 +1,13 @@
-// Additive sensor noise of rms sigma per sample: white ones, added after the low-pass filter
-// (low_pass_noise.hpp has others).
+// Additive white sensor noise of rms sigma per sample, added after the low-pass filter.
+// low_pass_noise.hpp generates coloured noise.
 //
 // A folded bin (folded_signal.hpp) is a sum of Z_r squares. With noise it is exactly sigma^2 times
-// a noncentral chi-square variable; split along and across the noise-free samples,
+// a noncentral chi-square variable. Split into parts along and across the noise-free samples, it is
 //
 //     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
 //
-// independent between bins. So two random numbers a bin replace the Z_r noise samples, and one draw
-// serves all noise levels (windowing.hpp).
+// independent between bins. Two random numbers per bin therefore replace the Z_r noise samples, and
+// the same two serve all noise levels (windowing.hpp).
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace gearpod::signals {
 
-// (Z, G) of every bin of one gearbox.
+// Noise variates (Z, G) of every bin of one gearbox.
 struct NoiseDraw {
     std::vector<double> along;   // Z
     std::vector<double> across;  // G
@@ -32,7 +32,7 @@ class SensorNoise {
     // Throws std::invalid_argument unless ring_teeth >= 3.
     explicit SensorNoise(int ring_teeth) : across_(ring_teeth - 1) {}
 
-    // All Z first, then all G. Engine: a 64-bit uniform random bit generator.
+    // Draws all Z first, then all G. Engine: a 64-bit uniform random bit generator.
     template <typename Engine>
     void draw(Engine& engine, std::size_t bins, NoiseDraw& out) const {
         out.along.resize(bins);
@@ -46,22 +46,24 @@ class SensorNoise {
     ChiSquaredTransform across_;
 };
 
-// The unit noise n (times sigma it is in m/s^2) that turns a bin's Z_r noise-free samples into
-// noisy ones whose squares sum to exactly the bin's F_noisy: Z along the samples, sqrt(G) in a
-// random direction across them. `normals` are Z_r further standard normals, which give that
-// direction. Throws std::invalid_argument on unequal sizes or fewer than two samples.
+// Unit noise n of one bin: sigma n, in m/s^2, turns the bin's Z_r noise-free samples into noisy
+// samples. The squares of the noisy samples sum to exactly the bin's F_noisy. The noise is Z along
+// the samples and sqrt(G) in a random direction across them; `normals`, Z_r further standard
+// normals, give that direction. Throws std::invalid_argument on unequal sizes or fewer than two
+// samples.
 void noise_of_bin(std::span<const double> samples, double along, double across,
                   std::span<const double> normals, std::span<double> noise);
 
-// The draw that a given noise of every sample comes to, whatever its colour: Z = n s / |s| of each
-// bin's samples, or 0 where they are, and G = |n|^2 - Z^2, so that F_noisy above is the noisy
-// signal's at every level. As many samples of both, whole turns of `bins`.
+// Noise variates equivalent to a given noise of every sample, whatever its spectrum. Z = n s / |s|
+// over each bin's samples s (0 where s is 0) and G = |n|^2 - Z^2, so that F_noisy is that of the
+// noisy signal at every noise level. `signal` and `noise` have the same size, whole turns of
+// `bins`.
 NoiseDraw draw_of_samples(std::span<const double> signal, std::span<const double> noise,
                           std::size_t bins);
 
-// The unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples): with
-// sigma times it the signal folds to F_noisy. Bins are visited in order b = 0, 1,
-// ...; the engine gives the directions.
+// Unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples). With
+// sigma times this noise the signal folds to F_noisy. Bins are processed in order b = 0, 1, ...;
+// the engine gives the directions.
 template <typename Engine>
 std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
                                const NoiseDraw& draw, Engine& engine) {
@@ -71,7 +73,7 @@ std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
     }
     const std::size_t turns = signal.size() / bins;
     std::vector<double> all(signal.size());
-    // Eight bins, a cache line of the signal, at a time.
+    // Processes eight bins, a cache line of the signal, at a time.
     constexpr std::size_t kBlock = 8;
     std::vector<double> samples(kBlock * turns), normals(kBlock * turns), noise(kBlock * turns);
     for (std::size_t b = 0; b < bins; b += kBlock) {

@@ -14,7 +14,8 @@ struct Phasor {
     double cosine;
 };
 
-// At `turns` times `count`, plus an angle. The whole turns go before the product is rounded.
+// Phasor at `turns` times `count`, plus an angle. Whole turns are removed before the product is
+// rounded.
 Phasor phasor(double turns, long count, double angle) {
     const double whole = std::rint(turns * static_cast<double>(count));
     const double rest = std::fma(turns, static_cast<double>(count), -whole);
@@ -22,8 +23,9 @@ Phasor phasor(double turns, long count, double angle) {
     return {std::sin(radians), std::cos(radians)};
 }
 
-// sine[i * stride], cosine[i * stride] at first + i steps of `turns`: products of two phasors, one
-// for every 64th step and one for the steps between, so that no error builds up along the way.
+// Phasors sine[i * stride], cosine[i * stride] at first + i steps of `turns`. Each is the product
+// of two phasors, one for every 64th step and one for the steps between, so that rounding errors do
+// not accumulate.
 void fill_phasors(double turns, double angle, long first, int count, std::size_t stride,
                   double* sine, double* cosine) {
     constexpr int kBetween = 64;
@@ -31,7 +33,8 @@ void fill_phasors(double turns, double angle, long first, int count, std::size_t
     for (int i = 0; i < kBetween; ++i) {
         between[i] = phasor(turns, i, 0.0);
     }
-    // Blocks begin at multiples of 64, whatever the first step: same bits for any part of a span.
+    // Blocks begin at multiples of 64 whatever the first step, so that any part of a span has the
+    // same bits.
     Phasor block{};
     for (long i = 0; i < count; ++i) {
         const long step = first + i;

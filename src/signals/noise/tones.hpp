@@ -1,15 +1,15 @@
-// Interfering tones: what the rest of the machine adds to the accelerometer. Liang (2016), Table
-// 5.1, lists those of his two-stage rig (drive motor 20 Hz, bevel mesh 360 Hz, first stage's sun 5
-// Hz, planet 1.9 Hz, mesh 118.2 Hz, and their harmonics). To the sample of mesh k at phase p/P is
-// added
+// Interfering tones that the rest of the machine adds to the accelerometer signal. Liang (2016),
+// Table 5.1, lists those of his two-stage rig: drive motor 20 Hz, bevel mesh 360 Hz, first stage's
+// sun 5 Hz, planet 1.9 Hz, mesh 118.2 Hz, and their harmonics. The sample of mesh k at phase p/P
+// gains
 //
 //     sum over the tones of A sin(2 pi f (k + p/P) T_m + phi),
 //
-// with A as the sensor delivers it: after its low-pass.
+// where A is the amplitude after the sensor's low-pass.
 //
-// A tone does not repeat with the meshes, so its folded squares need every sample of the span. The
-// angle splits into one part for the mesh and one for the phase, whose phasors are tabulated: a
-// sample costs two fused multiply-adds a tone, and a gearbox without tones nothing.
+// A tone does not repeat with the meshes, so its folded squares need every sample of the span. Its
+// angle splits into a mesh part and a phase part, whose phasors are tabulated. A sample costs two
+// fused multiply-adds per tone; a gearbox without tones has no extra cost.
 #pragma once
 
 #include "machine/lanes.hpp"
@@ -17,12 +17,12 @@
 
 namespace gearpod::signals {
 
-// The tones of a tile's gearboxes. Every lane has the same number of them.
+// Tones of a tile's gearboxes. Every lane has the same number of tones.
 struct Tones {
     machine::AlignedVector mesh_period_s;   // [lane]
     machine::AlignedVector frequency_Hz;    // [tone][lane]
     machine::AlignedVector amplitude_m_s2;  // [tone][lane]
-    machine::AlignedVector phase_rad;       // [tone][lane], at the span's start
+    machine::AlignedVector phase_rad;       // [tone][lane], at the start of the span
 
     bool empty() const { return frequency_Hz.empty(); }
 };

@@ -1,4 +1,4 @@
-// The path weights g(x) over lanes, at all carrier indices of one phase: see PathGrid.
+// Path weights g(x) over lanes, at all carrier indices of one phase; see PathGrid.
 #pragma once
 
 #include <numbers>
@@ -9,7 +9,7 @@
 
 namespace gearpod::signals {
 
-// exp(alpha h^2 m^2) for m = 0 .. M_c/2: table[m][lane].
+// Fills table[m][lane] with exp(alpha h^2 m^2) for m = 0 .. M_c/2.
 template <int W>
 GEARPOD_INLINE void whole_step_table(int positions, const double* __restrict exponent,
                                      double* __restrict table) {
@@ -23,7 +23,8 @@ GEARPOD_INLINE void whole_step_table(int positions, const double* __restrict exp
     }
 }
 
-// weight[c][n][lane] at phase p. The powers grow by one factor a step: at most M_c/2 roundings.
+// Fills weight[c][n][lane] at phase p. Each step multiplies the powers by one factor, so at most
+// M_c/2 roundings accumulate.
 template <int N, int W>
 GEARPOD_INLINE void path_weights(const PathGrid& grid, long p, const double* __restrict exponent,
                                  const double* __restrict table, double* __restrict weight) {
@@ -44,7 +45,7 @@ GEARPOD_INLINE void path_weights(const PathGrid& grid, long p, const double* __r
             down[n * W + l] = up[n * W + l] * inverse[n * W + l];
         }
     }
-    // Upwards from m = 0 and downwards from m = -1, all planets side by side.
+    // Upwards from m = 0 and downwards from m = -1, for all planets in parallel.
     const int below = positions / 2;
     for (int m = 0; m < positions - below; ++m) {
         for (int n = 0; n < N; ++n) {

@@ -6,8 +6,9 @@
 
 namespace gearpod::signals {
 
-// How much of a planet's vibration reaches the sensor with the planet at angle x in [0, 2 pi) from
-// the point opposite the sensor: the planet passes the sensor at x = pi.
+// Fraction of a planet's vibration that reaches the sensor, as a function of the planet's angle x
+// in [0, 2 pi). x is measured from the point opposite the sensor: the planet passes the sensor at x
+// = pi.
 struct PathWindow {
     std::string_view name;
     double (*weight)(double x_rad);
@@ -16,7 +17,8 @@ struct PathWindow {
 
 std::span<const PathWindow> path_windows();
 
-// Throws std::invalid_argument, naming those that exist, if there is none of this name.
+// Window of the given name. Throws std::invalid_argument, which lists the known names, if there is
+// none.
 const PathWindow& path_window(std::string_view name);
 
 }  // namespace gearpod::signals

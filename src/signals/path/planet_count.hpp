@@ -1,5 +1,5 @@
-// The number of planets as a template argument: with the loops over planets unrolled, the sums of a
-// sample stay in registers.
+// Number of planets as a template argument. With unrolled loops over planets, the sums of a sample
+// stay in registers.
 #pragma once
 
 #include "machine/dispatch.hpp"

@@ -1,5 +1,5 @@
-// The sensor's value from the planets' accelerations and path weights; shared by the folded and the
-// time signal so that both give the same bits.
+// Sensor value from the planets' accelerations and path weights. The folded signal and the time
+// signal share it, so that both give the same bits.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace gearpod::signals {
 
-// y of lane l from accel[channel][lane] and weight[n][lane].
+// Sensor value y of lane l from accel[channel][lane] and weight[n][lane].
 template <int N, int W>
 GEARPOD_INLINE double resultant(const double* __restrict accel, const double* __restrict weight,
                                 double sine, double cosine, int l) {

@@ -29,7 +29,7 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
         throw std::invalid_argument(
             "path grid: planets, phases and meshes per carrier turn must be positive");
     }
-    // Carrier and planet angles in whole steps of a turn, so that the wrap is exact.
+    // Carrier and planet angles are whole steps of a turn, so that the wrap is exact.
     const long places = planets.places;
     const long mesh = places * phases_;
     const long turn = mesh * positions_;
@@ -40,7 +40,7 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
         const long place = planets.place[static_cast<std::size_t>(n)];
         return turn / places * (mirrored ? (places - place) % places : place);
     };
-    // Planets a whole number of samples apart share their angles.
+    // Planets a whole number of samples apart share their angles and window values.
     std::vector<double> known(static_cast<std::size_t>(turn / places), kUnknown);
     const auto weight = [&](long planet) {
         const double angle = step * static_cast<double>(planet);

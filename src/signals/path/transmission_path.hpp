@@ -4,14 +4,15 @@
 //     g(x) = exp(alpha (x - pi)^2) w(x),    x_n = mod(theta + psi_n, 2 pi),
 //
 // with theta the carrier angle, psi_n planet n's position and a_x, a_y planet n's acceleration
-// along the carrier frame's axes: the sensor takes the vertical part of the rotated vector.
+// along the carrier frame's axes. The sensor measures the vertical component of the rotated vector.
 //
 // The sensor's low-pass filter acts on each planet's acceleration before the path, not on the
-// resultant. The filter forgets within its time constant 1/omega_c (milliseconds), the path turns
-// with the carrier at Omega (seconds), so the two commute up to a few Omega/omega_c: 7e-4 of the
-// signal's rms for a carrier at 8.87 rpm and an 800 Hz filter, where Omega/omega_c is 2e-4
-// (tests/signals/path/test_path_and_filter.cpp measures it); most of it is the filter's delay. In
-// exchange a mesh period is filtered once, whatever the carrier angles at which it recurs.
+// resultant. Each mesh period is then filtered once for all carrier angles at which it recurs. The
+// filter's time constant 1/omega_c is milliseconds, while the path varies with the carrier at
+// Omega, within seconds. The two operations therefore commute up to a few Omega/omega_c. The
+// difference is 7e-4 of the signal's rms for a carrier at 8.87 rpm and an 800 Hz filter, where
+// Omega/omega_c is 2e-4 (measured by tests/signals/path/test_path_and_filter.cpp). Most of it is
+// the filter's delay.
 #pragma once
 
 #include <cstddef>
@@ -23,28 +24,28 @@
 
 namespace gearpod::signals {
 
-// What of the path is the same for all gearboxes of a study, tabulated at every sample of a carrier
-// turn: mesh c = 0..M_c - 1 at phases p/P, theta = 2 pi (c + p/P) / M_c, or its negative where the
-// carrier turns in the negative sense. With the carrier standing still theta = 0 at all phases.
+// Sense of the carrier's rotation.
+enum class CarrierSense { positive, negative };
+
+// Part of the path that all gearboxes of a study share, tabulated at every sample of a carrier
+// turn. At mesh c = 0..M_c - 1 and phase p/P, theta = 2 pi (c + p/P) / M_c, or its negative where
+// the carrier turns in the negative sense. For a stationary carrier theta = 0 at all phases.
 //
 // A carrier in the negative sense is the mirror image of one in the positive sense with the planets
 // at -psi_n: g(x) = g(2 pi - x), and sin theta changes its sign.
 //
-// Only exp(alpha (x - pi)^2) is left to the lanes. At a given phase the planets stand at
-// equidistant angles as c goes round, x - pi = h (m + f) with h = 2 pi / M_c, whole m and a
-// fraction f, hence
+// Only exp(alpha (x - pi)^2) differs between lanes. At a given phase the planet angles are
+// equidistant in c: x - pi = h (m + f) with h = 2 pi / M_c, integer m and a fraction f. Hence
 //
 //     exp(alpha (x - pi)^2) = exp(alpha h^2 m^2) exp(2 alpha h^2 f)^m exp(alpha h^2 f^2):
 //
 // a table over m, powers of one number, and a factor (path_weights.hpp).
-enum class CarrierSense { positive, negative };
-
 class PathGrid {
   public:
     // Throws std::invalid_argument unless planets and phases are positive.
     PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
              const SpanLayout& layout, CarrierSense sense = CarrierSense::positive);
-    // Equally spaced planets.
+    // Path of equally spaced planets.
     PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout);
 
     int planets() const { return planets_; }
@@ -57,7 +58,7 @@ class PathGrid {
     // [p][c][n]: w(x) of planet n.
     const double* window() const { return window_.data(); }
     // [p][n]: f, in [-1/2, 1/2) for odd M_c and [0, 1) for even M_c, and the carrier index at which
-    // m = 0; m runs from -(M_c / 2), rounded down to whole, over M_c values.
+    // m = 0. m takes M_c consecutive values from -floor(M_c / 2).
     const double* fraction() const { return fraction_.data(); }
     const int* centre() const { return centre_.data(); }
 

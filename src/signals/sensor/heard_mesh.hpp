@@ -1,4 +1,4 @@
-// The kernels behind HeardSpan, and of one lane behind synthesize; see heard_span.hpp and
+// Kernels of HeardSpan; the one-lane kernels also serve synthesize. See heard_span.hpp and
 // sensor.hpp.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace gearpod::signals {
 
-// weight[c][p][n][lane]: path weights of a tile's gearboxes at every sample of a carrier turn.
+// Path weights weight[c][p][n][lane] of a tile's gearboxes at every sample of a carrier turn.
 struct PathWeights {
     const PathGrid* path = nullptr;
     const double* exponent = nullptr;  // [lane]
@@ -20,17 +20,17 @@ void heard_weights_4(const PathWeights& a);
 void heard_weights_8(const PathWeights& a);
 void heard_weights_16(const PathWeights& a);
 
-// One mesh period of a tile.
+// Sensor response of a tile in one mesh period.
 struct HeardMesh {
     const PathGrid* path = nullptr;
-    const double* weight = nullptr;    // of its carrier index, [p][n][lane]
+    const double* weight = nullptr;    // at its carrier index, [p][n][lane]
     const double* accel = nullptr;     // [p][channel][lane]
-    const ToneTable* tones = nullptr;  // if any
-    int mesh = 0;                      // place in that table, of so many:
+    const ToneTable* tones = nullptr;  // null without tones
+    int mesh = 0;                      // index of the mesh in `tones`, which has `meshes` meshes
     int meshes = 0;
-    int carrier = 0;           // c
+    int carrier = 0;           // carrier index c
     double* signal = nullptr;  // [p][lane], m/s^2
-    double* folded = nullptr;  // likewise: its squares are added to it; or null
+    double* folded = nullptr;  // [p][lane], to which the squared signal is added; or null
 };
 void heard_mesh_1(const HeardMesh& a);
 void heard_mesh_4(const HeardMesh& a);

@@ -28,7 +28,7 @@ GEARPOD_INLINE void all_weights(const PathWeights& a) {
         });
 }
 
-// The tones at phase p, added to its samples.
+// Adds the tones at phase p to its samples.
 template <int W>
 GEARPOD_INLINE void add_tones_of_phase(const HeardMesh& a, long p, double* __restrict y) {
     const long tones = a.tones->tones();

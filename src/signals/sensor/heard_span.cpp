@@ -9,7 +9,7 @@
 namespace gearpod::signals {
 namespace {
 
-// Of the kernels of 16, 8, 4 and 1 lanes, that of so many.
+// Selects the kernel for the given number of lanes.
 template <class Kernel>
 Kernel* of_lanes(std::size_t lanes, Kernel* sixteen, Kernel* eight, Kernel* four, Kernel* one) {
     return lanes == 16 ? sixteen : lanes == 8 ? eight : lanes == 4 ? four : one;

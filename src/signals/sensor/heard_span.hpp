@@ -1,6 +1,6 @@
-// What the sensor and the encoders of a tile's gearboxes take from a march whose meshes come one
-// after the other and are not kept: the sensor's signal, its folded squares and the averaged
-// transmission error. Of a mesh period of W gearboxes that is 1/2N of what the march records.
+// Records the sensor and encoder signals of a tile while it is integrated mesh by mesh. It keeps
+// the sensor signal, its folded squares and the averaged transmission error, not the motions. For a
+// mesh period of W gearboxes that is 1/2N of the data that the integration records.
 #pragma once
 
 #include <optional>
@@ -17,27 +17,26 @@ class HeardSpan {
   public:
     struct Tile {
         int lanes = 0;                      // 16, 8, 4 or 1
-        std::span<const double> exponents;  // of the path, 1/rad^2, one a lane
-        const Tones* tones = nullptr;       // with their lanes
-        int te_phases = 0;                  // P_te, divides P
-        int heard_meshes = 0;               // of the signal
-        int kept_meshes = 0;                // of them, the first: those whose samples are kept
+        std::span<const double> exponents;  // path exponents, 1/rad^2, one per lane
+        const Tones* tones = nullptr;       // tones of the same lanes
+        int te_phases = 0;                  // P_te, encoder samples per mesh period, divides P
+        int heard_meshes = 0;               // number of meshes of the signal
+        int kept_meshes = 0;                // number of first meshes whose samples are kept
     };
 
-    // `path` must outlive the march that is heard. Throws std::invalid_argument if the shapes
-    // disagree.
+    // `path` must outlive the object. Throws std::invalid_argument if the shapes disagree.
     HeardSpan(const PathGrid& path, const SpanLayout& layout, const Tile& tile);
 
-    // Mesh k of the signal, each once and in order: accel[p][channel][lane] and te[p][lane] as in
-    // TileSignals.
+    // Records mesh k of the signal. Each mesh is recorded once, in order. accel[p][channel][lane]
+    // and te[p][lane] are as in TileSignals.
     void hear(int k, const double* accel, const double* te);
 
-    // As fold_squares of the span, summed in the order of the meshes.
+    // Folded squares of the span as from fold_squares, summed in the order of the meshes.
     const machine::AlignedVector& folded() const { return folded_; }
-    // The bits of average_te.
+    // Averaged transmission error, with the same bits as average_te.
     machine::AlignedVector averaged_te() const;
-    // The bits of synthesize for the first meshes, at most `kept_meshes`; of the first so many
-    // lanes, or of one.
+    // Sensor signals of the first meshes, at most `kept_meshes`, for the first `lanes` lanes or for
+    // one lane. The bits are those of synthesize.
     std::vector<std::vector<double>> signals(std::size_t lanes, int meshes) const;
     std::vector<double> signal(int lane, int meshes) const;
 

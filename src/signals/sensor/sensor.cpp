@@ -24,7 +24,7 @@ Tones of_lane(const Tones& tones, int lanes, int lane) {
             every(tones.amplitude_m_s2, lanes, lane), every(tones.phase_rad, lanes, lane)};
 }
 
-// Lanes that are read together: as many as one line of the cache holds.
+// Number of lanes that are read together: one cache line holds their values.
 constexpr int kTogether = 8;
 
 std::vector<int> consecutive(int first, int count) {
@@ -33,7 +33,7 @@ std::vector<int> consecutive(int first, int count) {
     return meshes;
 }
 
-// Of the lanes from `first` on. With tones the meshes follow each other.
+// Signals of the lanes from `first` on. If there are tones, the meshes must be consecutive.
 std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
                                             const Timeline& timeline, const SpanLayout& layout,
                                             const PathGrid& path,
@@ -95,7 +95,7 @@ std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline
 
 namespace {
 
-// Some lanes after the other, as many at once as read together well.
+// Signals of all lanes, computed kTogether lanes at a time.
 std::vector<std::vector<double>> signals_of_all(const TileSignals& tile, const Timeline& timeline,
                                                 const SpanLayout& layout, const PathGrid& path,
                                                 std::span<const double> path_exponent,

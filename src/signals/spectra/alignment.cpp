@@ -11,7 +11,7 @@
 namespace gearpod::signals {
 namespace {
 
-// Of the mean's energy: what varies less is constant but for rounding.
+// Fraction of the mean's energy. A signal that varies less is constant apart from rounding.
 constexpr double kRounding = 1e-24;
 
 using Spectrum = std::vector<std::complex<double>>;
@@ -36,7 +36,7 @@ double angle_of(std::size_t k, std::size_t n) {
     return 2.0 * std::numbers::pi * order / static_cast<double>(n);
 }
 
-// The correlation's slope and bend at a shift, from the product of both spectra.
+// First and second derivative of the correlation at a shift, from the product of both spectra.
 struct Bend {
     double slope = 0.0, bend = 0.0;
 };
@@ -52,7 +52,7 @@ Bend bend_at(const Spectrum& product, double shift) {
     return at;
 }
 
-// Newton's way from the sample with the largest value up to the peak beside it.
+// Refines the sample with the largest correlation to the peak near it by Newton's method.
 double peak_near(const Spectrum& product, double sample) {
     double shift = sample;
     for (int round = 0; round < 8; ++round) {
@@ -130,7 +130,7 @@ std::vector<double> shifted(std::span<const double> periodic, double shift) {
     Spectrum spectrum = spectrum_of(periodic), values(n);
     for (std::size_t k = 1; k < n; ++k) {
         const double angle = angle_of(k, n) * shift;
-        // What is at half the sampling rate is a cosine, and stays real.
+        // The component at half the sampling rate is a cosine and stays real.
         spectrum[k] *= 2 * k == n ? std::cos(angle) : std::polar(1.0, angle);
     }
     FourierTransform(static_cast<int>(n), FourierTransform::Way::back).transform(spectrum, values);

@@ -8,9 +8,9 @@
 namespace gearpod::signals {
 namespace {
 
-// The places of the timeline that tooth j meets, ascending, with the share of its Z_r turns that
-// shows each. Not the distinct meshes: which places share one differs with the tile's other lanes,
-// and a lane's sum must not.
+// Place of the timeline that tooth j meets, with the fraction of its Z_r turns at which it does.
+// Places are used rather than distinct meshes: which places share a distinct mesh differs with the
+// tile's other lanes, and a lane's sum must not depend on them.
 struct Place {
     std::size_t place = 0;
     double share = 0.0;

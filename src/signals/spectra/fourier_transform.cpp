@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// kissfft has butterflies of its own for factors up to here.
+// Largest factor for which kissfft has a specialised butterfly.
 constexpr int kSmallFactor = 5;
 
 int largest_prime_factor(int n) {
@@ -33,7 +33,7 @@ int prime_worth_taking_out(int points) {
     return prime > kSmallFactor && prime < points ? prime : 1;
 }
 
-// Of the angle 2 pi i / n, i reduced first.
+// Angle 2 pi i / n, with i reduced modulo n first.
 double angle(long i, long n) {
     return 2.0 * std::numbers::pi * static_cast<double>(i % n) / static_cast<double>(n);
 }
@@ -68,7 +68,7 @@ FourierTransform::FourierTransform(int points, Way way)
     }
 }
 
-// Part r is every q-th point from r on.
+// Transforms every part; part r consists of every q-th point from r on.
 void FourierTransform::transform_parts(std::span<const Complex> in) {
     const Complex* twiddle = twiddle_.data();
     for (int r = 0; r < prime_; ++r) {

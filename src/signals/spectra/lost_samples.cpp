@@ -10,10 +10,11 @@ namespace gearpod::signals {
 namespace {
 
 constexpr int kFewestTurns = 6;
-constexpr double kAlike = 0.3;  // correlation of turns that sound alike
+constexpr double kAlike = 0.3;  // correlation of similar turns
 
-// How much earlier `next` sounds than `before`, in samples, and how much alike they are then. Both
-// turns have more samples around them; a lag takes from these.
+// Number of samples by which the signal occurs earlier in `next` than in `before`, and the
+// correlation at that lag. Both turns have more samples around them, from which a lag takes its
+// samples.
 struct Lag {
     double samples = 0.0, correlation = 0.0;
 };
@@ -24,7 +25,8 @@ Lag lag_between(std::span<const double> all, std::size_t before, std::size_t nex
         double xy = 0.0, xx = 0.0, yy = 0.0;
         for (std::size_t i = static_cast<std::size_t>(farthest); i + farthest < length; ++i) {
             const double x = all[before + i];
-            const double y = all[next + i - static_cast<std::size_t>(lag)];  // wraps round and back
+            const double y =
+                all[next + i - static_cast<std::size_t>(lag)];  // wraps around and back
             xy += x * y;
             xx += x * x;
             yy += y * y;
@@ -52,7 +54,7 @@ std::optional<LostSamples> lost_samples(std::span<const double> samples, int per
     const std::size_t length =
         static_cast<std::size_t>(per_mesh) * static_cast<std::size_t>(turn_meshes);
     const std::size_t turns = length > 0 ? samples.size() / length : 0;
-    const int farthest = per_mesh / 2;  // a mesh period further it all sounds alike
+    const int farthest = per_mesh / 2;  // the correlation repeats with the mesh period
     if (turn_meshes < 2 || turns < kFewestTurns) {
         return std::nullopt;
     }
@@ -72,7 +74,7 @@ std::optional<LostSamples> lost_samples(std::span<const double> samples, int per
     }
     constexpr double kLeast = 0.05, kStandsOut = 8.0;
     const double scatter = std::max(kLeast, 1.4826 * machine::upper_median(away));
-    // The turn that lost them is late in part, so two steps share the loss.
+    // The turn with the loss is shifted in part, so two successive steps share the loss.
     LostSamples most;
     double largest = 0.0;
     for (std::size_t t = 0; t + 1 < steps.size(); ++t) {

@@ -1,7 +1,7 @@
-// Whether samples are missing inside a recording that says nothing of it: what follows then comes
-// too early. In steady running every turn (of the carrier, or the wheel) sounds like the one before
-// it, so that their cross-correlation peaks at a lag of zero, or at the same small lag from turn to
-// turn where the speed is a little off; a turn in which samples were lost is early, by them.
+// Detection of unreported missing samples inside a recording, after which the signal comes too
+// early. In steady running every turn (of the carrier or the wheel) resembles the one before it.
+// Their cross-correlation peaks at a lag of zero, or at a constant small lag where the speed is
+// slightly off. A turn that lost samples is early by their number.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,15 @@
 namespace gearpod::signals {
 
 struct LostSamples {
-    double meshes = 0.0;  // mesh periods that are missing, give or take whole ones: -1/2 to 1/2
-    int first_mesh = 0, last_mesh = 0;  // between which
+    double meshes = 0.0;                // missing mesh periods, modulo whole ones: -1/2 to 1/2
+    int first_mesh = 0, last_mesh = 0;  // the loss lies between these
     bool found = false;
 };
 
-// `samples`: evenly spaced in mesh phase, `per_mesh` a mesh period; `turn_meshes`: mesh periods of
-// a turn. A loss is found if it stands out of the scatter of the lags, which counts as a twentieth
-// of a sample at least. Empty where none would be noticed: fewer than six turns, turns that do not
-// sound alike, or a signal that says nothing. Whole mesh periods that are missing are never
-// noticed.
+// `samples` are evenly spaced in mesh phase, `per_mesh` per mesh period; `turn_meshes` is the
+// number of mesh periods of a turn. A loss is found if it exceeds the scatter of the lags, which is
+// taken as at least a twentieth of a sample. Empty where no loss could be detected: fewer than six
+// turns, or turns whose correlation is too low. A loss of whole mesh periods is never detected.
 std::optional<LostSamples> lost_samples(std::span<const double> samples, int per_mesh,
                                         int turn_meshes);
 

@@ -53,8 +53,8 @@ void MeshSeparation::load(std::span<const double> turn) {
         const bool paired = k != 0 && 2 * k != n;
         amplitude_[k] = (paired ? 2.0 : 1.0) * scale * std::abs(spectrum_[k]);
     }
-    // Harmonics in the real part and sidebands in the imaginary part of one transform back: both
-    // are real signals.
+    // Harmonics in the real part and sidebands in the imaginary part share one inverse transform,
+    // because both are real signals.
     const std::complex<double> i_unit(0.0, 1.0);
     for (std::size_t k = 0; k < n; ++k) {
         const Kind kind = kind_[std::min(k, n - k)];
@@ -71,7 +71,7 @@ void MeshSeparation::load(std::span<const double> turn) {
         residual_[i] = turn[i] - mean - harmonics;
         difference_[i] = residual_[i] - sidebands;
     }
-    // The analytic signal of the band: positive orders only, twice.
+    // Analytic signal of the band: positive orders only, doubled.
     const int half = (teeth_ - 1) / 2;
     std::fill(part_.begin(), part_.end(), 0.0);
     for (int k = teeth_ - half; k <= teeth_ + half && 2 * k < points(); ++k) {

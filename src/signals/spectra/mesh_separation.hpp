@@ -1,15 +1,16 @@
-// What of an averaged turn is regular meshing, and what is left.
+// Splits the time-synchronous average into regular, residual and difference signals.
 //
-// Signals of the condition indicators, after Lebold et al., "Review of vibration analysis methods
-// for gearbox diagnostics and prognostics", Proc. 54th MFPT (2000), and Samuel and Pines, J. Sound
-// Vib. 282 (2005) 475-508. In orders of a turn of the gear with T teeth, x being the averaged turn:
+// The signals are those of condition indicators after Lebold et al., "Review of vibration analysis
+// methods for gearbox diagnostics and prognostics", Proc. 54th MFPT (2000), and Samuel and Pines,
+// J. Sound Vib. 282 (2005) 475-508. In orders of a turn of the gear with T teeth, x being the
+// averaged turn:
 //
 //     regular     x at the mesh harmonics j T and their first sidebands j T - 1, j T + 1 (j >= 1)
 //     residual    x without its mean and the mesh harmonics
-//     difference  x without its mean and all that is regular
+//     difference  x without its mean and the regular signal
 //     envelope    |b + i H(b)|, b being x between the orders T - h and T + h, h = (T - 1) / 2
-//     rounded
-//                 down: the first mesh harmonic with all its sidebands; H: the Hilbert transform
+//                 rounded down: the first mesh harmonic with all its sidebands; H: the Hilbert
+//                 transform
 //
 // all up to the Nyquist order.
 #pragma once
@@ -22,23 +23,23 @@
 
 namespace gearpod::signals {
 
-// One object per thread.
+// Holds scratch memory: use one object per thread.
 class MeshSeparation {
   public:
-    // `points` samples of a turn of `teeth` teeth. Throws std::invalid_argument unless teeth >= 3
-    // and points >= 4 teeth.
+    // `points` is the number of samples of a turn of `teeth` teeth. Throws std::invalid_argument
+    // unless teeth >= 3 and points >= 4 teeth.
     MeshSeparation(int points, int teeth);
 
     // Separates a turn. Throws std::invalid_argument unless it has points() samples.
     void load(std::span<const double> turn);
 
     int points() const { return static_cast<int>(regular_.size()); }
-    // Of the turn loaded last, points() samples each.
+    // Signals of the turn loaded last, points() samples each.
     std::span<const double> regular() const { return regular_; }
     std::span<const double> residual() const { return residual_; }
     std::span<const double> difference() const { return difference_; }
     std::span<const double> envelope() const { return envelope_; }
-    // One-sided amplitudes, order 0 to the Nyquist order.
+    // One-sided amplitudes of that turn, order 0 to the Nyquist order.
     std::span<const double> amplitude() const { return amplitude_; }
 
   private:

@@ -11,12 +11,12 @@
 namespace gearpod::signals {
 namespace {
 
-constexpr double kFarthest = 0.06;      // of the ratio from 1
-constexpr int kMostHarmonics = 8;       // beyond, the searched bands of neighbours overlap
+constexpr double kFarthest = 0.06;      // largest deviation of the ratio from 1
+constexpr int kMostHarmonics = 8;       // beyond, the search bands of neighbours overlap
 constexpr double kStandsOut = 5.0;      // amplitude over the median of its band
-constexpr double kSpread = 4.0;         // of a mesh's lines, in turns' frequencies
-constexpr double kFits = 0.3;           // share of the amplitudes
-constexpr double kNearlyAsWell = 0.85;  // as the best fit
+constexpr double kSpread = 4.0;         // of a mesh's lines, in turn frequencies
+constexpr double kFits = 0.3;           // fraction of the amplitudes
+constexpr double kNearlyAsWell = 0.85;  // fraction of the best fit
 
 struct Line {
     double order;  // per mesh
@@ -24,7 +24,7 @@ struct Line {
     int harmonic;
 };
 
-// The largest length with no other prime factors than 2, 3 and 5.
+// Largest even length up to `most` with no prime factors other than 2, 3 and 5.
 int fast_length(int most) {
     for (int n = most; n > 1; --n) {
         int rest = n;
@@ -56,12 +56,13 @@ std::vector<Line> strong_lines(const std::vector<double>& amplitude, double mesh
         for (std::size_t bin = first; bin <= last; ++bin) {
             most = std::max(most, amplitude[bin]);
         }
-        // What stands out of noise, and of the skirts of stronger lines.
+        // Threshold above the noise and above the skirts of stronger lines.
         const double least = std::max(kStandsOut * *middle, 0.05 * most);
         for (std::size_t bin = first; bin <= last; ++bin) {
             if (amplitude[bin] > least && amplitude[bin] >= amplitude[bin - 1] &&
                 amplitude[bin] >= amplitude[bin + 1]) {
-                // Every harmonic counts alike, whatever its strength.
+                // Amplitudes are normalised so that every harmonic counts equally, whatever its
+                // strength.
                 lines.push_back({static_cast<double>(bin) / meshes, amplitude[bin] / most, k});
             }
         }
@@ -69,7 +70,7 @@ std::vector<Line> strong_lines(const std::vector<double>& amplitude, double mesh
     return lines;
 }
 
-// Share of the amplitudes on the comb stretched by `ratio`.
+// Fraction of the amplitudes that the comb stretched by `ratio` covers.
 double fit_of(const std::vector<Line>& lines, double ratio, int turn_meshes, double width) {
     double on = 0.0, all = 0.0;
     for (const Line& line : lines) {
@@ -112,7 +113,7 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mes
     if (harmonics.size() < kFewestHarmonics) {
         return std::nullopt;
     }
-    // A tooth of the comb is a bin and a half wide, at most a third of the way to the next.
+    // Each comb tooth is 1.5 bins wide, at most a third of the distance to the next one.
     const double width = std::min(0.33, 1.5 / turns);
     const double step = 0.25 / (meshes * *harmonics.rbegin());
     MeshSpeed best{1.0, 0.0, fit_of(lines, 1.0, turn_meshes, width)};

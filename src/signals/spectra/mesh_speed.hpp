@@ -1,11 +1,13 @@
-// Whether the mesh lines of a signal lie where its mesh phase says.
+// Checks the speed of a signal by the mesh lines of its spectrum.
 //
-// In steady running all lines of a gearbox are multiples of the carrier's turn (of the wheel's, of
-// a fixed-shaft pair), those of a mesh crowding around the multiples k of the mesh frequency. A
-// comb of these, stretched by `ratio`, is laid over the lines that stand out of the spectrum; where
-// it fits best is the speed of the signal over the one that was assumed. A stretch by a tooth of
-// the comb lays the lines of k = 1 on their neighbours, but those of its harmonics k teeth away,
-// where there is less; with few harmonics such a ratio may fit nearly as well, and is told.
+// In steady running all lines of a gearbox are multiples of the turn frequency of the carrier (of
+// the wheel, for a fixed-shaft pair). The lines of a mesh cluster around the multiples k of the
+// mesh frequency. A comb of these lines, stretched by `ratio`, is compared with the strong lines of
+// the spectrum. The ratio of the best fit is the signal's speed over the assumed one.
+//
+// A stretch by one comb tooth maps the lines of k = 1 to their neighbours, but the lines of the
+// k-th harmonic k teeth away, where lines are weaker. With few harmonics such a ratio may fit
+// nearly as well; it is then reported as `other`.
 #pragma once
 
 #include <optional>
@@ -14,16 +16,17 @@
 namespace gearpod::signals {
 
 struct MeshSpeed {
-    double ratio = 1.0;   // of the speed that the lines fit best to the assumed one
-    double fit = 0.0;     // share of the lines' amplitudes that the comb covers there
-    double stated = 0.0;  // and at a ratio of 1
-    double other = 0.0;   // another ratio that fits nearly as well; 0: none
-    int harmonics = 0;    // that have lines
+    double ratio = 1.0;   // best-fitting speed over the assumed one
+    double fit = 0.0;     // fraction of the lines' amplitudes that the comb covers at `ratio`
+    double stated = 0.0;  // the same at a ratio of 1
+    double other = 0.0;   // another ratio with nearly the same fit; 0: none
+    int harmonics = 0;    // number of mesh harmonics with lines
 };
 
-// `samples`: evenly spaced in mesh phase, `per_mesh` a mesh period; `turn_meshes`: mesh periods of
-// a turn. Looks for ratios from 0.94 to 1.06. Empty if there is too little to say it by: fewer than
-// four turns, fewer than three harmonics with lines, or lines that fit nowhere.
+// `samples` are evenly spaced in mesh phase, `per_mesh` per mesh period; `turn_meshes` is the
+// number of mesh periods of a turn. Searches ratios from 0.94 to 1.06. Empty if the data do not
+// suffice: fewer than four turns, fewer than three harmonics with lines, or no ratio with an
+// acceptable fit.
 std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mesh, int turn_meshes);
 
 }  // namespace gearpod::signals

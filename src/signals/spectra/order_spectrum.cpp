@@ -14,7 +14,7 @@ int checked(int points) {
     return points;
 }
 
-// The power of two that brings b's rms next to a's; 1 if either vanishes.
+// Power of two that brings b's rms close to a's; 1 if either vanishes.
 double balancing_power_of_two(std::span<const double> a, std::span<const double> b) {
     const auto square = [](std::span<const double> x) {
         return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);

@@ -10,9 +10,9 @@
 
 namespace gearpod::signals {
 
-// Spectra of signal + s noise for any number of levels s from one transform: the FFT is linear, and
-// a signal and its noise, both real, share one complex FFT (signal in the real part, noise in the
-// imaginary part, told apart by Hermitian symmetry). One object per thread.
+// Spectra of signal + s noise for any number of levels s from one transform. The FFT is linear, and
+// a real signal and its real noise share one complex FFT. The signal is its real part, the noise
+// its imaginary part, and Hermitian symmetry separates their spectra. Use one object per thread.
 class OrderSpectrum {
   public:
     // Throws std::invalid_argument unless points >= 2.
@@ -21,12 +21,13 @@ class OrderSpectrum {
     int points() const { return static_cast<int>(buffer_.size()); }
     int orders() const { return points() / 2 + 1; }  // order 0 to the Nyquist order
 
-    // Both of points() samples; `noise` may be empty. The noise is scaled to the signal's size by a
-    // power of two meanwhile, so that its rounding does not leak into the signal's spectrum. Throws
-    // std::invalid_argument otherwise.
+    // Both spans have points() samples; `noise` may be empty. Before the transform, the noise is
+    // scaled to the signal's size by a power of two, so that its rounding errors do not leak into
+    // the signal's spectrum. Throws std::invalid_argument otherwise.
     void load(std::span<const double> signal, std::span<const double> noise = {});
 
-    // amplitudes[k] of signal + noise_factor * noise: a sine of amplitude A at order k gives A.
+    // Amplitudes of signal + noise_factor * noise: a sine of amplitude A at order k gives
+    // amplitudes[k] = A.
     void amplitudes(double noise_factor, std::span<double> amplitudes) const;
 
   private:

@@ -12,7 +12,7 @@ namespace {
 
 using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
 
-// Of a sample's distance: a grid point so near to a sample is on it.
+// Largest distance, in samples, at which a grid point counts as being on a sample.
 constexpr double kOnSample = 1e-6;
 
 }  // namespace
@@ -39,7 +39,7 @@ std::vector<double> OrderTracking::resample(std::span<const double> signal, int 
     std::unique_ptr<Spline> spline;
     std::vector<double> resampled(static_cast<std::size_t>(meshes) *
                                   static_cast<std::size_t>(per_mesh));
-    std::size_t next = 1;  // the first sample at or after the grid point, but for the last one
+    std::size_t next = 1;  // first sample at or after the grid point, or the last sample
     for (std::size_t i = 0; i < resampled.size(); ++i) {
         const double wanted = phase_.front() + static_cast<double>(i) / per_mesh;
         while (next + 1 < phase_.size() && phase_[next] < wanted) {

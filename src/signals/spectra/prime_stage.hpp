@@ -1,21 +1,22 @@
-// The kernel behind FourierTransform; see fourier_transform.hpp.
+// Kernel of FourierTransform; see fourier_transform.hpp.
 #pragma once
 
 namespace gearpod::signals {
 
 inline constexpr int kColumns = 8;
 
-// A transform of q points, q an odd prime, in every column k < row:
+// Transforms of q points, q an odd prime, in every column k < row:
 //
 //     out[s][k] = sum over r < q of in[r][k] exp(i a r s),
 //
-// a being 2 pi / q or -2 pi / q. Terms r and q - r, and results s and q - s, share their products.
+// where a is 2 pi / q or -2 pi / q. Terms r and q - r, and results s and q - s, share their
+// products.
 struct PrimeStageArguments {
     int prime = 0;
     long row = 0;                    // columns, a multiple of kColumns
-    const double* cosine = nullptr;  // [s - 1][r - 1], 1 <= r, s <= (q - 1) / 2: of a r s
+    const double* cosine = nullptr;  // [s - 1][r - 1], 1 <= r, s <= (q - 1) / 2: cos(a r s)
     const double* sine = nullptr;
-    double* real = nullptr;  // [r][k], spoilt
+    double* real = nullptr;  // [r][k], overwritten
     double* imaginary = nullptr;
     double* out_real = nullptr;  // [s][k]
     double* out_imaginary = nullptr;

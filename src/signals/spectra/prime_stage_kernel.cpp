@@ -8,7 +8,8 @@ namespace {
 
 constexpr int W = kColumns;
 
-// Row r becomes the sum of rows r and q - r, row q - r their difference; out[0] the sum of all.
+// Replaces row r by the sum of rows r and q - r, and row q - r by their difference; `total` is the
+// sum of all rows.
 GEARPOD_INLINE void pair_rows(int prime, long row, double* __restrict rows,
                               double* __restrict total) {
     alignas(64) double sum[W];

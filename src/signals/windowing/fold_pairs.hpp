@@ -1,4 +1,4 @@
-// The signal of every pair of mesh and carrier index, which both folds begin with
+// Signal of every pair of distinct mesh and carrier index, the first step of both folds
 // (fold_squares.hpp).
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace gearpod::signals {
 
-// y^2, or y, of one mesh's pairs at phase p. The accelerations stay in registers over the carrier
-// indices.
+// Evaluates y^2 or y of one mesh's pairs at phase p. The accelerations stay in registers over the
+// carrier indices.
 template <int N, int W, bool kSquared>
 GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh,
                                    double* pairs_of_phase) {
@@ -33,8 +33,8 @@ GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh,
     }
 }
 
-// All pairs at `count` phases from p on. Only here do kernels know the number of planets when they
-// are compiled: what folds the pairs is compiled once, not once for each number of planets.
+// Evaluates all pairs at `count` phases from p on. Only this part of the kernels is compiled for
+// each number of planets; the folding of the pairs is compiled once.
 template <int W, bool kSquared>
 GEARPOD_INLINE void evaluate_phases(const FoldArguments& a, long p, long count) {
     const long pairs = static_cast<long>(a.plan->pairs().carrier.size());

@@ -7,18 +7,18 @@
 namespace gearpod::signals {
 namespace {
 
-// (distinct mesh, carrier index) as one number, ordered by mesh.
+// Encodes (distinct mesh, carrier index) as one number, ordered by mesh.
 struct PairCode {
     int positions;
     int operator()(int mesh, int carrier) const { return mesh * positions + carrier; }
 };
 
-// A sum: pair codes with their number of occurrences, in the order of the addition.
+// One sum: pair codes with their numbers of occurrences, in the order of addition.
 using Occurrences = std::vector<std::pair<int, int>>;
 
-// The order and the counts follow the carrier index and the place in the timeline, never the number
-// of the mesh: which places share a record differs with the tile's other lanes, and a lane's sum
-// must not.
+// Pairs of tooth j with their counts. Order and counts follow the carrier index and the place in
+// the timeline, never the number of the mesh. Which places share a recorded mesh differs with the
+// tile's other lanes, and a lane's sum must not depend on them.
 Occurrences occurrences_of_tooth(int j, const Timeline& timeline, const SpanLayout& layout,
                                  PairCode code) {
     const long length = static_cast<long>(timeline.size());
@@ -39,7 +39,8 @@ Occurrences occurrences_of_tooth(int j, const Timeline& timeline, const SpanLayo
     return occurrences;
 }
 
-// Numbers the codes that occur, in ascending order; returns the number of each code (-1: none).
+// Numbers the occurring codes in ascending order. Returns the number of each code, -1 for codes
+// that do not occur.
 std::vector<int> number_pairs(const std::vector<Occurrences>& sums, int meshes, PairCode code,
                               FoldPlan::Pairs& pairs) {
     std::vector<int> number(static_cast<std::size_t>(meshes) * code.positions, -1);

@@ -1,5 +1,5 @@
-// Which pairs of distinct mesh and carrier index a fold modulo one planet turn
-// (folded_signal.hpp) is made of.
+// Pairs of distinct mesh and carrier index that contribute to a fold modulo one planet turn
+// (folded_signal.hpp).
 #pragma once
 
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace gearpod::signals {
 
-// Which samples have to be evaluated and which of them each planet tooth collects. Depends on the
-// timeline only; serves any number of tiles.
+// Samples that have to be evaluated, and those that each planet tooth sums. A plan depends on the
+// timeline only and serves any number of tiles.
 class FoldPlan {
   public:
     // Throws std::invalid_argument if the layout has no meshes or the timeline is empty or
     // negative.
     FoldPlan(const Timeline& timeline, const SpanLayout& layout);
 
-    // Pairs first[m]..first[m + 1] - 1 are distinct mesh m at carrier indices carrier[q].
+    // Pairs first[m]..first[m + 1] - 1 belong to distinct mesh m, at carrier indices carrier[q].
     struct Pairs {
         std::vector<int> first;
         std::vector<int> carrier;
     };
-    // A sum of squares: entries first[s]..first[s + 1] - 1 are pairs with their number of
+    // Sums of squares. Entries first[s]..first[s + 1] - 1 of sum s are pairs with their numbers of
     // occurrences.
     struct Sums {
         std::vector<int> first;

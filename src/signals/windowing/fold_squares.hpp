@@ -1,4 +1,4 @@
-// The kernels behind fold_squares, without and with tones; see folded_signal.hpp.
+// Kernels of fold_squares, without and with tones; see folded_signal.hpp.
 #pragma once
 
 #include "signals/noise/tones.hpp"
@@ -7,17 +7,17 @@
 
 namespace gearpod::signals {
 
-// Phases whose samples get their tones together.
+// Number of phases whose tones are added together.
 inline constexpr int kTonePhases = 4;
 
-// What the kernel reads and writes. Shapes as in TileSignals, PathGrid and FoldPlan, which must
-// agree.
+// Input and output arrays of the kernels. Their shapes are those of TileSignals, PathGrid and
+// FoldPlan, which must agree.
 struct FoldArguments {
     const PathGrid* path = nullptr;
     const FoldPlan* plan = nullptr;
     const double* const* accel = nullptr;
     const double* exponent = nullptr;  // [lane]
-    const ToneTable* tones = nullptr;  // if any, over the whole span
+    const ToneTable* tones = nullptr;  // over the whole span; null without tones
     double* whole_steps = nullptr;     // scratch, [M_c/2 + 1][lane]
     double* weight = nullptr;          // scratch, [carrier index][planet][lane]
     double* pairs = nullptr;   // scratch, [pair][lane]: y^2; with tones y, [phase][pair][lane]

@@ -3,7 +3,7 @@
 namespace gearpod::signals {
 namespace {
 
-// Sum s over its pairs. Four partial sums, so that additions do not wait for each other.
+// Computes sum s over its pairs. Four partial sums make consecutive additions independent.
 template <int W>
 GEARPOD_INLINE void sum_pairs(const FoldArguments& a, long s) {
     const int* pair = a.plan->sums().pair.data();
@@ -34,7 +34,7 @@ GEARPOD_INLINE void sum_pairs(const FoldArguments& a, long s) {
     }
 }
 
-// Each tooth's bin at phase p takes its sum.
+// Copies the sum of each tooth to its bin at phase p.
 template <int W>
 GEARPOD_INLINE void hand_out(const FoldArguments& a, long p) {
     const long phases = a.path->phases();

@@ -6,11 +6,11 @@
 namespace gearpod::signals {
 namespace {
 
-// Meshes whose samples, at the phases of a block, stay in the first cache while all tones are
-// added.
+// Number of meshes processed together. Their samples at a block's phases stay in the first-level
+// cache while all tones are added.
 constexpr int kToneMeshes = 32;
 
-// Adds tone t to y[mesh][phase][lane] of meshes k.. at phases p.. .
+// Adds tone t to y[mesh][phase][lane] of `count` meshes from k on, at B phases from p on.
 template <int B, int W>
 GEARPOD_INLINE void add_tone(const ToneTable& tones, long meshes, long t, long k, int count, long p,
                              double* __restrict y) {
@@ -35,8 +35,8 @@ GEARPOD_INLINE void add_tone(const ToneTable& tones, long meshes, long t, long k
     }
 }
 
-// Every mesh of the span at B phases from p on: the signal of its pair, its tones, the square added
-// to its tooth's bin.
+// Folds every mesh of the span at B phases from p on: takes the signal of its pair, adds the tones
+// and adds the square to its tooth's bin.
 template <int B, int W>
 GEARPOD_INLINE void fold_with_tones(const FoldArguments& a, long p) {
     const long phases = a.path->phases();

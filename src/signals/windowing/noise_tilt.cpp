@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kStartsPerMesh = 8;
 
-// A quiet stretch is not asked to have less than this share of its mean energy.
+// Smallest target energy of a quiet stretch, as a fraction of its mean energy.
 constexpr double kLeastShare = 0.05;
 
-// Of an exponential that adds nothing to a density.
+// Exponents below this add nothing to a density.
 constexpr double kNothing = -45.0;
 
 }  // namespace
@@ -87,7 +87,7 @@ NoiseTilt::Level NoiseTilt::make_level(double sigma, Towards towards) const {
             if (!loud && c != loudest) {
                 continue;
             }
-            // The mean of the tilted energy, degrees x + lambda x^2, is u.
+            // u is the mean of the exponentially tilted energy, degrees x + lambda x^2.
             const double lambda = squares_[c] / (sigma * sigma);
             const double x =
                 2.0 * u / (degrees_ + std::sqrt(degrees_ * degrees_ + 4.0 * lambda * u));

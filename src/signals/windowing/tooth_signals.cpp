@@ -81,7 +81,8 @@ void remove_path_trend(std::span<double> values, int orders) {
     const std::size_t teeth = values.size();
     const auto count = static_cast<double>(teeth);
     std::vector<double> trend(teeth, 0.0);
-    // Orders below half the teeth are orthogonal: least squares is their Fourier sum.
+    // Orders below half the number of teeth are orthogonal, so the least-squares fit is their
+    // Fourier sum.
     const int highest = std::min(orders, (static_cast<int>(teeth) - 1) / 2);
     for (int k = 0; k <= highest; ++k) {
         const auto angle = [&](std::size_t j) {

@@ -1,51 +1,52 @@
-// The kernels behind Windowing; see windowing.hpp.
+// Kernels of Windowing; see windowing.hpp.
 //
-// They look at kSegments stretches of the folded signal abreast, each of the same number of whole
-// mesh periods: element t of segment i lies at [t * kSegments + i], so that a window of every
-// segment is read in whole, aligned registers wherever it begins. Eight on every instruction set:
-// the bits are the same.
+// They process kSegments stretches of the folded signal in parallel, each of the same number of
+// whole mesh periods. Element t of segment i lies at [t * kSegments + i], so that a window of every
+// segment is read in whole, aligned registers wherever it begins. kSegments is eight on every
+// instruction set, so that the bits are the same.
 #pragma once
 
 namespace gearpod::signals {
 
 inline constexpr int kSegments = 8;
 
-// For `outputs` first bins t of each segment:
+// Energies of the windows that begin at the `outputs` first bins t of each segment:
 //
 //     energy[t] = sum over m < phases of weight_squared[m] bins[t + m].
 //
-// The weights are 1 at flat_first .. flat_first + flat_count - 1 and 0 before `first` and as far
-// from the other end. The flat part is summed from blocks into which every mesh period is divided
-// alike, none longer than the flat part: of the block that it begins in all from there on, of the
-// block that it ends in all up to there, and what lies between. So nothing is subtracted, and the
-// windows of equal teeth are summed in the same order.
+// The weights are 1 at flat_first .. flat_first + flat_count - 1 and 0 before `first` and for the
+// same number of bins at the other end. The flat part is summed from blocks, none longer than the
+// flat part, into which every mesh period is divided in the same way. It consists of the end of its
+// first block, the whole blocks between, and the beginning of its last block. So nothing is
+// subtracted, and the windows of equal teeth are summed in the same order.
 struct WindowEnergyArguments {
     int phases = 0;
     int first = 0;
     int flat_first = 0;
     int flat_count = 0;
     long outputs = 0;
-    long blocks = 0;                  // as far as `bins` hold signal
-    const long* block_end = nullptr;  // [blocks]: the bin behind each block
-    const int* end_of_bin = nullptr;  // [2 phases]: the block_end of each bin of two mesh periods
+    long blocks = 0;                  // number of blocks that cover `bins`
+    const long* block_end = nullptr;  // [blocks]: the bin after each block
+    // [2 phases]: block_end of the block of each bin of two mesh periods
+    const int* end_of_bin = nullptr;
     const double* weight_squared = nullptr;
-    const double* bins = nullptr;  // kOutputsAtOnce - 1 beyond the last window's
+    const double* bins = nullptr;  // padded by kOutputsAtOnce - 1 after the last window
     double* upwards = nullptr;     // [bins]: the sum from the beginning of the block to here
     double* downwards = nullptr;   // [bins]: the sum from here to the end of the block
-    double* energy = nullptr;      // kOutputsAtOnce - 1 beyond `outputs`
+    double* energy = nullptr;      // padded by kOutputsAtOnce - 1 after `outputs`
 };
 
 inline constexpr int kOutputsAtOnce = 8;
 
 void window_energy(const WindowEnergyArguments& a);
 
-// along[b] becomes along[b] sqrt(folded[b]), across[b] becomes along[b]^2 + across[b]; a multiple
-// of kSegments values.
+// Replaces along[b] by along[b] sqrt(folded[b]) and across[b] by along[b]^2 + across[b], with the
+// old along[b]. `values` is a multiple of kSegments.
 void mix_noise(long values, const double* folded, double* along, double* across);
 
-// The windows' energies at one noise level, e = signal + 2 sigma cross + sigma^2 noise, at least 0;
-// the largest of each segment and the smallest bin, modulo `phases`, that has it. sigma 0: the
-// other two are not read.
+// Finds the largest window energy of each segment at one noise level, and the smallest bin, modulo
+// `phases`, that has it. The energies are e = signal + 2 sigma cross + sigma^2 noise, at least 0.
+// With sigma 0, `cross` and `noise` are not read.
 struct LargestEnergyArguments {
     int phases = 0;
     int periods = 0;

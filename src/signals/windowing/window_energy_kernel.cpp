@@ -36,7 +36,7 @@ GEARPOD_INLINE void clear(double* __restrict sum) {
     }
 }
 
-// The flat part of the window at bin `phase` of the mesh period that begins at `period`.
+// Sums the flat part of the window at bin `phase` of the mesh period that begins at `period`.
 GEARPOD_INLINE void sum_flat(const WindowEnergyArguments& a, long period, int phase,
                              double* __restrict sum) {
     const int from = phase + a.flat_first;
@@ -62,8 +62,8 @@ GEARPOD_INLINE void sum_flat(const WindowEnergyArguments& a, long period, int ph
     }
 }
 
-// Adds a taper, weights begin .. end - 1, to the windows from bins[0], bins[W], ... on: every
-// weight serves all of them, while their sums stay in registers.
+// Adds a taper, weights begin .. end - 1, to kOutputsAtOnce windows that begin at bins[0], bins[W],
+// ... Each weight is used for all of them while their sums stay in registers.
 GEARPOD_INLINE void add_taper(const double* __restrict bins, const double* __restrict weight,
                               int begin, int end, double* __restrict energy) {
     constexpr int kSums = kOutputsAtOnce * W;
@@ -120,7 +120,7 @@ GEARPOD_INLINE void mix(long values, const double* __restrict folded, double* __
     }
 }
 
-// Phase by phase, so that only a larger energy takes a place.
+// Searches phase by phase, and replaces the place only for a larger energy.
 template <bool kNoisy>
 GEARPOD_INLINE void search(const LargestEnergyArguments& a) {
     alignas(64) double largest[W], place[W], most[W];

@@ -17,7 +17,7 @@ bool is_flat(double weight) {
     return weight == 1.0;
 }
 
-// The ends of a mesh period's blocks, as few as may be while none is longer than `longest`.
+// Ends of the blocks of a mesh period: as few blocks as possible, none longer than `longest`.
 std::vector<int> block_ends(int phases, int longest) {
     const int blocks = (phases + longest - 1) / longest;
     const int length = (phases + blocks - 1) / blocks;
@@ -84,7 +84,7 @@ Windowing::Windowing(const SpanLayout& layout, int phases, double taper)
     }
 }
 
-// Segment i begins with tooth i * periods_; the last ones look at teeth that come round again.
+// Segment i begins with tooth i * periods_. The last segments wrap around to the first teeth.
 void Windowing::spread(std::span<const double> bins, machine::AlignedVector& spread) const {
     const auto phases = static_cast<std::size_t>(phases_);
     if (bins.size() != static_cast<std::size_t>(layout_.planet_teeth) * phases) {
@@ -123,7 +123,7 @@ void Windowing::window(const machine::AlignedVector& bins, Term& term) {
     term.total = total();
 }
 
-// Of the bins that were windowed last: every block is known, and every tooth counts once.
+// Sum of the bins that were windowed last, from the block sums. Every tooth counts once.
 double Windowing::total() const {
     double sum = 0.0;
     for (const long end : block_end_) {

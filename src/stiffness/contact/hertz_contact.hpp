@@ -1,7 +1,7 @@
 // Compliance of the contact of two teeth, m/N.
-//  linear          1 / k_h of material.hpp, whatever the load.
-//  load_dependent  k_h = E^0.9 L^0.8 F^0.1 / 1.37 with the pair's own force F; Yang (2022), Eq. 19.
-//                  Secant: F / k_h is the approach.
+//     linear          1 / k_h of material.hpp, independent of the load.
+//     load_dependent  k_h = E^0.9 L^0.8 F^0.1 / 1.37 with the pair's own force F; Yang (2022),
+//                     Eq. 19. Secant stiffness: F / k_h is the approach.
 #pragma once
 
 #include "stiffness/teeth/material.hpp"
@@ -14,12 +14,13 @@ class HertzContact {
   public:
     HertzContact(const Material& material, Contact contact);
     bool load_dependent() const { return contact_ == Contact::load_dependent; }
-    // width: the part of the face width that touches, 0 to 1; infinite compliance where it is 0.
+    // width: fraction of the face width in contact, 0 to 1. The compliance is infinite where it is
+    // 0.
     double compliance(double force_N, double width = 1) const;
 
   private:
     Contact contact_;
-    double unit_;  // at width 1 and, load-dependent, at 1 N
+    double unit_;  // compliance at width 1 and, if load-dependent, at 1 N
 };
 
 }  // namespace gearpod::stiffness

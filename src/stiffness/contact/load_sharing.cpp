@@ -10,7 +10,7 @@ namespace {
 using Pairs = std::array<double, TouchingPairs::kMost>;
 using Matrix = std::array<Pairs, TouchingPairs::kMost>;
 
-// Solves c x = 1 for the first n pairs by Cholesky's decomposition; c is positive definite.
+// Solves c x = 1 for the first n pairs by Cholesky decomposition. c is positive definite.
 Pairs solve_for_ones(Matrix c, int n) {
     Pairs x{};
     for (int i = 0; i < n; ++i) {
@@ -36,7 +36,7 @@ Pairs solve_for_ones(Matrix c, int n) {
     return x;
 }
 
-// The pairs that may carry, in order.
+// Pairs in contact that may carry load, in order.
 struct Carrying {
     int count = 0;
     std::array<int, TouchingPairs::kMost> pair{};
@@ -68,8 +68,8 @@ SharedLoad share_among(const Carrying& carrying, const TouchingPairs& pairs,
 }  // namespace
 
 SharedLoad share_load(const TouchingPairs& pairs, const HertzContact& contact, double force_N) {
-    // The contact's compliance goes with the force to the power -0.1: errors shrink tenfold a
-    // round.
+    // The contact compliance is proportional to the force to the power -0.1, so errors shrink
+    // tenfold per iteration.
     constexpr int kMostRounds = 40;
     constexpr double kSettled = 1e-15;
     Carrying carrying;

@@ -1,11 +1,11 @@
-// How the tooth pairs that touch share the mesh's force: all approach equally along the line of
-// action, by their own compliance, their contact's and what their neighbours' forces do to the gear
-// bodies,
+// Sharing of the mesh force among the tooth pairs in contact. All pairs have the same approach
+// along the line of action. It results from the compliance of each pair, the compliance of its
+// contact, and the deformation of the gear bodies by its neighbours' forces:
 //
-//     delta = sum_j c_ij F_j + c_h(F_i) F_i   for every pair i that carries,   sum F_i = F.
+//     delta = sum_j c_ij F_j + c_h(F_i) F_i   for every pair i that carries load,   sum F_i = F.
 //
-// Without coupling and with a linear contact they are springs in parallel. Yang (2022),
-// Eqs. 21-24.
+// Without coupling and with linear contacts the pairs are springs in parallel. Yang (2022), Eqs.
+// 21-24.
 #pragma once
 
 #include <array>
@@ -17,18 +17,19 @@ namespace gearpod::stiffness {
 struct TouchingPairs {
     static constexpr int kMost = 8;
     int count = 0;
-    // c_ij, m/N, symmetric; c_ii without the contact, infinite if the pair carries nothing.
+    // c_ij, m/N, symmetric. c_ii excludes the contact and is infinite if the pair carries no load.
     std::array<std::array<double, kMost>, kMost> compliance{};
-    // The part of the face width on which they touch, and a factor on the contact's compliance.
+    // Fraction of the face width in contact, and a factor on the contact's compliance.
     std::array<double, kMost> width{}, contact_factor{};
 };
 
 struct SharedLoad {
-    double stiffness = 0;                              // F / delta, N/m; 0 if no pair carries
+    double stiffness = 0;                              // F / delta, N/m; 0 if no pair carries load
     std::array<double, TouchingPairs::kMost> share{};  // F_i / F
 };
 
-// Shares to 1e-14. A pair that its neighbours' forces would lift off carries nothing.
+// Load sharing, with shares accurate to 1e-14. A pair that its neighbours' forces would lift off
+// carries no load.
 SharedLoad share_load(const TouchingPairs& pairs, const HertzContact& contact, double force_N);
 
 }  // namespace gearpod::stiffness

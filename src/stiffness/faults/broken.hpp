@@ -1,6 +1,6 @@
-// A broken tooth: its pair carries nothing where it should touch, so that zones with a single pair
-// have no stiffness. Tian (2004), section 3.4, Eq. 3.17. Size: the part of the pair's stiffness
-// that is lost, 1 being Tian's missing tooth.
+// Broken tooth: its pair carries no load where it should touch, so that zones with a single pair
+// have no stiffness. Tian (2004), section 3.4, Eq. 3.17. Size: lost fraction of the pair's
+// stiffness; 1 is Tian's missing tooth.
 #pragma once
 
 #include "stiffness/teeth/tooth_fault.hpp"

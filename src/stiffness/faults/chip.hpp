@@ -1,21 +1,24 @@
-// A tooth with a chip off one end of its tip: the contact's width shrinks along a hyperbola towards
-// the tip and with it the Hertz stiffness alone; the beam keeps its stiffness. Tian (2004), section
+// Tooth with a chip at one end of its tip. The contact's width decreases along a hyperbola towards
+// the tip, and with it only the Hertz stiffness. The beam keeps its stiffness. Tian (2004), section
 // 3.2, Eqs. 3.1-3.4.
 //
 //     L_c = L                                                        0 <= d_c <= d_h - b
 //     L_c = (d_h^2 z / b - d_h z) / d_c + L - d_h z / b,     d_h - b <= d_c <= d_h
 //
-// so that L_c falls from the whole width L at the depth b below the tip to L - z at the tip. d_c is
-// the contact's distance, along the tooth's centre line, from the section at the base circle
-// (Eq. 3.3); at the root circle where that is the larger one, and for internal teeth. Tian calls
-// d_h the distance between roof and root; it is taken as the radial distance of the tip circle from
-// the circle where d_c is 0, since only this starts the chip at his 22.4 degrees (22.42; from
-// section to section 22.96, and the whole tooth's height leaves nothing to touch the chip).
-// Contacts beyond d_h, on the last tenth of a millimetre in his case, count as d_h.
+// L_c thus falls from the whole width L at the depth b below the tip to L - z at the tip. d_c is
+// the contact's distance along the tooth's centre line from the section at the base circle (Eq.
+// 3.3), or at the root circle where that is larger and for internal teeth.
 //
-// Of helical teeth it lies at one end of the face width, on the length z (ToothFault::face).
+// Tian calls d_h the distance between roof and root. It is taken as the radial distance of the tip
+// circle from the circle where d_c is 0, because only this starts the chip at his 22.4 degrees
+// (22.42; the distance from section to section gives 22.96, and with the whole tooth's height no
+// contact reaches the chip). Contacts beyond d_h, the last tenth of a millimetre in his case, are
+// treated as at d_h.
 //
-// Size: the chip's length z along the face, m. Its depth b is given, or grows with it as a quarter,
+// On helical teeth the chip lies at one end of the face width, over the length z
+// (ToothFault::face).
+//
+// Size: length z of the chip along the face, m. Its depth b is given, or a quarter of the length,
 // as in Tian's case (z = 8 mm, b = 2 mm).
 #pragma once
 
@@ -27,19 +30,19 @@
 
 namespace gearpod::stiffness {
 
-// An end of the face width: that which engages first or last where the first gear drives.
+// End of the face width that engages first or last when the first gear is the driver.
 enum class FaceEnd { first, last };
 
 class ToothChip : public ToothFaultFamily {
   public:
     static constexpr double kDepthOverLength = 0.25;
 
-    // which: the gear whose tooth is chipped (1 or 2 of the geometry). depth_m: b of all lengths.
+    // which: gear with the chipped tooth (1 or 2 of the geometry). depth_m: b for all lengths.
     ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which,
               std::optional<double> depth_m = {}, FaceEnd end = FaceEnd::first);
 
     std::unique_ptr<const ToothFault> at(double length_m) const override;
-    // The face width, or the length at which the chip is as deep as the tooth is high.
+    // Face width, or the length at which the chip is as deep as the tooth is high.
     double largest_size() const override;
     std::vector<std::string> problems(double length_m) const override;
 
@@ -51,7 +54,7 @@ class ToothChip : public ToothFaultFamily {
         return depth_m_ ? *depth_m_ : kDepthOverLength * length_m;
     }
     double distance(double tau) const;         // d_c
-    double position(double distance_m) const;  // tau of a d_c
+    double position(double distance_m) const;  // tau at a given d_c
 
     ToothProfile profile_;  // root circle: its involute begins where d_c is 0
     double face_width_m_;

@@ -14,7 +14,7 @@ bool CrackSurface::uniform() const {
     return depth_m == end_depth_m && height_m == end_height_m && angle_rad == end_angle_rad;
 }
 
-// q = q1 + (q2 - q1) t; q^2 is linear in z, so z / L_c = (q^2 - q1^2) / (q2^2 - q1^2).
+// q = q1 + (q2 - q1) t. q^2 is linear in z, so z / L_c = (q^2 - q1^2) / (q2^2 - q1^2).
 double CrackSurface::place(double t) const {
     return length_m * t * (2 * depth_m + (end_depth_m - depth_m) * t) / (depth_m + end_depth_m);
 }
@@ -59,7 +59,7 @@ CrackSurface CrackGrowth::at(double stage, double face_width_m) const {
 }
 
 std::vector<std::string> growth_problems(const CrackGrowth& growth, double face_width_m) {
-    constexpr double kRounding = 1e-12;  // of lengths given in other units
+    constexpr double kRounding = 1e-12;  // for lengths that were given in other units
     std::vector<std::string> problems;
     const std::size_t stages = growth.depth_m.size();
     const auto check = [&](const char* what, const std::vector<double>& list, double most) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPoints = 12;
 
-// The roll angle at a distance along the profile from the base circle, R_b roll^2 / 2.
+// Roll angle at a distance along the profile from the base circle: the distance is R_b roll^2 / 2.
 double roll_at(double base_radius, double arc) {
     return std::sqrt(2 * std::max(0.0, arc) / base_radius);
 }
@@ -68,7 +68,8 @@ class PitsOfOneWidth : public ToothFault {
     }
 
   private:
-    // What the sections from `from` on towards the tip add to the moments; moves `from` on.
+    // Adds the changes of the moments by the sections between `from` and `to`, towards the tip, and
+    // moves `from` to `to`.
     void add_band(double& from, double to, SectionMoments& lost) const {
         if (to >= from)
             return;
@@ -83,7 +84,7 @@ class PitsOfOneWidth : public ToothFault {
         from = to;
     }
 
-    // Area and inertia per unit of face width.
+    // Area and moment of inertia are per unit of face width.
     void add_section(double weight, const ToothSection& at, SectionMoments& lost) const {
         const double t = 2 * at.half_thickness, d = family_.band_.depth_m;
         const double area = t - width_ * d;
@@ -101,7 +102,7 @@ class PitsOfOneWidth : public ToothFault {
     }
 
     const ToothPitting& family_;
-    double width_;  // of the face width
+    double width_;  // fraction of the face width
 };
 
 ToothPitting::ToothPitting(const gears::MeshGeometry& geometry, const Material& material,

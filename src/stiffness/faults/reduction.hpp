@@ -1,6 +1,6 @@
-// A tooth fault known only by what it takes from the gear mesh stiffness while its tooth is
-// engaged. Park et al. (2016), section V-A (10, 20, 30 %). Size: the part of the mesh's stiffness
-// that is lost, high and low alike.
+// Tooth fault described only by the gear mesh stiffness lost while its tooth is engaged. Park et
+// al. (2016), section V-A (10, 20, 30 %). Size: lost fraction of the mesh stiffness, the same for
+// the high and the low level.
 #pragma once
 
 #include "stiffness/teeth/tooth_fault.hpp"

@@ -12,7 +12,7 @@ namespace {
 constexpr int kSlicePoints = 8;
 using Rule = boost::math::quadrature::gauss<double, kSlicePoints>;
 
-// Abscissas on [-1, 1], ascending, and weights.
+// Gauss abscissas on [-1, 1], ascending, and weights.
 struct GaussPoints {
     std::array<double, kSlicePoints> at, weight;
     GaussPoints() {
@@ -25,7 +25,7 @@ struct GaussPoints {
 };
 const GaussPoints kGauss;
 
-// Legendre's polynomials P_0 .. P_n at x.
+// Legendre polynomials P_0 .. P_n at x.
 std::array<double, kSlicePoints + 1> legendre(double x) {
     std::array<double, kSlicePoints + 1> p{1, x};
     for (int k = 1; k < kSlicePoints; ++k)
@@ -86,7 +86,7 @@ void SliceRule::add_part(std::size_t panel, double from, double to,
     const auto low = legendre(2 * (from * scale - first) - 1);
     const auto high = legendre(2 * (to * scale - first) - 1);
     for (int i = 0; i < kSlicePoints; ++i) {
-        // Coefficient k of the interpolant is (2 k + 1) / 2 sum_i weight P_k f; the integral of P_k
+        // Coefficient k of the interpolant is (2 k + 1) / 2 sum_i weight P_k f. The integral of P_k
         // is (P_(k+1) - P_(k-1)) / (2 k + 1).
         const auto at = legendre(kGauss.at[i]);
         double sum = high[1] - low[1];

@@ -1,4 +1,5 @@
-// Quadrature over the part of a crack's length that a contact sees. Positions t from 0 to 1.
+// Quadrature over the part of a crack's length that affects a contact. Positions t range from 0 to
+// 1.
 #pragma once
 
 #include <functional>
@@ -7,15 +8,16 @@
 
 namespace gearpod::stiffness {
 
-// Gauss points in panels of eight. Integrals end anywhere in a panel: the integrand is interpolated
-// through the panel's points.
+// Gauss points in panels of eight. Integrals may end anywhere in a panel, because the integrand is
+// interpolated through the panel's points.
 class SliceRule {
   public:
     explicit SliceRule(int slices);
     const std::vector<double>& points() const { return points_; }
-    // Writes the weights for the integral over all of [0, 1].
+    // Writes the weights of the integral over all of [0, 1].
     void whole(std::span<double> weights) const;
-    // The same over the parts where seen(t) > 0, whose zeros are at least 1 / samples apart.
+    // Writes the weights of the integral over the parts where seen(t) > 0. The zeros of `seen` are
+    // at least 1 / samples apart.
     void where(const std::function<double(double)>& seen, int samples,
                std::span<double> weights) const;
 

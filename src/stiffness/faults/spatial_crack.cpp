@@ -17,15 +17,15 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// Relative to the healthy tooth's stiffness. Slices that differ leave small kinks.
+// Tolerances relative to the healthy tooth's stiffness. Slices that differ cause small kinks.
 constexpr double kUniformTolerance = 1e-11, kTolerance = 1e-5;
 
-// Stiffnesses per unit of the healthy face width; zero where the compliance is infinite.
+// Stiffnesses of a slice per unit of the healthy face width; zero where the compliance is infinite.
 struct SliceStiffness {
     double bending = 0, shear = 0, foundation = 0;
 };
 
-// A contact, as all slices have it.
+// Contact position with the quantities that all slices share.
 struct Touch {
     double u = 0, cosine = 0, sine = 0;
     FoundationCompliance foundation;  // zero without one
@@ -99,7 +99,7 @@ class CrackOfOneStage : public ToothFault {
         longer_lever_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
     }
 
-    // Height of the section at u over the section from which the cracks' heights count.
+    // Height of the section at u above the section from which the cracks' heights are measured.
     double height_at(double u) const {
         const double from = by_sections()
                                 ? family_.profile_.root_axial()
@@ -118,8 +118,9 @@ class CrackOfOneStage : public ToothFault {
         }
     }
 
-    // Where the contact passes the crack's lowest and highest start, and where it leaves the
-    // cracked sections at either end: the slices in between change one after the other.
+    // Adds the positions where the contact passes the crack's lowest and highest start, and where
+    // it leaves the cracked sections at either end. Between these positions the slices change one
+    // after the other.
     void find_breaks() {
         for (const double height : {lowest_, highest_})
             add_break(by_sections() ? CrackedSections(family_.profile_, {1e-9, 1, height}).start()
@@ -160,7 +161,8 @@ class CrackOfOneStage : public ToothFault {
                 tooth_stiffness(touches[i], sweep, {at.data() + i * count, count});
     }
 
-    // As if the contact saw the crack; where it does not, the sum leaves the slice out.
+    // Stiffness of a slice for a contact above the crack's start. Contacts below it give the slice
+    // no weight in the sum.
     SliceStiffness slice_stiffness(std::size_t slice, const Touch& touch,
                                    SectionSweep& sweep) const {
         const CrackedSections& sections = slices_[slice];
@@ -188,7 +190,7 @@ class CrackOfOneStage : public ToothFault {
         const SliceStiffness whole = stiffness_of(sweep.moments(), touch, 1);
         const std::vector<double> weights = seen_weights(height_at(touch.u));
         SliceStiffness sum;
-        double cracked = 0;  // share of the face width
+        double cracked = 0;  // fraction of the face width
         for (std::size_t i = 0; i < slices.size(); ++i) {
             const double share =
                 weights[i] * surface_.stretching(rule_.points()[i]) / surface_.face_width_m;
@@ -209,7 +211,7 @@ class CrackOfOneStage : public ToothFault {
         return sum.bending > 0 ? 1 / soft : 0;
     }
 
-    // Weights of the slices that a contact at that height sees.
+    // Weights of the slices whose crack affects a contact at that height.
     std::vector<double> seen_weights(double height) const {
         std::vector<double> weights(slices_.size());
         if (height >= highest_)
@@ -225,9 +227,9 @@ class CrackOfOneStage : public ToothFault {
     SliceRule rule_;
     CrackedSections healthy_;
     std::vector<CrackedSections> slices_;
-    std::vector<CrackCompliance> added_;  // by the slices, by fracture mechanics
+    std::vector<CrackCompliance> added_;  // added compliance of each slice, by fracture mechanics
     std::vector<double> longer_lever_;    // S / S'; 0 where the root is cut through
-    double lowest_ = 0, highest_ = 0;     // start of the crack over the root section
+    double lowest_ = 0, highest_ = 0;     // heights of the crack's start above the root section
     std::vector<double> breaks_;
     ToothPairCurve curve_;
 };

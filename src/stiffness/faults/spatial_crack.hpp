@@ -1,23 +1,25 @@
-// A crack whose depth, height and angle change along the face width (crack_surface.hpp). Source:
-// Yang (2022), section 2.3.
+// Crack whose depth, height and angle vary along the face width (crack_surface.hpp). Source: Yang
+// (2022), section 2.3.
 //
-// Each slice of the width is a plane crack (crack.hpp); the slices' bending stiffnesses add, so do
-// their shear and their foundation stiffnesses (Eqs. 59-60), and the axial one is the healthy
-// tooth's. The slices are Gauss points of the crack's length, of equal depth steps, which converge
-// faster than slices of equal width. Where the contact lies below a slice's start it does not see
-// the crack; the sum then ends exactly where the start's height passes the contact. A crack of one
-// height that starts within the contact's range makes the stiffness jump there; as the place moves
-// with the size it is one of the fault's breaks, not of its jumps. Sixteen slices leave 2e-5 of the
-// compliance where the contact sees the whole crack, and up to 5e-4 where its sight ends within it.
+// Each slice of the width has a plane crack (crack.hpp). The bending stiffnesses of the slices add,
+// and so do their shear and their foundation stiffnesses (Eqs. 59-60). The axial stiffness is the
+// healthy tooth's. The slices are Gauss points of the crack's length, of equal depth steps, which
+// converge faster than slices of equal width.
 //
-// Foundation: the part of the crack below the root section narrows the root, S' = S - q_b sin g
-// with q_b = q - l / cos g, and so makes the lever over the width longer by S / S'. What that adds
-// to the foundation's compliance is counted with the beam's.
+// A contact below a slice's start is not affected by that slice's crack. The sum then ends exactly
+// where the height of the start passes the contact. A crack of constant height that starts within
+// the contact's range makes the stiffness jump there. As that position depends on the size, it is
+// one of the fault's breaks but not of its jumps. The error of sixteen slices is 2e-5 of the
+// compliance where the whole crack affects the contact, and up to 5e-4 where only part of it does.
 //
-// By fracture mechanics (teeth/crack_law.hpp) a slice has the whole tooth's compliance and, with
-// its bending, what the crack adds in a tooth of that depth throughout
-// (teeth/crack_compliance.hpp). That holds the give of the root, so the foundation stays; heights
-// count from the critical section.
+// Foundation: the part of the crack below the root section narrows the root to S' = S - q_b sin g
+// with q_b = q - l / cos g. It thereby increases the ratio of lever to width by the factor S / S'.
+// The added foundation compliance is included in that of the beam.
+//
+// By fracture mechanics (teeth/crack_law.hpp) a slice has the whole tooth's compliance and, in
+// bending, the compliance that the crack adds in a tooth of that depth throughout
+// (teeth/crack_compliance.hpp). This includes the deformation of the root, so the foundation is
+// unchanged. Heights are measured from the critical section.
 #pragma once
 
 #include <memory>
@@ -35,9 +37,9 @@ namespace gearpod::stiffness {
 // Size: stage of growth, from 0 (healthy) to the number of stages.
 class SpatialCrack : public ToothFaultFamily {
   public:
-    // which: the gear whose tooth is cracked (1 or 2 of the geometry). foundation: that gear's, as
-    // the mesh has it, or null; it must outlive the family. Throws std::invalid_argument with all
-    // of growth_problems(), or unless which is 1 or 2.
+    // which: gear with the cracked tooth (1 or 2 of the geometry). foundation: that gear's
+    // foundation in the mesh, or null; it must outlive the family. Throws std::invalid_argument
+    // with all of growth_problems(), or unless which is 1 or 2.
     SpatialCrack(const gears::MeshGeometry& geometry, const Material& material, Profile profile,
                  int which, CrackGrowth growth, const FilletFoundation* foundation = nullptr,
                  CrackLaw law = CrackLaw::sections);

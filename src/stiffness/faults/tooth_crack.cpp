@@ -38,7 +38,7 @@ class CrackBySections : public ToothFault {
         }
     }
 
-    // Where the section law changes.
+    // Position at which the section law changes.
     std::vector<double> breaks() const override {
         if (!sections_.cracked() || sections_.broken())
             return {};

@@ -1,11 +1,11 @@
-// A tooth cracked straight through its whole width, for every depth, in a gear pair. Two laws
-// (teeth/crack_law.hpp): the sections that the crack leaves (teeth/crack.hpp; Tian 2004, section
-// 3.3; Liang 2016, section 3.5), or the compliance that its stress intensities add
+// Tooth of a gear pair cracked straight through its whole width, for every depth. There are two
+// laws (teeth/crack_law.hpp): the sections that the crack leaves (teeth/crack.hpp; Tian 2004,
+// section 3.3; Liang 2016, section 3.5), or the compliance added by the stress intensities
 // (teeth/crack_compliance.hpp).
 //
-// The sections' compliance is a polynomial in the cosine of the contact angle whose coefficients
-// are cumulative integrals from the root to the contact. They are summed panel by panel from
-// contact to contact, so a curve costs one sweep over the tooth for any depth.
+// The sections' compliance is a polynomial in the cosine of the contact angle. Its coefficients are
+// cumulative integrals from the root to the contact. They are summed panel by panel from contact to
+// contact, so that a curve needs one sweep over the tooth for any depth.
 #pragma once
 
 #include "gears/mesh_geometry.hpp"
@@ -16,10 +16,10 @@
 
 namespace gearpod::stiffness {
 
-// Size: depth along the crack, m. Depths beyond the largest count as it and carry nothing.
+// Size: depth along the crack, m. Depths beyond the largest are treated as it and carry no load.
 class ToothCrack : public ToothFaultFamily {
   public:
-    // which: the gear whose tooth is cracked (1 or 2 of the geometry); crack_angle_rad: between
+    // which: gear with the cracked tooth (1 or 2 of the geometry). crack_angle_rad: angle between
     // crack and centre line. Throws std::invalid_argument unless which is 1 or 2 and 0 <
     // crack_angle_rad < pi/2.
     ToothCrack(const gears::MeshGeometry& geometry, const Material& material, Profile profile,

@@ -7,12 +7,12 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// u_r = U cos n phi, u_phi = V sin n phi at one radius, with their derivatives by r.
+// Amplitudes of u_r = U cos n phi, u_phi = V sin n phi at one radius, with their derivatives by r.
 struct Field {
     double U, V, dU, dV;
 };
 
-// (U, V) (r / reference)^power.
+// Field (U, V) (r / reference)^power.
 Field power_field(double U, double V, double power, double r, double reference) {
     const double f = std::pow(r / reference, power);
     return {U * f, V * f, U * f * power / r, V * f * power / r};
@@ -26,7 +26,7 @@ Annulus::Annulus(double held_radius, double poisson_ratio)
       kappa_(3 - 4 * poisson_ratio),
       lame_(poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))),
       outwards_(held_radius < 1 ? 1 : -1),
-      // (inner / outer)^(2 n) < 1e-17, with room for the factors n^2 before it.
+      // Condition (inner / outer)^(2 n) < 1e-17, with a margin for the factors n^2 before it.
       far_harmonic_(static_cast<int>(26 / std::abs(std::log(held_radius))) + 8) {}
 
 double Annulus::limit_even() const {
@@ -56,7 +56,7 @@ HarmonicCompliance Annulus::harmonic(int n) const {
         const double turn = 2 * kappa_ * std::log(r / falling);
         return {turn - 1, -(turn + 1), 2 * kappa_ / r, -2 * kappa_ / r};
     };
-    // Rows: displacements of the held circle, tractions (acting on the body) of the loaded one.
+    // Rows: displacements of the fixed circle, tractions (acting on the body) of the loaded circle.
     Eigen::Matrix4d conditions;
     Eigen::Matrix<double, 2, 4> loaded;
     for (int j = 0; j < 4; ++j) {
@@ -72,7 +72,7 @@ HarmonicCompliance Annulus::harmonic(int n) const {
     return {c(0, 0), 0.5 * (c(0, 1) + c(1, 0)), c(1, 1)};
 }
 
-// A full disc, or a hole in the infinite plane: the first two or the last two fields alone.
+// Full disc, or hole in the infinite plane: only the first two or the last two fields.
 HarmonicCompliance Annulus::without_held_circle(int n) const {
     const double near = kappa_ / (n + outwards_), far = 1 / (n - outwards_);
     const double even = (near + far) / (4 * shear_), odd = (near - far) / (4 * shear_);
@@ -80,7 +80,7 @@ HarmonicCompliance Annulus::without_held_circle(int n) const {
 }
 
 HarmonicCompliance Annulus::mean() const {
-    // u_r = r - held^2 / r and u_phi = held^2 / r - r.
+    // Fields u_r = r - held^2 / r and u_phi = held^2 / r - r.
     const double square = held_ * held_;
     const double radial = 2 * lame_ + 2 * shear_ * (1 + square);
     return {outwards_ * (1 - square) / radial, 0,

@@ -1,29 +1,30 @@
-// The elastic annulus in plane strain, held on one circle and loaded on the other, harmonic by
-// harmonic (Michell's solution in Kolosov's and Muskhelishvili's form). Lengths in units of the
-// loaded circle's radius, tractions in units of Young's modulus. Tractions and displacements of the
-// loaded circle:
+// Elastic annulus in plane strain, fixed on one circle and loaded on the other, harmonic by
+// harmonic (Michell's solution in the form of Kolosov and Muskhelishvili). Lengths are in units of
+// the loaded circle's radius, tractions in units of Young's modulus. On the loaded circle the
+// tractions
 //
 //     t_r = T_r cos n phi, t_phi = T_t sin n phi   give   u_r = U cos n phi, u_phi = V sin n phi;
 //
-// and, turned by a quarter of the period, t_r = T_r sin, t_phi = -T_t cos give U sin, -V cos.
+// rotated by a quarter of the period, t_r = T_r sin, t_phi = -T_t cos give U sin, -V cos.
 #pragma once
 
 namespace gearpod::stiffness {
 
-// U = rr T_r + rt T_t, V = rt T_r + tt T_t; symmetric (Betti). Harmonic 0 has rt = 0, and its tt is
-// the twist u_phi by a uniform t_phi.
+// Compliance of one harmonic: U = rr T_r + rt T_t, V = rt T_r + tt T_t, symmetric (Betti). Harmonic
+// 0 has rt = 0, and its tt is the twist u_phi under a uniform t_phi.
 struct HarmonicCompliance {
     double rr = 0, rt = 0, tt = 0;
 };
 
 class Annulus {
   public:
-    // held_radius: below 1, the loaded circle is the outer one; above 1, the inner one.
+    // held_radius: radius of the fixed circle. Below 1, the loaded circle is the outer one; above
+    // 1, the inner one.
     Annulus(double held_radius, double poisson_ratio);
 
     HarmonicCompliance harmonic(int n) const;
-    // What harmonic(n) tends to, with all 1 / (n +- 1) replaced by 1 / n:  rr = tt = even / n, rt =
-    // odd / n.
+    // Limits of harmonic(n) for large n, with all 1 / (n +- 1) replaced by 1 / n: rr = tt = even /
+    // n, rt = odd / n.
     double limit_even() const;
     double limit_odd() const;
 
@@ -36,7 +37,7 @@ class Annulus {
     double kappa_;      // 3 - 4 nu
     double lame_;       // lambda / E
     double outwards_;   // 1: the loaded circle is the outer one; -1: the inner one
-    int far_harmonic_;  // from here on the held circle is not felt
+    int far_harmonic_;  // from this harmonic on the fixed circle has no effect
 };
 
 }  // namespace gearpod::stiffness

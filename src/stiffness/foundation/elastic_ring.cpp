@@ -10,7 +10,8 @@ namespace {
 
 using std::numbers::pi;
 
-// What is left out falls as 1 / (n^2 half angle) in the self part and 1 / n^3 in the coupling.
+// The omitted terms decrease as 1 / (n^2 half angle) in the self part and as 1 / n^3 in the
+// coupling.
 constexpr int kHarmonics = 4096;
 
 // Fourier coefficients of 1 (cosines) and of phi (sines) on |phi| <= half_angle, 0 elsewhere.
@@ -48,8 +49,8 @@ ElasticRing::ElasticRing(const ToothProfile& tooth, int teeth, const Material& m
     add_self_limits();
 }
 
-// The slopes' series converge like those of cos(n x) / n and sin(n x) / n; these parts are summed
-// in closed form by add_self_limits().
+// Adds one harmonic. The slopes' series converge like those of cos(n x) / n and sin(n x) / n, whose
+// parts are summed in closed form by add_self_limits().
 void ElasticRing::add_self_harmonic(int n, const HarmonicCompliance& c) {
     const double constant = constant_coefficient(n, half_angle_);
     const double linear = linear_coefficient(n, half_angle_);
@@ -88,8 +89,8 @@ void ElasticRing::add_coupling_harmonic(int n, const HarmonicCompliance& c, int 
     }
 }
 
-// Balance of moments about the gear's centre (force times base radius), of forces along the root
-// and of forces into the body.
+// Amplitudes from the balance of moments about the gear's centre (force times base radius), of
+// forces along the root and of forces into the body.
 ElasticRing::Stresses ElasticRing::stresses(double contact_angle) const {
     const double a = half_angle_, sine = std::sin(a);
     return {base_radius_ / (2 * a),
@@ -98,10 +99,10 @@ ElasticRing::Stresses ElasticRing::stresses(double contact_angle) const {
 }
 
 FoundationCompliance ElasticRing::self(double contact_angle) const {
-    // cos a1 u / R: the lever, turned into the force's direction.
+    // Lever cos a1 u / R, in the direction of the force.
     const double lever = base_radius_ - std::cos(contact_angle), radial = std::sin(contact_angle);
     const Stresses at = stresses(contact_angle);
-    // The linear stress has a part that the lever demands and one, small, from the root's
+    // The linear stress has a part that balances the lever and a small part due to the root's
     // curvature.
     const double by_lever = 1 / (2 * (std::sin(half_angle_) - half_angle_ * std::cos(half_angle_)));
     const double by_curvature = at[linear_normal] - by_lever * lever;
@@ -115,7 +116,7 @@ FoundationCompliance ElasticRing::self(double contact_angle) const {
 double ElasticRing::coupling(double angle_i, double angle_j, int teeth_apart) const {
     if (teeth_apart == 0 || std::abs(teeth_apart) > kFarthest)
         return 0;
-    // Backwards is the same with the two exchanged.
+    // Coupling backwards is coupling forwards with the two teeth exchanged.
     const bool forwards = teeth_apart > 0;
     const Stresses from = stresses(forwards ? angle_i : angle_j);
     const Stresses to = stresses(forwards ? angle_j : angle_i);

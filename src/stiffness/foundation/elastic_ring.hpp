@@ -1,18 +1,21 @@
-// The gear body as an elastic ring held on one circle and loaded by the teeth's roots on the other:
-// Sainsot's model solved instead of fitted, with what it says about neighbouring teeth. It takes
-// the place of the polynomials that Yang (2022) cites for the structure coupling (Xie et al. 2018).
+// Gear body as an elastic ring, fixed on one circle and loaded by the teeth's roots on the other.
+// It solves Sainsot's model instead of fitting it, and includes the coupling of neighbouring teeth.
+// It replaces the polynomials that Yang (2022) cites for the structure coupling (Xie et al. 2018).
 //
 // A tooth loads the arc of its root by a uniform shear, a uniform normal and a linear normal
-// stress, the only ones of this shape that balance the force in size, line and moment. The tooth is
-// rigid here: it follows the displacement and the rotation of the middle of its own root, as
-// Sainsot's does, and the average over its root (weighted as the work of its own stresses) of its
-// neighbours' field, which makes the coupling symmetric to rounding. Plane strain, with which
-// Sainsot's coefficients agree: within his range the whole compliance lies within 10 % of his where
-// the root radius is twice the bore's or more, within 16 % where it is less (5 % on average), and
-// the part that grows with the lever's square within 5 %. The rest of the difference is the shear
-// stress, which here balances the moment about the gear's centre: R_b / (R_f cos a) times his. An
-// internal gear is held at its outer circle. A crack's longer lever (FoundationCompliance) leaves
-// the shear as it is.
+// stress. These are the only stresses of this shape that balance the force in size, line and
+// moment. The tooth is rigid. It follows the displacement and rotation of the middle of its own
+// root, as in Sainsot's model. It also follows the average of its neighbours' field over its root,
+// weighted as the work of its own stresses, which makes the coupling symmetric to rounding.
+//
+// Plane strain agrees with Sainsot's coefficients. Within the range of his fit the whole compliance
+// differs from his by at most 10 % where the root radius is at least twice the bore's. Elsewhere it
+// differs by at most 16 % (5 % on average). The part that is quadratic in the lever differs by at
+// most 5 %. The rest of the difference is due to the shear stress, which here balances the moment
+// about the gear's centre: R_b / (R_f cos a) times his.
+//
+// An internal gear is fixed at its outer circle. The longer lever of a cracked tooth
+// (FoundationCompliance) does not change the shear.
 #pragma once
 
 #include <array>
@@ -24,10 +27,10 @@ namespace gearpod::stiffness {
 
 class ElasticRing : public FilletFoundation {
   public:
-    // Neighbours farther apart than this count as uncoupled.
+    // Largest distance, in teeth, at which neighbours are coupled.
     static constexpr int kFarthest = 4;
 
-    // body_radius_m: of the circle on which the body is held.
+    // body_radius_m: radius of the circle on which the body is fixed.
     ElasticRing(const ToothProfile& tooth, int teeth, const Material& material,
                 double body_radius_m);
 
@@ -38,24 +41,24 @@ class ElasticRing : public FilletFoundation {
     enum Stress { shear, linear_normal, normal, kStresses };
     using Stresses = std::array<double, kStresses>;
 
-    // The amplitudes of the three stresses of a unit force.
+    // Amplitudes of the three stresses due to a unit force.
     Stresses stresses(double contact_angle) const;
     void add_self_harmonic(int n, const HarmonicCompliance& c);
     void add_self_limits();
     void add_coupling_harmonic(int n, const HarmonicCompliance& c, int teeth);
 
-    double half_angle_;   // of the root
-    double base_radius_;  // over the root's
+    double half_angle_;   // half the angle of the root
+    double base_radius_;  // base radius over root radius
     double outwards_;     // 1: teeth point outwards; -1: inwards
     double stretch_;      // E L
     double limit_even_, limit_odd_;
-    // At the middle of the root: by shear and linear normal stress, displacement along the root and
-    // slope -du_r/dphi; by normal stress, displacement into the body.
+    // Displacements at the middle of the root. Shear and linear normal stress cause a displacement
+    // along the root and a slope -du_r/dphi; normal stress causes a displacement into the body.
     double moved_by_shear_ = 0, moved_by_linear_ = 0;
     double turned_by_shear_ = 0, turned_by_linear_ = 0;
     double pressed_by_normal_ = 0;
-    // Work of row's stress at tooth j on the displacement by column's stress at tooth i, j being 1,
-    // 2, ... teeth from i in the force's direction.
+    // Work of the row's stress at tooth j on the displacement by the column's stress at tooth i,
+    // where j is 1, 2, ... teeth from i in the force's direction.
     std::array<std::array<Stresses, kStresses>, kFarthest> work_{};
 };
 

@@ -1,4 +1,4 @@
-// The foundation that a study names, for one gear.
+// Selection of the foundation model of one gear.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace gearpod::stiffness {
 
-// The root's half angle and the ratio of root and clamped radius where they lie outside the range
-// for which the model is fitted, one sentence each; empty if it covers them.
+// Warnings, one sentence each, if the root's half angle or the ratio of root and fixed radius lies
+// outside the range of the model's fit; empty otherwise.
 std::vector<std::string> foundation_warnings(const gears::Gear& gear, Profile profile,
                                              FoundationModel model, double body_radius_m);
 
-// body_radius_m: the circle on which the gear body is held, the bore of an external gear and the
-// outer circle of an internal one. Null without a foundation: for FoundationModel::none, and for an
-// internal gear under Sainsot's formula, which is fitted to external ones. Throws
+// Foundation of one gear. body_radius_m: radius of the circle on which the gear body is fixed, the
+// bore of an external gear or the outer circle of an internal one. Null for FoundationModel::none,
+// and for an internal gear under Sainsot's formula, which is fitted to external gears. Throws
 // std::invalid_argument if the circle does not lie within the body (external: inside the root
 // circle; internal: outside it).
 std::unique_ptr<const FilletFoundation> make_foundation(const gears::Gear& gear,

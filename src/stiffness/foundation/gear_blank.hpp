@@ -1,12 +1,12 @@
-// What a mesh keeps of its stiffness where a gear is no solid disc but a rim on a thinner web:
-// ISO 6336-1:2006, 9.3.2.3, the gear blank factor of webs in the middle of the face width,
+// Gear blank factor: fraction of the mesh stiffness that remains where a gear is not a solid disc
+// but a rim on a thinner web. ISO 6336-1:2006, 9.3.2.3, for webs in the middle of the face width,
 //
-//     C_R = 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))),    0.2 <= b_s / b <= 1.2,  s_R / m_n >= 1;
+//     C_R = 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))),    0.2 <= b_s / b <= 1.2,  s_R / m_n >= 1.
 //
-// beyond these limits the standard counts the limit. b_s: web, b: face width, s_R: rim below the
-// tooth's root, m_n: normal module. A fit to the stiffness of the whole pair, contact included, of
-// external gears whose mate is like them or stiffer; a web that reaches beyond the face (a hub)
-// makes the pair stiffer.
+// Values outside these limits are replaced by the limit, as in the standard. b_s: web, b: face
+// width, s_R: rim below the tooth's root, m_n: normal module. The factor is a fit to the stiffness
+// of the whole pair, contact included, of external gears whose mate is equal or stiffer. A web
+// wider than the face (a hub) makes the pair stiffer.
 #pragma once
 
 namespace gearpod::stiffness {

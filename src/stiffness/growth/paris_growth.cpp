@@ -9,7 +9,7 @@ namespace gearpod::stiffness {
 namespace {
 
 constexpr int kPanels = 64;
-// Gauss-Legendre of five points on [-1, 1].
+// Gauss-Legendre rule of five points on [-1, 1].
 constexpr std::array<double, 5> kNodes{-0.906179845938664, -0.5384693101056831, 0.0,
                                        0.5384693101056831, 0.906179845938664};
 constexpr std::array<double, 5> kWeights{0.23692688505618908, 0.47862867049936647,
@@ -69,7 +69,7 @@ double ParisGrowth::depth_after(double damage) const {
     const double wanted = damage - damage_[panel];
     double low = depth_[panel], high = depth_[panel + 1];
     double a = low + (high - low) * wanted / (damage_[panel + 1] - damage_[panel]);
-    // Newton's steps, halved back into the bracket where they leave it.
+    // Newton's method, with bisection where a step leaves the bracket.
     constexpr int kSteps = 60;
     for (int step = 0; step < kSteps; ++step) {
         const double miss = between(depth_[panel], a) - wanted;

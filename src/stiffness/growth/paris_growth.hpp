@@ -1,7 +1,7 @@
-// Growth of a crack by Paris' law, da/dN = C (Delta K)^m. P. C. Paris, F. Erdogan, J. Basic Eng. 85
+// Crack growth by Paris' law, da/dN = C (Delta K)^m. P. C. Paris, F. Erdogan, J. Basic Eng. 85
 // (1963), 528-533. The range is proportional to the load, Delta K = load k(a), so that load and
-// depth separate: the integral from the first depth of da / (C k(a)^m) is the sum of load^m over
-// the cycles, whatever their order. No threshold and no retardation by overloads.
+// depth separate. The integral of da / (C k(a)^m) from the first depth equals the sum of load^m
+// over the cycles, in any order. The model has no threshold and no retardation by overloads.
 #pragma once
 
 #include <functional>
@@ -10,11 +10,11 @@
 namespace gearpod::stiffness {
 
 struct ParisLaw {
-    double factor = 0.0;    // C, m a cycle at a range of 1 Pa m^(1/2)
+    double factor = 0.0;    // C, m per cycle at a range of 1 Pa m^(1/2)
     double exponent = 0.0;  // m
 };
 
-// Of C as it is usually printed: mm a cycle at 1 MPa m^(1/2).
+// Paris' law from C in its usual unit, mm per cycle at 1 MPa m^(1/2).
 ParisLaw paris_law_mm_MPa(double factor, double exponent);
 
 class ParisGrowth {
@@ -25,12 +25,12 @@ class ParisGrowth {
     ParisGrowth(const ParisLaw& law, std::function<double(double)> range, double first,
                 double last);
 
-    // Sum of load^m over the cycles that take the crack from the first depth to this one; clamped
-    // to [first, last].
+    // Sum of load^m over the cycles that grow the crack from the first depth to `depth`, which is
+    // clamped to [first, last].
     double damage_to(double depth) const;
-    // The depth after a sum of load^m over cycles; the last one beyond damage_to(last).
+    // Depth after a sum of load^m over cycles; the last depth if the sum exceeds damage_to(last).
     double depth_after(double damage) const;
-    // Of cycles with this load.
+    // Sum of load^m over `cycles` cycles with this load.
     double damage_of(double load, double cycles) const;
 
   private:
@@ -39,7 +39,7 @@ class ParisGrowth {
 
     ParisLaw law_;
     std::function<double(double)> range_;
-    std::vector<double> depth_, damage_;  // nodes, growing in a fixed ratio
+    std::vector<double> depth_, damage_;  // nodes; the depths grow by a fixed ratio
 };
 
 }  // namespace gearpod::stiffness

@@ -29,7 +29,7 @@ RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int w
     const double ratio = geometry.contact_ratio();
     for (int i = 0; i <= kPositions; ++i) {
         const double tau = ratio * i / kPositions;
-        // Pairs that touch at once: those a whole number of mesh periods before and after.
+        // Pairs in contact at the same time are a whole number of mesh periods before and after.
         const double pairs = 1.0 + std::floor(tau) + std::floor(ratio - tau);
         Touch touch = touch_at(tau);
         touch.share = 1.0 / pairs;
@@ -38,10 +38,10 @@ RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int w
     }
 }
 
-// x along the centre line to the tip, from the root section; y to the loaded flank. The crack runs
-// along -(cos v, sin v) from (0, h_root), so its plane's middle is (-h_root / tan v, 0) and its
-// normal on the tip's side (sin v, -cos v). The flank at y = h_x is pushed by 1 N along -(sin a,
-// cos a).
+// x runs along the centre line from the root section to the tip, y to the loaded flank. The crack
+// runs along -(cos v, sin v) from (0, h_root). The middle of its plane is therefore (-h_root / tan
+// v, 0), and its normal on the tip's side (sin v, -cos v). A force of 1 N pushes the flank at y =
+// h_x along -(sin a, cos a).
 RootCrack::Stress RootCrack::stress_at(double tau) const {
     const double a = geometry_.contact_angle(which_, tau);
     const ToothSection contact = profile_.section(profile_.involute_angle(a));

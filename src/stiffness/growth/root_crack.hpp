@@ -1,10 +1,12 @@
-// Stress intensity at the tip of a crack that starts at the loaded flank's root and runs at an
-// angle into the tooth, under the force of the mesh, by either law of cracks (teeth/crack_law.hpp).
+// Stress intensity at the tip of a crack under the mesh force. The crack starts at the root of the
+// loaded flank and runs into the tooth at an angle. Both crack laws are available
+// (teeth/crack_law.hpp).
 //
-// Sections: the plane of the crack, from the root to the other flank's height, is a strip of the
-// width w = 2 h_root / sin v, v between crack and centre line. The force across it, and the force's
-// moment about its middle, open a single edge crack in tension and bending (teeth/edge_crack.hpp).
-// Omitted: shear along the plane (mode II), the body below it, and that the crack turns on its way.
+// Sections: the plane of the crack, from the root to the height of the other flank, is a strip of
+// the width w = 2 h_root / sin v. v is the angle between crack and centre line. The force across
+// it, and the force's moment about its middle, open a single edge crack in tension and bending
+// (teeth/edge_crack.hpp). Omitted: shear along the plane (mode II), the body below the plane, and
+// changes of the crack's direction.
 //
 // Fracture mechanics: the intensity K_I of teeth/crack_path.hpp, from the critical section.
 #pragma once
@@ -20,7 +22,7 @@ namespace gearpod::stiffness {
 
 class RootCrack {
   public:
-    // which: the gear whose tooth is cracked (1 or 2). face_width_m: of the tooth. Throws
+    // which: gear with the cracked tooth (1 or 2). face_width_m: face width of the tooth. Throws
     // std::invalid_argument unless 0 < crack_angle_rad <= pi / 2.
     RootCrack(const gears::MeshGeometry& geometry, Profile profile, int which,
               double crack_angle_rad, double face_width_m, CrackLaw law = CrackLaw::sections);
@@ -28,28 +30,28 @@ class RootCrack {
     double width() const { return width_; }  // depth that cuts the tooth, m
 
     // K_I, Pa m^(1/2), at a depth in [0, width) for a normal force in N on the tooth, tau mesh
-    // periods after its engagement began; 0 where the force closes the crack.
+    // periods after the start of its engagement. 0 where the force closes the crack.
     double intensity(double depth_m, double force_N, double tau) const;
 
-    // The largest intensity of an engagement for a normal force on the mesh, shared equally by the
-    // pairs that touch. Since it is 0 before the engagement, it is the range that drives the
-    // growth.
+    // Largest intensity in an engagement for a normal force on the mesh, shared equally by the
+    // pairs in contact. Because the intensity is 0 before the engagement, it is the range Delta K
+    // of the crack growth.
     double largest_intensity(double depth_m, double force_N) const;
 
   private:
-    // Stresses in the crack's plane for 1 N on the tooth: mean stress across it, and bending stress
-    // at its edge, Pa.
+    // Stresses in the crack's plane for 1 N on the tooth: mean stress across the plane, and bending
+    // stress at its edge, Pa.
     struct Stress {
         double tension = 0.0, bending = 0.0;
     };
-    // A position in the engagement, with a tooth's share of the mesh's force.
+    // Position in the engagement, with the tooth's share of the mesh force.
     struct Touch {
         double cosine = 0.0, sine = 0.0, share = 0.0;
         Stress stress;
     };
     Stress stress_at(double tau) const;
     Touch touch_at(double tau) const;
-    // The largest K_I at these positions for 1 N on the mesh.
+    // Largest K_I at these positions for 1 N on the mesh.
     double largest_opening(double depth_m, std::span<const Touch> touches) const;
 
     gears::MeshGeometry geometry_;
@@ -59,7 +61,7 @@ class RootCrack {
     CrackLaw law_;
     CrackPath path_;
     double width_;
-    std::vector<Touch> engagement_;  // from its begin to its end
+    std::vector<Touch> engagement_;  // from its start to its end
 };
 
 }  // namespace gearpod::stiffness

@@ -1,5 +1,5 @@
-// Chebyshev series on an interval: built from values at Chebyshev points, evaluated by Clenshaw's
-// recurrence.
+// Chebyshev series on an interval, built from values at Chebyshev points and evaluated by
+// Clenshaw's recurrence.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace gearpod::stiffness {
 
-// sum_j c_j T_j(x), x = (2 t - begin - end) / (end - begin), at many t; writes values[i] for t[i].
-// Values below least are raised to it. Fused operations are spelled out: same bits for any
-// instruction set and any number of points.
+// Writes values[i] = sum_j c_j T_j(x), x = (2 t - begin - end) / (end - begin), for t = t[i].
+// Values below `least` are raised to it. Fused operations are explicit, so that all instruction
+// sets and any number of points give the same bits.
 void evaluate_chebyshev(std::span<const double> coefficients, double begin, double end,
                         std::span<const double> t, std::span<double> values,
                         double least = -std::numeric_limits<double>::infinity());
@@ -21,9 +21,9 @@ class ChebyshevTransform {
   public:
     explicit ChebyshevTransform(int n);
     int size() const { return static_cast<int>(points_.size()); }
-    // cos(pi (2 i + 1) / 2 n), i = 0..n-1, falling from 1 to -1.
+    // Points cos(pi (2 i + 1) / 2 n), i = 0..n-1, descending from 1 to -1.
     const std::vector<double>& points() const { return points_; }
-    // The n coefficients of the interpolant of the n values at points().
+    // Computes the n coefficients of the interpolant of the n values at points().
     void fit(std::span<const double> values, std::span<double> coefficients) const;
 
   private:
@@ -31,21 +31,22 @@ class ChebyshevTransform {
     std::vector<double> matrix_;  // [i * n + j]: weight of value i in coefficient j
 };
 
-// How many leading terms keep the sum of the dropped ones below tolerance (absolute).
+// Number of leading terms for which the sum of the dropped coefficients is below tolerance
+// (absolute).
 int chebyshev_terms(std::span<const double> coefficients, double tolerance);
 
-// With which curves of healthy teeth are interpolated over an engagement.
+// Number of nodes and tolerance for the curves of healthy teeth over an engagement.
 inline constexpr int kSeriesNodes = 48;
 inline constexpr double kSeriesTolerance = 1e-13;
 
 class ChebyshevSeries {
   public:
     ChebyshevSeries() = default;
-    // Interpolates f on [begin, end] with n points and drops what is below relative_tolerance of
-    // the largest value.
+    // Interpolates f on [begin, end] with n points and drops terms below relative_tolerance of the
+    // largest value.
     ChebyshevSeries(const std::function<double(double)>& f, double begin, double end, int n,
                     double relative_tolerance);
-    // The constant.
+    // Constant series.
     ChebyshevSeries(double value, double begin, double end)
         : begin_(begin), end_(end), coefficients_{value} {}
 
@@ -53,7 +54,8 @@ class ChebyshevSeries {
     void operator()(std::span<const double> t, std::span<double> values) const {
         evaluate_chebyshev(coefficients_, begin_, end_, t, values);
     }
-    // The integral of the series with these coefficients on [begin, end], from `value` at begin on.
+    // Integral of the series with these coefficients on [begin, end], as a series with `value` at
+    // begin.
     static ChebyshevSeries integral_of(std::span<const double> coefficients, double begin,
                                        double end, double value);
     // Integral over [begin, end].

@@ -1,4 +1,5 @@
-// Clenshaw's recurrence over blocks of points: the block stays in registers while the terms run.
+// Clenshaw's recurrence over blocks of points. A block stays in registers during the loop over
+// terms.
 #include <cmath>
 #include <cstddef>
 

@@ -6,7 +6,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// The axial coordinate at the height above the root section.
+// Axial coordinate at a height above the root section.
 double axial_at(const ToothProfile& profile, double height_m) {
     return profile.root_axial() + (profile.internal() ? -height_m : height_m);
 }
@@ -26,7 +26,7 @@ double max_crack_depth(const ToothProfile& profile, double angle_rad, double hei
         return start_u > profile.waist()
                    ? (start + std::min(start, waist.half_thickness)) / std::sin(angle_rad)
                    : to_flank;
-    // The waist counts once the crack's lower end has come down to it.
+    // The waist limits the depth once the crack's lower end has reached it.
     const double to_waist =
         std::abs(axial_at(profile, height_m) - waist.axial) / std::cos(angle_rad);
     return std::min(to_flank,
@@ -48,8 +48,8 @@ CrackedSections::CrackedSections(const ToothProfile& profile, const Crack& crack
     const double above_root = crack.height_m - crack.depth_m * std::cos(crack.angle_rad);
     lower_end_ =
         above_root > 0 ? profile.angle_of_axial(axial_at(profile, above_root)) : profile.root();
-    // The tooth may be thinner below the start than at it: the crack has then left through the
-    // other flank before it is as deep as the start's chord, or as rounding lets it seem.
+    // The tooth may be thinner below the start than at it. The crack then leaves through the other
+    // flank before its depth reaches the start's chord; rounding may hide this.
     constexpr double kNothing = 1e-12;
     const auto cut_through = [&](double u) {
         return cracked_thickness(profile.half_thickness(u)) <=

@@ -1,13 +1,14 @@
-// How a crack makes a tooth softer.
+// Laws by which a crack reduces the stiffness of a tooth.
 #pragma once
 
 namespace gearpod::stiffness {
 
-//  sections            The sources' law: the beam keeps what the crack leaves of its sections
-//                      (crack.hpp). Depth counts from the root section's end.
-//  fracture_mechanics  The whole beam, and what the crack's stress intensities add to its
-//  compliance
-//                      (crack_compliance.hpp). Depth counts from the flank at the critical section.
+// Choice of the crack law.
+//     sections            The sources' law: the crack reduces the beam's sections (crack.hpp).
+//                         Depth is measured from the root section's end.
+//     fracture_mechanics  The whole beam plus the compliance added by the crack's stress
+//                         intensities (crack_compliance.hpp). Depth is measured from the flank at
+//                         the critical section.
 enum class CrackLaw { sections, fracture_mechanics };
 
 }  // namespace gearpod::stiffness

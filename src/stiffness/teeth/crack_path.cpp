@@ -11,8 +11,8 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// Factors on the strip's bending stress, from the surface value to the value of deep cracks, and
-// the share of the crack's whole length over which the surface value fades. Calibrated
+// Factors on the strip's bending stress, for cracks at the surface and for deep cracks. kFading is
+// the fraction of the crack's whole length over which the surface value fades. Calibrated
 // (crack_path.hpp).
 struct ToothFactors {
     double surface_moment, surface_lever, deep_lever;
@@ -36,7 +36,8 @@ CrackPath::CrackPath(const ToothProfile& profile, double angle_rad, double heigh
     half_thickness_ = at.half_thickness;
 }
 
-// The tip lies `down` below the start's section, the path's end at its height on the other flank.
+// The tip lies `down` below the start's section. The path ends at the height of the start on the
+// other flank.
 CrackPath::Vector CrackPath::tip_to_end(double depth_m) const {
     const double down = std::min(depth_m, length() - depth_m) * cosine_;
     return {down, depth_m * sine_ - 2 * half_thickness_};
@@ -47,8 +48,8 @@ double CrackPath::ligament(double depth_m) const {
     return std::hypot(across.x, across.y);
 }
 
-// The force of 1 N acts along -(sin a, cos a); its moment about the section's centre at the start
-// is R_b - xi cos a, for internal teeth the opposite (tooth_compliance.hpp).
+// The force of 1 N acts along -(sin a, cos a). Its moment about the centre of the start's section
+// is R_b - xi cos a, with the opposite sign for internal teeth (tooth_compliance.hpp).
 CrackIntensity CrackPath::intensity(double depth_m) const {
     const Vector across = tip_to_end(depth_m);
     const double ligament = std::hypot(across.x, across.y), width = depth_m + ligament;

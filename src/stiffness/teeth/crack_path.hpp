@@ -2,26 +2,27 @@
 // metres, angles in radians.
 //
 // The crack starts at the critical section (ToothProfile::critical) or some height above it. It
-// runs at the angle v to the tooth's centre line into the body, and beyond the centre line at the
-// same angle up again to the other flank's point at the height of the start: the two straight parts
-// of Liang (2016), section 3.5, Fig. 3.9. It has cut the tooth after the length 2 h / sin v, where
-// h is the half thickness at the start. The ligament is the straight line from the tip to that
-// point.
+// runs into the body at the angle v to the tooth's centre line. Beyond the centre line it rises at
+// the same angle to the other flank's point at the height of the start. These are the two straight
+// parts of Liang (2016), section 3.5, Fig. 3.9. The crack has cut the tooth after the length 2 h /
+// sin v, where h is the half thickness at the start. The ligament is the straight line from the tip
+// to that point.
 //
-// The force of the mesh on the tooth, taken about the middle of crack and ligament, is a normal
-// force N, a shear force V and a moment M. In a strip as wide as crack and ligament together, w = a
-// + b, they cause the stress intensities (edge_crack.hpp)
+// The mesh force on the tooth, taken about the middle of crack and ligament, is a normal force N, a
+// shear force V and a moment M. In a strip as wide as crack and ligament together, w = a + b, they
+// cause the stress intensities (edge_crack.hpp)
 //
 //     K_I  = (m N / w F_t(a/w) + 6 (m M + k V w) / w^2 F_b(a/w)) sqrt(pi a) / L,
 //     K_II = V / w F_s(a/w) sqrt(pi a) / L.
 //
-// A strip under far loads has m = 1 and k = 0. A tooth is short and ends in a fillet or corner:
-// near the surface the moment counts more, and the shear force adds a lever of k w, as in the
-// stress correction factor of ISO 6336-3 (for these teeth Y_S h_Fe = 1.33 (h_Fe + 0.28 s_Fn)). Both
-// factors fade with depth, m = m_d + (m_0 - m_d) exp(-a / 0.087 l) and k likewise, l being the
-// crack's whole length. A deep crack's moment acts on its ligament alone; the body beneath it
-// leaves 0.88. The factors are calibrated with finite elements of whole gears
-// (docs/methods/faults.md), apart for teeth with a fillet and for teeth that end in a corner.
+// A strip under remote loads has m = 1 and k = 0. A tooth is short and ends in a fillet or corner.
+// Near the surface the moment has a larger effect, and the shear force adds a lever of k w. The
+// stress correction factor of ISO 6336-3 is similar (for these teeth Y_S h_Fe = 1.33 (h_Fe + 0.28
+// s_Fn)). Both factors fade with depth, m = m_d + (m_0 - m_d) exp(-a / 0.087 l) and k likewise,
+// where l is the crack's whole length. The moment of a deep crack acts on its ligament only, and
+// the body below it reduces the factor to 0.88. The factors are calibrated with finite elements of
+// whole gears (docs/methods/faults.md), separately for teeth with a fillet and for teeth that end
+// in a corner.
 //
 // Omitted: contact between the crack's faces.
 #pragma once
@@ -32,7 +33,7 @@
 namespace gearpod::stiffness {
 
 // Stress intensities for a unit force on the tooth and a unit face width, m^(-1/2), as functions of
-// the contact angle: linear in its cosine and sine. A negative K_I presses the crack shut.
+// the contact angle: linear in its cosine and sine. A negative K_I closes the crack.
 struct CrackIntensity {
     double constant = 0, cosine = 0, sine = 0;    // K_I
     double sliding_cosine = 0, sliding_sine = 0;  // K_II
@@ -44,20 +45,20 @@ struct CrackIntensity {
 
 class CrackPath {
   public:
-    // angle_rad: between crack and centre line, 0 < v <= pi/2. height_m: of the start over the
-    // critical section, along the centre line; not negative.
+    // angle_rad: between crack and centre line, 0 < v <= pi/2. height_m: height of the start above
+    // the critical section, along the centre line; not negative.
     CrackPath(const ToothProfile& profile, double angle_rad, double height_m = 0);
 
     double start() const { return start_; }  // u of ToothProfile
     // Thickness of the tooth at the start.
     double thickness() const { return 2 * half_thickness_; }
-    // Depth along the crack at which it turns on the centre line, and at which it has cut the
+    // Depths along the crack at which it turns on the centre line, and at which it has cut the
     // tooth.
     double turn() const { return half_thickness_ / sine_; }
     double length() const { return 2 * turn(); }
     // Length of the ligament, m.
     double ligament(double depth_m) const;
-    // 0 < depth_m < length().
+    // Stress intensity at the tip, 0 < depth_m < length().
     CrackIntensity intensity(double depth_m) const;
 
   private:
@@ -72,7 +73,7 @@ class CrackPath {
     double start_ = 0, axial_ = 0, half_thickness_ = 0;
 };
 
-// Depth along a crack, from its start, at which it has cut the tooth by that law.
+// Depth along a crack, from its start, at which it has cut the tooth by the given law.
 double max_crack_depth(const ToothProfile& profile, CrackLaw law, double angle_rad);
 
 }  // namespace gearpod::stiffness

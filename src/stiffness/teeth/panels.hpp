@@ -1,5 +1,5 @@
-// Cuts a stretch of the beam into panels on which the integrands are smooth, and the Gauss rule for
-// a panel.
+// Division of a stretch of the beam into panels with smooth integrands, and the Gauss rule on a
+// panel.
 #pragma once
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -8,10 +8,10 @@
 
 namespace gearpod::stiffness {
 
-// panel(a, b) for each panel of [from, to], in order; to may lie below from. The thickness changes
-// at most by a factor of 1.5 on a panel: the pole of 1 / t^3 then lies two panel lengths or more
-// outside it, where a Gauss rule of n points converges as 9.9^(-2 n). The thickness must be
-// positive; it may turn only where it is nearly constant.
+// Calls panel(a, b) for each panel of [from, to], in order; `to` may lie below `from`. The
+// thickness changes by at most a factor of 1.5 on a panel. The pole of 1 / t^3 then lies at least
+// two panel lengths outside it, where a Gauss rule of n points converges as 9.9^(-2 n). The
+// thickness must be positive, and may have an extremum only where it is nearly constant.
 template <typename Thickness, typename Panel>
 void for_panels(double from, double to, Thickness&& thickness, Panel&& panel) {
     constexpr double kMaxRatio = 1.5;
@@ -32,7 +32,7 @@ void for_panels(double from, double to, Thickness&& thickness, Panel&& panel) {
     }
 }
 
-// add(weight, position) at the points of a Gauss rule on the panel; weights are positive.
+// Calls add(weight, position) at the points of a Gauss rule on the panel. Weights are positive.
 template <int kPoints, typename Add>
 void for_gauss_points(double from, double to, Add&& add) {
     using Rule = boost::math::quadrature::gauss<double, kPoints>;

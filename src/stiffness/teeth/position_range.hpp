@@ -1,4 +1,4 @@
-// Which of many ascending positions lie within an interval.
+// Range of ascending positions that lie within an interval.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 
 namespace gearpod::stiffness {
 
-// Mesh periods. Positions this close to the end of an engagement count as inside; a phase reduced
-// from thousands of meshes carries a rounding error of that order.
+// Tolerance of positions, mesh periods. Positions this close to the end of an engagement count as
+// inside. A phase reduced from thousands of meshes has a rounding error of that order.
 inline constexpr double kPositionTolerance = 1e-10;
 
-// Ascending, those that coincide once.
+// Sorts positions in ascending order and removes duplicates.
 inline void sort_positions(std::vector<double>& positions) {
     std::sort(positions.begin(), positions.end());
     positions.erase(std::unique(positions.begin(), positions.end(),

@@ -9,8 +9,8 @@ namespace gearpod::stiffness {
 namespace {
 
 constexpr int kPoints = 12;
-// On panels short enough that the thickness changes by less than kEven, the pole of 1 / t^3 lies so
-// far off that half the points do.
+// Half the points suffice on panels on which the thickness changes by less than kEven, because the
+// pole of 1 / t^3 is far from them.
 constexpr int kFewPoints = 6;
 constexpr double kEven = 1.1;
 constexpr double kShort_rad = 0.1;

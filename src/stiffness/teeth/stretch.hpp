@@ -1,5 +1,5 @@
-// The stretches into which transitions (phases in [0, 1), repeated every mesh period) and jumps
-// (positions that do not repeat) cut the axis of positions.
+// Stretches of the position axis between transitions (phases in [0, 1), repeated every mesh period)
+// and jumps (positions that do not repeat).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ struct Stretch {
     double begin = 0, end = 0;
 };
 
-// The stretch around a position that lies strictly within it. transitions must not be empty.
+// Stretch around a position that lies strictly within it. transitions must not be empty.
 inline Stretch stretch_around(std::span<const double> transitions, std::span<const double> jumps,
                               double inside) {
     const double period = std::floor(inside);

@@ -22,7 +22,7 @@ double integrate(double from, double to, Integrand&& integrand, Thickness&& thic
     return sum;
 }
 
-// One stretch of the beam, integrated over its parameter p: axial(p), slope(p) = |dxi/dp|,
+// Integrals over one stretch of the beam with the parameter p: axial(p), slope(p) = |dxi/dp|,
 // thickness(p).
 class BeamIntegrals {
   public:

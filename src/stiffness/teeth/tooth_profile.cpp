@@ -17,7 +17,7 @@ ToothProfile::ToothProfile(const gears::Gear& gear, Profile profile)
     involute_root_ = half_base_angle_;
     if (internal_ || (profile == Profile::root_circle && root_on_involute)) {
         const double roll = std::tan(std::acos(base_radius_ / root_radius));
-        // Liang (2016), Eqs. 2.2.25 (phi) and 3.2.21 (alpha_5), which this solves.
+        // Solves Liang (2016), Eqs. 2.2.25 (phi) and 3.2.21 (alpha_5).
         involute_root_ += internal_ ? roll : -roll;
     }
     if (profile == Profile::fillet && !internal_) {
@@ -54,9 +54,8 @@ void ToothProfile::add_fillet(const gears::Gear& gear) {
     const double root = gear.root_radius();
     fillet_radius_ = (gear.dedendum_coefficient - gear.addendum_coefficient) * gear.module_m /
                      (1 - std::sin(gear.pressure_angle_rad));
-    // Yang (2022), Eqs. 10-15, in one: seen from where the involute's normal touches the base
-    // circle, the arc's centre lies on that normal, rho beyond the involute, and root + rho from
-    // the gear's centre.
+    // Yang (2022), Eqs. 10-15, combined. The arc's centre lies on the involute's normal, rho beyond
+    // the involute as seen from the base circle, and root + rho from the gear's centre.
     const double centre = (root + fillet_radius_) * (root + fillet_radius_);
     const double roll_length =
         std::sqrt(std::max(0.0, centre - base_radius_ * base_radius_)) - fillet_radius_;
@@ -69,13 +68,13 @@ void ToothProfile::add_fillet(const gears::Gear& gear) {
         add_straight_side(end_radius * std::cos(half_base_angle_));
     }
     const ToothSection end = section(fillet_end_);
-    // The outward normal at the arc's end is (-sin u, cos u), u being the involute's last angle.
+    // The outward normal at the arc's end is (-sin u, cos u), with u the involute's last angle.
     const double u = involute_root_;
     fillet_axial_ = end.axial - fillet_radius_ * std::sin(u);
     fillet_height_ = end.half_thickness + fillet_radius_ * std::cos(u);
     fillet_end_angle_ = std::numbers::pi / 2 + u;
     root_ = fillet_end_ + fillet_end_angle_ - std::atan2(fillet_height_, fillet_axial_);
-    // The waist: where the arc runs along the centre line.
+    // At the waist the arc runs along the centre line.
     waist_ = fillet_end_ + std::max(0.0, u);
     // At the angle p of the arc the tangent makes pi/2 - p with the centre line.
     constexpr double kTangent = std::numbers::pi / 6;
@@ -115,7 +114,7 @@ double ToothProfile::fillet_angle_of_half_thickness(double h) const {
 }
 
 double ToothProfile::angle_of_axial(double xi) const {
-    // xi falls with u on external teeth and rises on internal ones, which point inwards.
+    // xi decreases with u on external teeth and increases on internal ones, which point inwards.
     double low = internal_ ? std::max(half_base_angle_, 0.0) : -std::numbers::pi / 2;
     double high = root_;
     const double sign = internal_ ? -1 : 1;

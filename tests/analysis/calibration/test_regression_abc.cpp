@@ -1,4 +1,4 @@
-// Approximate Bayesian computation against closed forms.
+// Checks approximate Bayesian computation against closed forms.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -11,8 +11,9 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// Two parameters, uniform from 0 to 1. The first is the mean of eight normal values of standard
-// deviation kSd, of which the summaries are mean and spread; the second moves nothing.
+// Synthetic calibration with two parameters, uniform from 0 to 1. The first is the mean of eight
+// normal values of standard deviation kSd, summarized by their mean and spread. The second has no
+// effect on the summaries.
 constexpr double kSd = 0.3;
 constexpr int kValues = 8;
 
@@ -71,7 +72,7 @@ TEST_CASE("The posterior of a mean is the normal one, cut off where the prior en
     }
 }
 
-TEST_CASE("What moves nothing keeps its prior, and the mean goes with the mean") {
+TEST_CASE("A parameter without effect keeps its prior; the mean is determined by the mean") {
     const AbcPosterior posterior =
         regression_abc(draws_of(20000, 2), std::vector<double>{0.4, std::log(kSd * kSd)}, 0.2);
     const auto idle = parameter(posterior, 1);
@@ -83,7 +84,7 @@ TEST_CASE("What moves nothing keeps its prior, and the mean goes with the mean")
     CHECK(std::accumulate(posterior.weight.begin(), posterior.weight.end(), 0.0) == Approx(1.0));
 }
 
-TEST_CASE("Intervals hold the truth as often as they say, with few draws, too") {
+TEST_CASE("Intervals have their nominal coverage, also with few simulations") {
     const AbcDraws draws = draws_of(600, 3);
     std::mt19937 engine(4);
     std::uniform_real_distribution<double> prior;
@@ -96,7 +97,7 @@ TEST_CASE("Intervals hold the truth as often as they say, with few draws, too") 
         held += weighted_quantile(values, posterior.weight, 0.05) <= truth &&
                 truth <= weighted_quantile(values, posterior.weight, 0.95);
     }
-    // One set of draws serves all, so its own error is common to them.
+    // All sets share one set of simulations, so its error is common to them.
     CHECK(held == Approx(0.9 * kSets).margin(0.04 * kSets));
 }
 
@@ -108,7 +109,7 @@ TEST_CASE("Quantiles of weighted values are those of the values repeated") {
     CHECK(weighted_quantile(values, weights, 1.0) == 3.0);
 }
 
-TEST_CASE("Draws and observations that disagree in shape are refused") {
+TEST_CASE("Simulations and observations of different shapes are refused") {
     const AbcDraws draws = draws_of(100, 5);
     CHECK_THROWS_AS(regression_abc(draws, std::vector<double>{0.5}, 0.2), std::invalid_argument);
     CHECK_THROWS_AS(regression_abc(draws_of(15, 5), std::vector<double>{0.5, 0.0}, 0.2),

@@ -11,9 +11,10 @@ using namespace gearpod::analysis;
 
 namespace {
 
-constexpr double kNoiseA = 0.7, kNoiseB = 0.35;  // of two sensors; what gearboxes share has 0.5
+// Noise of the two sensors; the gearbox-to-gearbox part is 0.5.
+constexpr double kNoiseA = 0.7, kNoiseB = 0.35;
 
-// A feature of value size + gearbox + sensor: alarms above the threshold, so that detection rates,
+// Feature of value size + gearbox + sensor. Alarms occur above the threshold, so detection rates,
 // a90 and areas are normal integrals.
 struct Synthetic {
     std::vector<double> healthy_a, healthy_b, size, a, b;
@@ -62,7 +63,7 @@ double true_a90(double noise) {
     return threshold(noise) + scatter(noise) * link_quantile(Link::probit, 0.9);
 }
 
-// Mean over the sizes above 0 of the area against size 0.
+// Area against size 0, averaged over the sizes above 0.
 double true_auc(double noise) {
     double sum = 0.0;
     for (int g = 1; g < 7; ++g) {
@@ -91,12 +92,13 @@ TEST_CASE("The difference of two rates has Newcombe's published intervals") {
     CHECK(bounds(10, 10, 0, 10).upper == Approx(1.0).margin(5e-5));
 }
 
-TEST_CASE("McNemar's test is the binomial law of the pairs that differ") {
+TEST_CASE("McNemar's test is the binomial law of the discordant pairs") {
     CHECK(mcnemar_p_value({100, 0, 6, 3}) == Approx(2.0 / 64.0));
     CHECK(mcnemar_p_value({0, 1, 3, 0}) == Approx(2.0 * 5.0 / 16.0));
     CHECK(mcnemar_p_value({4, 2, 2, 9}) == 1.0);
     CHECK(mcnemar_p_value({4, 0, 0, 9}) == 1.0);
-    // Perfect agreement without the correction is a correlation of 1; (20 20 - 20) / 400 with it.
+    // Perfect agreement is a correlation of 1 without the continuity correction, and (20 20 - 20) /
+    // 400 with it.
     CHECK(outcome_correlation({20, 0, 0, 20}) == Approx(0.95));
     CHECK(outcome_correlation({0, 20, 20, 0}) == Approx(-1.0));
     CHECK(outcome_correlation({40, 0, 0, 0}) == 0.0);
@@ -105,7 +107,7 @@ TEST_CASE("McNemar's test is the binomial law of the pairs that differ") {
     CHECK(pooled_p_value(40, 100, 60, 100) == Approx(0.00468).margin(1e-5));
 }
 
-TEST_CASE("A sample against itself differs by nothing") {
+TEST_CASE("A sample compared with itself has zero differences") {
     std::mt19937_64 engine(5);
     Synthetic made(engine, true);
     made.healthy_b = made.healthy_a;
@@ -127,7 +129,8 @@ TEST_CASE("A sample against itself differs by nothing") {
     CHECK(holds(result.auc.bounds, 0.0));
 }
 
-TEST_CASE("Pairs take out what gearboxes share, and missing values do not pass for misses") {
+TEST_CASE(
+    "Pairing removes the part that gearboxes share, and missing values do not count as misses") {
     std::mt19937_64 engine(6);
     Synthetic made(engine, true, 600, 1400);
     const Comparison pairs = made.compare(true, 200), apart = made.compare(false, 200);
@@ -148,7 +151,7 @@ TEST_CASE("Pairs take out what gearboxes share, and missing values do not pass f
     CHECK_THAT(none.a90.refusal, Catch::StartsWith("B: "));
 }
 
-// Nominal 95 %: over `studies` the true difference lies inside so often.
+// Checks that the nominal 95 % interval holds the true difference in so many of `studies`.
 void check_coverage(bool same_boxes, int studies, int resamples) {
     std::mt19937_64 engine(7);
     int pd = 0, rates = 0, a90 = 0, auc = 0;
@@ -174,7 +177,7 @@ void check_coverage(bool same_boxes, int studies, int resamples) {
     CHECK(auc < 0.985 * studies);
 }
 
-TEST_CASE("Intervals hold the true difference as often as they say") {
+TEST_CASE("Intervals hold the true difference at their nominal rate") {
     check_coverage(true, 300, 100);
     check_coverage(false, 300, 100);
 }

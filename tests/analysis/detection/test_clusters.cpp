@@ -1,4 +1,4 @@
-// False-alarm rates of thresholds from several recordings of each gearbox.
+// Checks false-alarm rates of thresholds set from several recordings of each gearbox.
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
@@ -15,8 +15,8 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// Normal features of variance 1, of which gearboxes account for a share; so the rate beyond any
-// threshold is known.
+// Normal features of variance 1, of which a given share is between gearboxes. The rate beyond any
+// threshold is therefore known.
 struct Coverage {
     double clustered = 0.0, independent = 0.0;
 };
@@ -50,7 +50,7 @@ Coverage coverage(double share, int gearboxes, int recordings, double rate, int 
 }
 
 TEST_CASE("Rates of thresholds from many recordings of few gearboxes are covered") {
-    // Standard deviation of a coverage of 0.95 in 400 studies: 0.011.
+    // The standard deviation of a coverage of 0.95 in 400 studies is 0.011.
     for (const double share : {0.0, 0.3, 0.7, 1.0}) {
         for (const auto& [gearboxes, recordings] :
              {std::pair{5, 60}, {20, 30}, {100, 10}, {200, 10}}) {
@@ -59,12 +59,14 @@ TEST_CASE("Rates of thresholds from many recordings of few gearboxes are covered
             CHECK(covered.clustered > 0.95 - 0.03);
         }
     }
-    // What it mends, and that it costs little where gearboxes are many and alike.
+    // Intervals that treat recordings as independent fail at a share of 0.7. Clustered intervals
+    // are hardly conservative for many similar gearboxes.
     CHECK(coverage(0.7, 20, 50, 0.05, 400).independent < 0.5);
     CHECK(coverage(0.0, 200, 10, 0.05, 400).clustered < 0.99);
 }
 
-// Studies of normal noise of variance 1 on gearboxes of a normal or an exponential law.
+// Studies of normal noise of variance 1 on gearboxes with normally or exponentially distributed
+// means.
 struct RareCoverage {
     double covered = 0.0, median_width = 0.0;
 };
@@ -75,7 +77,7 @@ RareCoverage rare_coverage(double deviation, bool exponential, int gearboxes, in
     std::normal_distribution<double> noise;
     std::exponential_distribution<double> skewed;
     const boost::math::normal normal;
-    // Of further gearboxes, by their own law.
+    // False-alarm rate of further gearboxes from the same law.
     const auto beyond = [&](double threshold) {
         if (!exponential) {
             return cdf(complement(normal, threshold / std::sqrt(1.0 + deviation * deviation)));
@@ -113,8 +115,8 @@ RareCoverage rare_coverage(double deviation, bool exponential, int gearboxes, in
     return result;
 }
 
-TEST_CASE("Rates rarer than one in the gearboxes are covered by many records of each") {
-    // Standard deviation of a coverage of 0.95 in 200 studies: 0.015.
+TEST_CASE("Rates below one per number of gearboxes are covered by many records of each") {
+    // The standard deviation of a coverage of 0.95 in 200 studies is 0.015.
     constexpr double kLow = 0.95 - 0.045;
     const RareCoverage alike = rare_coverage(0.0, false, 500, 100, 0.001, 200),
                        differing = rare_coverage(0.4, false, 500, 100, 0.001, 200),
@@ -124,7 +126,7 @@ TEST_CASE("Rates rarer than one in the gearboxes are covered by many records of 
     CHECK(alike.median_width < 1.9);
     CHECK(differing.covered > kLow);
     CHECK(differing.median_width < 2.2);
-    // Gearboxes that make the alarms themselves count as one record each.
+    // Where the alarms come from the gearboxes themselves, each gearbox counts as one record.
     CHECK(apart.covered > kLow);
     CHECK(skewed.covered > kLow);
     CHECK(apart.median_width > 3.0);
@@ -145,7 +147,7 @@ TEST_CASE("Rates of 1e-4 from 400 records of each of 2,000 gearboxes",
     }
 }
 
-TEST_CASE("Detection takes the recordings' gearboxes into its intervals and says so") {
+TEST_CASE("Detection uses the gearbox of each recording for its intervals and reports this") {
     std::mt19937_64 engine(8);
     std::normal_distribution<double> draw;
     std::vector<double> values, none(200, 0.0);
@@ -165,14 +167,14 @@ TEST_CASE("Detection takes the recordings' gearboxes into its intervals and says
     CHECK(apart.levels[0].threshold_rate.upper == threshold_rate_interval(200, 0.05, 0.95).upper);
     CHECK(apart.warnings.empty());
     CHECK(four.levels[0].threshold == apart.levels[0].threshold);
-    // The largest of four: up to 1 - 0.025^(1/4).
+    // The upper bound of the largest of four is 1 - 0.025^(1/4).
     CHECK(four.levels[0].threshold_rate.upper == Approx(1.0 - std::pow(0.025, 0.25)));
     REQUIRE(four.warnings.size() == 1);
-    CHECK_THAT(four.warnings[0], Catch::Contains("200 healthy ones are of 4 gearboxes"));
+    CHECK_THAT(four.warnings[0], Catch::Contains("200 healthy records come from only 4 gearboxes"));
 }
 
-TEST_CASE("Equal records of one gearbox are no constant feature") {
-    // 50 gearboxes of 8 records without noise; then all gearboxes alike.
+TEST_CASE("Equal records of one gearbox do not make a feature constant") {
+    // First 50 gearboxes of 8 records without noise; then gearboxes that are all equal.
     std::vector<double> values, zeros(400, 0.0), sizes{1.0}, graded{60.0};
     std::vector<std::size_t> gearbox;
     for (std::size_t i = 0; i < 400; ++i) {

@@ -8,7 +8,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// A feature that is torque plus fault, in small steps: no scatter beyond `step`.
+// A feature that is torque plus fault, in small steps, with no scatter beyond `step`.
 struct Sample {
     std::vector<double> size, torque, value;
 };
@@ -31,7 +31,7 @@ DetectionRequest request() {
     return out;
 }
 
-TEST_CASE("Thresholds by condition find what hides behind the torque") {
+TEST_CASE("Thresholds by condition reveal faults that the scatter of torque hides") {
     const Sample healthy = sample(597, 0.0);
     const Sample faulty = sample(90, 30.0);
     const FeatureSample one{healthy.size, healthy.value}, other{faulty.size, faulty.value};
@@ -44,7 +44,7 @@ TEST_CASE("Thresholds by condition find what hides behind the torque") {
     CHECK(own.refusal == "");
     CHECK(own.warnings.empty());
     REQUIRE(own.levels[0].thresholds.size() == 3);
-    // 199 values a torque: the 190th.
+    // Each torque has 199 values; the threshold is the 190th.
     CHECK(own.levels[0].thresholds[0].threshold == Approx(100.0 + 18.9));
     CHECK(own.levels[0].thresholds[2].threshold == Approx(300.0 + 18.9));
     CHECK(own.levels[0].thresholds[1].sample == 199);
@@ -52,9 +52,11 @@ TEST_CASE("Thresholds by condition find what hides behind the torque") {
     CHECK(own.levels[0].cells[0].tested == 90);
 }
 
-// Seventy recordings of ten gearboxes, one after another by turns, the last one's on top: ten say
-// no more than that at most 0.31 of gearboxes are like it (Clopper-Pearson: 1 - 0.025^(1/10)).
-TEST_CASE("Recordings of few gearboxes at one condition fix its rate no better than gearboxes do") {
+// Seventy recordings of ten gearboxes, interleaved; the last gearbox has the highest values. Ten
+// gearboxes show only that at most a fraction 0.31 of gearboxes is like it (Clopper-Pearson: 1 -
+// 0.025^(1/10)).
+TEST_CASE(
+    "Recordings of few gearboxes at one condition bound its rate no better than gearboxes do") {
     std::vector<double> values;
     std::vector<std::size_t> gearbox;
     for (std::size_t i = 0; i < 70; ++i) {
@@ -72,7 +74,7 @@ TEST_CASE("Recordings of few gearboxes at one condition fix its rate no better t
     CHECK(upper(gearbox) >= 0.308);
 }
 
-TEST_CASE("Conditions without a threshold do not count, continuous inputs are no conditions") {
+TEST_CASE("Conditions without a threshold do not count; continuous inputs are not conditions") {
     const Sample healthy = sample(60, 0.0);
     Sample faulty = sample(9, 5.0);
     faulty.torque[0] = 700.0;
@@ -83,10 +85,10 @@ TEST_CASE("Conditions without a threshold do not count, continuous inputs are no
     CHECK(own.levels[0].without == 1);
     CHECK(own.levels[0].cells[0].tested == 8);
     REQUIRE(own.warnings.size() == 2);
-    CHECK_THAT(own.warnings[0], Catch::Contains("3 of 3 conditions of torque_N_m have too few"));
+    CHECK_THAT(own.warnings[0], Catch::Contains("3 of 3 values of torque_N_m have too few"));
     const ConditionColumn continuous{"f", "1", healthy.value, faulty.value};
     CHECK_THAT(detect_by_condition("f", Alarm::high, one, other, continuous, request()).refusal,
-               Catch::Contains("conditions are levels"));
+               Catch::Contains("must have few levels"));
     const ConditionColumn none{"torque_N_m", "N m", {}, {}};
     CHECK(detect_by_condition("f", Alarm::high, {}, {}, none, request()).refusal ==
           "no healthy gearboxes");

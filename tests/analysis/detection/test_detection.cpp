@@ -25,7 +25,8 @@ std::vector<double> counted(int n) {
 }
 
 TEST_CASE("The threshold is the order statistic that keeps the false-alarm rate") {
-    // 99 values at 5 %: (n+1)(1-rate) = 95 exactly, so the 95th, with 4 of the sample beyond.
+    // For 99 values at 5 %, (n+1)(1-rate) = 95 exactly: the 95th value, with 4 of the sample
+    // beyond.
     const Threshold high = alarm_threshold(counted(99), Alarm::high, 0.05);
     CHECK(high.value == 95.0);
     CHECK(high.alarms == 4);
@@ -38,7 +39,9 @@ TEST_CASE("The threshold is the order statistic that keeps the false-alarm rate"
     CHECK(std::isnan(alarm_threshold({}, Alarm::high, 0.05).value));
 }
 
-TEST_CASE("The expected false-alarm rate of a threshold is the one asked for, not above it") {
+TEST_CASE(
+    "The expected false-alarm rate of a threshold equals the requested rate and does not exceed "
+    "it") {
     std::mt19937_64 engine(21);
     std::normal_distribution<double> draw;
     const boost::math::normal normal;
@@ -51,12 +54,12 @@ TEST_CASE("The expected false-alarm rate of a threshold is the one asked for, no
         }
         sum += cdf(complement(normal, alarm_threshold(healthy, Alarm::high, 0.05).value));
     }
-    // (n+1)(1-rate) = 38 is whole, so the rate is met exactly: 2/40. Its standard deviation in one
-    // trial is that of Beta(2, 38), 0.034; of the mean 5.4e-4.
+    // (n+1)(1-rate) = 38 is an integer, so the rate is met exactly: 2/40. Its standard deviation in
+    // one trial is that of Beta(2, 38), 0.034; that of the mean is 5.4e-4.
     CHECK(sum / kTrials == Approx(0.05).margin(4 * 5.4e-4));
 }
 
-TEST_CASE("Values at the threshold raise no alarm, values that are not numbers never do") {
+TEST_CASE("Values at the threshold and values that are not numbers raise no alarm") {
     CHECK(!is_alarm(2.0, 2.0, Alarm::high));
     CHECK(is_alarm(2.1, 2.0, Alarm::high));
     CHECK(!is_alarm(2.0, 2.0, Alarm::low));
@@ -73,7 +76,7 @@ DetectionRequest request_for(std::vector<SizeGroup> groups, std::vector<double> 
 }
 
 TEST_CASE("Alarms are counted per size and noise level, failures apart") {
-    // Two noise levels: values, and values shifted so that nothing alarms.
+    // Two noise levels: the values, and the values shifted so that none alarms.
     std::vector<double> healthy;
     for (const double value : counted(99)) {
         healthy.push_back(value);
@@ -97,8 +100,8 @@ TEST_CASE("Alarms are counted per size and noise level, failures apart") {
     CHECK((cells[2].tested == 2 && cells[2].detected == 2 && cells[2].failed == 1));
     CHECK(cells[2].lower == Approx(2.0 / (2.0 + 3.841458820694124)));  // n/(n + z^2) at p = 1
     CHECK(result.levels[1].cells[2].detected == 0);
-    REQUIRE(result.warnings.size() == 2);  // one a noise level
-    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 100"));
+    REQUIRE(result.warnings.size() == 2);  // one per noise level
+    CHECK_THAT(result.warnings[0], Catch::Contains("100 are needed"));
 }
 
 TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
@@ -110,11 +113,11 @@ TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
     CHECK(result.levels[0].cells[0].tested == 2);
     CHECK(result.levels[0].cells[1].tested == 3);
     REQUIRE(result.warnings.size() == 2);
-    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy ones fix"));
+    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy records determine"));
     CHECK_THAT(result.warnings[1], Catch::Contains("1 of 6 gearboxes"));
 }
 
-TEST_CASE("A healthy sample too small for the rate gives no rates, and says so") {
+TEST_CASE("A healthy sample too small for the rate gives no rates and a reason") {
     const std::vector<double> none(10, 0.0);
     const std::vector<double> size{1e-3, 1e-3};
     const std::vector<double> values{5.0, 50.0};
@@ -124,7 +127,7 @@ TEST_CASE("A healthy sample too small for the rate gives no rates, and says so")
     CHECK(std::isnan(result.levels[0].cells[0].pd));
     CHECK(result.levels[0].cells[0].tested == 2);
     REQUIRE(result.warnings.size() == 1);
-    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 19"));
+    CHECK_THAT(result.warnings[0], Catch::Contains("at least 19 are needed"));
 }
 
 TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported") {
@@ -137,10 +140,10 @@ TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported"
     CHECK(result.levels[0].threshold == 1.0);
     REQUIRE(result.warnings.size() == 2);
     CHECK_THAT(result.warnings[0], Catch::Contains("1 of 20 healthy"));
-    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy ones fix"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy records determine"));
 }
 
-TEST_CASE("Samples and groups that do not fit are refused") {
+TEST_CASE("Samples and groups of inconsistent shape are refused") {
     const std::vector<double> two(2, 0.0);
     const std::vector<double> three(3, 0.0);
     CHECK_THROWS_AS(detect("f", Alarm::high, {two, three}, {two, two}, request_for({}, {1.0})),

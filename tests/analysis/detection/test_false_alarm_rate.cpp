@@ -17,12 +17,12 @@ TEST_CASE("A threshold's rate interval is that of the order statistic") {
     CHECK(interval.lower == Approx(0.04086426772).epsilon(1e-9));
     CHECK(interval.upper == Approx(0.05993731616).epsilon(1e-9));
     CHECK(std::isnan(threshold_rate_interval(18, 0.05, 0.95).lower));
-    // All of 58 below: Wilks' first tolerance bound, 0.95 content at 0.95 confidence needs 59.
+    // With all 58 below: Wilks' first tolerance bound, 0.95 content at 0.95 confidence, needs 59.
     CHECK(std::pow(1.0 - threshold_rate_interval(59, 0.0167, 0.9).upper, 59) ==
           Approx(0.05).epsilon(1e-9));
 }
 
-TEST_CASE("The sample for a rate is where the upper bound stays below twice the rate") {
+TEST_CASE("The sample size for a rate keeps the upper bound below twice the rate") {
     const long sample = sample_for_rate(0.05, 0.95);
     CHECK(sample == 100);
     for (const double rate : {0.05, 0.01, 0.003}) {
@@ -58,7 +58,7 @@ Coverage coverage(int studies, int sample, int tested) {
         hits.threshold += holds(threshold_rate_interval(sample, 0.05, 0.95), rate) / studies;
         hits.healthy +=
             holds(healthy_rate(sample, 0.05, alarms, tested, 0.95).bounds, rate) / studies;
-        // (n + 1) 0.05 = 10 is whole: the expected rate is 0.05.
+        // (n + 1) 0.05 = 10 is an integer: the expected rate is 0.05.
         hits.expected +=
             holds(expected_rate_interval(sample, alarms, tested, 0.95), 0.05) / studies;
     }
@@ -66,11 +66,11 @@ Coverage coverage(int studies, int sample, int tested) {
 }
 
 TEST_CASE("Intervals of the false-alarm rate cover the truth over 4,000 studies") {
-    // Standard deviation of a coverage of 0.95 in 4,000 studies: 0.0034.
+    // The standard deviation of a coverage of 0.95 in 4,000 studies is 0.0034.
     const Coverage covered = coverage(4000, 199, 300);
     CHECK(covered.threshold == Approx(0.95).margin(0.0138));
     CHECK(covered.healthy == Approx(0.95).margin(0.0138));
-    // The count is discrete, so the interval errs to the wide side.
+    // The count is discrete, so the interval is conservative.
     CHECK(covered.expected > 0.95 - 0.0138);
     CHECK(covered.expected < 0.98);
 }
@@ -83,7 +83,7 @@ TEST_CASE("Healthy rates follow the count and the threshold's own law") {
     CHECK(std::isnan(expected_rate_interval(100, 0, 0, 0.95).lower));
     CHECK(expected_rate_interval(100, 0, 50, 0.95).lower == 0.0);
     CHECK(expected_rate_interval(100, 50, 50, 0.95).upper == 1.0);
-    // A threshold known exactly leaves the binomial scatter: Clopper-Pearson of 81 of 263.
+    // A threshold known exactly leaves only binomial scatter: Clopper-Pearson of 81 of 263.
     const Interval sharp = expected_rate_interval(100'000'000, 81, 263, 0.95);
     CHECK(sharp.lower == Approx(0.2527367456).epsilon(1e-4));
     CHECK(sharp.upper == Approx(0.3676219226).epsilon(1e-4));

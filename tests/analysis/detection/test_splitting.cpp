@@ -1,5 +1,5 @@
-// Rates of rare values by splitting where they are known: gearboxes of independent normal draws,
-// whose sum is the value.
+// Checks rates of rare values by multilevel splitting where the rates are known: gearboxes with
+// independent normal inputs whose sum is the value.
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
@@ -34,7 +34,8 @@ struct Gearboxes {
         return std::sqrt(-2.0 * std::log(uniform(index, 3 * draw))) *
                std::cos(2.0 * std::numbers::pi * uniform(index, 3 * draw + 1));
     }
-    // Every other draw is exchanged in part, its neighbour as a whole or not at all.
+    // Input after an exchange step: every second input is mixed in part, the others are exchanged
+    // as a whole or kept.
     double exchanged(double own, const DrawExchange& with, int draw) const {
         if (draw % 2 == 0) {
             const double kept = 1.0 - with.share;
@@ -42,7 +43,7 @@ struct Gearboxes {
         }
         return uniform(with.index, 3 * draw + 2) < with.share ? normal(with.index, draw) : own;
     }
-    // Of the standard normal law.
+    // Sum of the inputs, scaled to the standard normal law.
     double value(const SplitMember& member) const {
         double sum = 0.0;
         for (int draw = 0; draw < kDraws; ++draw) {
@@ -75,7 +76,7 @@ double rate_beyond(double value) {
     return cdf(complement(kNormal, value));
 }
 
-TEST_CASE("Splitting finds the values of rates down to 1e-6") {
+TEST_CASE("Splitting finds the values whose rates go down to 1e-6") {
     for (const double sign : {1.0, -1.0}) {
         const Gearboxes gearboxes{3, sign};
         for (const double rate : {1e-1, 1e-3, 1e-4, 1e-6}) {
@@ -96,7 +97,7 @@ TEST_CASE("Splitting finds the values of rates down to 1e-6") {
     }
 }
 
-TEST_CASE("Splitting finds how often a value is passed") {
+TEST_CASE("Splitting finds the rate at which a value is exceeded") {
     const Gearboxes gearboxes;
     for (const double rate : {0.4, 2e-2, 1e-4}) {
         const SplitTail tail =
@@ -109,20 +110,20 @@ TEST_CASE("Splitting finds how often a value is passed") {
         CHECK(found->rate.upper > rate);
         CHECK(std::sqrt(found->variance) < 0.3);
     }
-    // A plain sample's error is the binomial one.
+    // The error of a plain sample is binomial.
     const SplitTail plain =
         SplitTail::to_value(gearboxes.settings(1000), truth_of(0.4), 1e-8, gearboxes.values());
     CHECK(plain.levels() == 1);
     const auto found = plain.at(truth_of(0.4), 0.95);
     CHECK(found->variance == Approx((1.0 - found->expected) / (found->expected * 999.0)));
-    // One that none reaches ends at the rarest level asked for.
+    // A value that no gearbox reaches ends at the rarest requested level.
     const SplitTail never =
         SplitTail::to_value(gearboxes.settings(100), 50.0, 1e-5, gearboxes.values());
     CHECK(never.last_rate() < 1e-5);
     CHECK_FALSE(never.at(50.0, 0.95));
 }
 
-TEST_CASE("Splitting refuses what few families reach, and values that are all the same") {
+TEST_CASE("Splitting refuses values that few families reach and values that are all equal") {
     const Gearboxes gearboxes;
     const SplitTail few = SplitTail::to_rate(gearboxes.settings(12), 1e-6, gearboxes.values());
     CHECK_FALSE(few.threshold(1e-6, 0.95));
@@ -134,9 +135,9 @@ TEST_CASE("Splitting refuses what few families reach, and values that are all th
     CHECK_FALSE(constant.threshold(1e-4, 0.95));
 }
 
-TEST_CASE("What has no value raises no alarm in a split sample") {
+TEST_CASE("Gearboxes without a value raise no alarm in a split sample") {
     const Gearboxes gearboxes;
-    // Nine in ten have none: a rate of 1e-3 is one of 1e-2 of the others.
+    // Nine in ten gearboxes have no value: a rate of 1e-3 is a rate of 1e-2 of the others.
     const auto values = [&](std::span<const SplitMember> members) {
         std::vector<double> all = gearboxes.values()(members);
         for (std::size_t i = 0; i < all.size(); ++i) {
@@ -151,7 +152,7 @@ TEST_CASE("What has no value raises no alarm in a split sample") {
     CHECK(found->rate.upper > 0.1 * rate_beyond(found->threshold));
 }
 
-TEST_CASE("Intervals of split rates cover", "[.rare-coverage][splitting-rates]") {
+TEST_CASE("Interval coverage of rates by splitting", "[.rare-coverage][splitting-rates]") {
     constexpr int kStudies = 500;
     struct Case {
         long members;

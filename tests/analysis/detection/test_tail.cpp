@@ -1,4 +1,4 @@
-// Thresholds beyond the healthy sample, against laws whose tails are known.
+// Checks thresholds beyond the healthy sample against laws with known tails.
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -15,7 +15,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// A law by its upper tail: the value with a probability beyond it, and that probability.
+// A law by its upper tail: the value for a probability of exceedance, and that probability.
 struct Law {
     const char* name;
     std::function<double(double)> value, beyond;
@@ -44,8 +44,8 @@ std::vector<Law> laws() {
             pareto("bounded Pareto", -0.2)};
 }
 
-// The largest of n values and their next, ascending, without the others: probabilities beyond the
-// order statistics are S_j / S_(n+1) with S sums of exponentials (A. Renyi 1953).
+// The largest of n values and the next ones, ascending, drawn without the others. Probabilities
+// beyond the order statistics are S_j / S_(n+1) with S sums of exponentials (A. Renyi 1953).
 std::vector<double> largest_of(const Law& law, long sample, std::mt19937_64& engine) {
     const long k = exceedances_of(sample);
     std::exponential_distribution<double> step;
@@ -83,7 +83,7 @@ Covered coverage(const Law& law, long sample, double rate, int studies) {
     return covered;
 }
 
-TEST_CASE("Samples reach five times beyond themselves with a hundred exceedances or more") {
+TEST_CASE("Thresholds extend to five times beyond a sample with a hundred exceedances or more") {
     CHECK(tail_reaches(2000, 1e-4));
     CHECK(!tail_reaches(1999, 1e-4));
     CHECK(!tail_reaches(999, 0.0009));
@@ -94,7 +94,7 @@ TEST_CASE("Samples reach five times beyond themselves with a hundred exceedances
 }
 
 TEST_CASE("The posterior is that of the generalised Pareto law under Jeffreys' prior") {
-    // The same integrals in shape and scale, as published, by a plain sum.
+    // Computes the same integrals over shape and scale, as published, by a plain sum.
     std::mt19937_64 engine(3);
     std::exponential_distribution<double> draw(0.5);
     std::vector<double> largest{1.0};
@@ -126,8 +126,8 @@ TEST_CASE("The posterior is that of the generalised Pareto law under Jeffreys' p
 }
 
 TEST_CASE("Intervals of rates beyond the sample cover the truth over 500 studies") {
-    // Standard deviation of a coverage of 0.95 in 500 studies: 0.0097; all laws, more studies and
-    // 1e-6 under [.rare-coverage].
+    // The standard deviation of a coverage of 0.95 in 500 studies is 0.0097. All laws, more studies
+    // and 1e-6 are under [.rare-coverage].
     for (const Law& law : {laws()[0], laws()[1]}) {
         const Covered covered = coverage(law, 2000, 1e-4, 500);
         INFO(law.name);
@@ -135,7 +135,7 @@ TEST_CASE("Intervals of rates beyond the sample cover the truth over 500 studies
     }
 }
 
-TEST_CASE("Intervals beyond the sample cover, and expected rates are those asked for",
+TEST_CASE("Intervals beyond the sample cover the truth, and expected rates equal those requested",
           "[.rare-coverage]") {
     for (const auto& [sample, rate] :
          {std::pair{1000L, 2e-4}, std::pair{2000L, 1e-4}, std::pair{200'000L, 1e-6}}) {
@@ -150,7 +150,7 @@ TEST_CASE("Intervals beyond the sample cover, and expected rates are those asked
     }
 }
 
-TEST_CASE("A threshold beyond the sample is the tail's, on either side") {
+TEST_CASE("A threshold beyond the sample comes from the fitted tail, for either alarm side") {
     std::mt19937_64 engine(5);
     std::normal_distribution<double> draw;
     std::vector<double> high(2000), low;
@@ -168,12 +168,12 @@ TEST_CASE("A threshold beyond the sample is the tail's, on either side") {
     const double truth = cdf(complement(normal, above.value));
     const Interval own = rate_of(above, Alarm::high, 1e-4, 0, 0, 0.95).bounds;
     CHECK((own.lower <= truth && truth <= own.upper));
-    // A long count decides: 500 of 5 million.
+    // A long count takes precedence: 500 of 5 million.
     const HealthyRate counted = rate_of(above, Alarm::high, 1e-4, 500, 5'000'000, 0.95);
     CHECK(counted.rate == Approx(1e-4).epsilon(0.05));
     CHECK(counted.bounds.upper < 1.12e-4);
     CHECK(counted.bounds.lower > 0.90e-4);
-    // One that the sample holds stays an order statistic.
+    // A threshold within the sample stays an order statistic.
     CHECK(!alarm_threshold(high, Alarm::high, 1e-3).tail);
     CHECK(std::isnan(alarm_threshold(high, Alarm::high, 0.9e-4).value));
     std::fill(high.begin(), high.begin() + 300, 4.0);

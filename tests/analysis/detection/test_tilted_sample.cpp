@@ -1,5 +1,6 @@
-// Thresholds from weighted records where the rate beyond every value is known: gearboxes of a
-// normal or an exponential law and normal noise of variance 1, drawn towards alarms by shifts.
+// Checks thresholds from weighted records where the rate beyond every value is known. Gearboxes
+// have a normal or an exponential law with normal noise of variance 1, and records are
+// exponentially tilted towards alarms by shifts of the noise.
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/normal.hpp>
@@ -20,7 +21,7 @@ constexpr std::array kShifts{0.0, 2.0, 3.5, 5.0};
 
 enum class Law { normal, exponential };
 
-// Of further gearboxes.
+// False-alarm rate of further gearboxes.
 double rate_beyond(double threshold, double deviation, Law law) {
     if (law == Law::normal) {
         return cdf(complement(kNormal, threshold / std::sqrt(1.0 + deviation * deviation)));
@@ -92,7 +93,7 @@ Coverage coverage(double deviation, Law law, int gearboxes, int records, double 
     return result;
 }
 
-TEST_CASE("Thresholds at 1e-2 to 1e-6 from tilted records are the normal law's") {
+TEST_CASE("Thresholds at 1e-2 to 1e-6 from exponentially tilted records match the normal law") {
     std::mt19937_64 engine(1);
     for (const double sign : {1.0, -1.0}) {
         const Alarm alarm = sign > 0.0 ? Alarm::high : Alarm::low;
@@ -108,7 +109,7 @@ TEST_CASE("Thresholds at 1e-2 to 1e-6 from tilted records are the normal law's")
             CHECK(bounds.upper > truth);
             CHECK(found->rate.lower < rate);
             CHECK(found->rate.upper > rate);
-            // The rate beyond a given value, as misses are asked for.
+            // The rate beyond a given value, as needed for misses.
             const auto at = sample.at(truth, 0.95);
             REQUIRE(at);
             CHECK(at->rate.lower < rate);
@@ -118,7 +119,7 @@ TEST_CASE("Thresholds at 1e-2 to 1e-6 from tilted records are the normal law's")
     }
 }
 
-TEST_CASE("Rates from tilted records are 1 at most") {
+TEST_CASE("Rates from exponentially tilted records are 1 at most") {
     std::mt19937_64 engine(8);
     for (int study = 0; study < 20; ++study) {
         const auto found = Records(0.2, Law::normal, 50, 8, engine).sample().at(-6.0, 0.95);
@@ -130,7 +131,7 @@ TEST_CASE("Rates from tilted records are 1 at most") {
     }
 }
 
-TEST_CASE("Tilted records agree with counted ones") {
+TEST_CASE("Exponentially tilted records agree with counted ones") {
     std::mt19937_64 engine(2);
     constexpr double kRate = 1e-3;
     const auto found = Records(0.3, Law::normal, 300, 32, engine).sample().threshold(kRate, 0.95);
@@ -146,18 +147,18 @@ TEST_CASE("Tilted records agree with counted ones") {
     CHECK(counted < found->rate.upper + 3.0 * error);
 }
 
-TEST_CASE("Rates of thresholds from tilted records are covered") {
-    // Standard deviation of a coverage of 0.95 in 100 studies: 0.022.
+TEST_CASE("Interval coverage of threshold rates from exponentially tilted records") {
+    // The standard deviation of a coverage of 0.95 in 100 studies is 0.022.
     const Coverage few = coverage(0.15, Law::normal, 50, 32, 1e-4, 100);
     CHECK(few.covered > 0.95 - 0.06);
     CHECK(few.refused < 20);
     const Coverage many = coverage(0.3, Law::normal, 400, 32, 1e-6, 60);
     CHECK(many.covered > 0.95 - 0.08);
-    // Gearboxes that make the alarms themselves.
+    // Here the alarms come from the gearboxes themselves.
     CHECK(coverage(1.0, Law::normal, 100, 32, 1e-4, 20).refused == 20);
 }
 
-TEST_CASE("Rates of thresholds from tilted records are covered in 500 studies",
+TEST_CASE("Interval coverage of threshold rates from exponentially tilted records in 500 studies",
           "[.rare-coverage][tilted-rates]") {
     struct Case {
         double deviation;
@@ -184,7 +185,7 @@ TEST_CASE("Rates of thresholds from tilted records are covered in 500 studies",
     }
 }
 
-TEST_CASE("Without 20 gearboxes that have the alarms the first records set the threshold") {
+TEST_CASE("With fewer than 20 gearboxes that alarm, the first records set the threshold") {
     std::mt19937_64 engine(4);
     const Records records(2.0, Law::normal, 300, 8, engine);
     const HealthyThresholds tilted({records.values, records.gearbox, records.weights}, Alarm::high);
@@ -201,7 +202,7 @@ TEST_CASE("Without 20 gearboxes that have the alarms the first records set the t
     CHECK(std::isnan(tilted.at(1e-6, 0.95).value));
 }
 
-TEST_CASE("Detection says which thresholds are from tilted records") {
+TEST_CASE("Detection reports which thresholds come from exponentially tilted records") {
     std::mt19937_64 engine(5);
     const Records records(0.1, Law::normal, 100, 16, engine);
     const std::vector<double> none(records.values.size(), 0.0), graded(400, 3.0), sizes(400, 1.0);
@@ -223,7 +224,7 @@ TEST_CASE("Detection says which thresholds are from tilted records") {
     CHECK(!level.tail);
 }
 
-TEST_CASE("Plain records of gearboxes have order statistics and no tail beyond them") {
+TEST_CASE("Plain records of gearboxes give order statistics and no tail beyond them") {
     std::mt19937_64 engine(6);
     std::normal_distribution<double> noise;
     std::vector<double> values;

@@ -15,7 +15,7 @@ namespace {
 
 using Where = SizeEstimate::Where;
 
-// A pod whose curve is given and not fitted: form and tested sizes are all that is taken from it.
+// A POD with a given rather than fitted curve. Only its form and tested sizes are used.
 HitMissPod pod_of_form(const PodForm& form, double smallest, double largest) {
     HitMissPod pod;
     pod.chosen.curve = {form, 0.0, 0.0, 1.0};
@@ -34,7 +34,7 @@ TEST_CASE("Test and a90 map agree with statsmodels and Fieller's bounds") {
     CHECK(z.degrees == 2);
     CHECK(z.statistic == Approx(22.08586602).epsilon(1e-8));
     CHECK(z.p_value == Approx(1.599982119e-05).epsilon(1e-6));
-    // reference/robustness_py.txt
+    // Reference: reference/robustness_py.txt.
     const double a90[][4] = {{6.708111, 3.355907471, 3.672758021, 4.056032315},
                              {8.792695, 3.085616424, 3.309180786, 3.599181739},
                              {10.06425, 2.846893438, 3.065423489, 3.349432313},
@@ -49,7 +49,7 @@ TEST_CASE("Test and a90 map agree with statsmodels and Fieller's bounds") {
     }
 }
 
-TEST_CASE("Bins have equal counts and Wilson's bounds; few values have a bin each") {
+TEST_CASE("Bins have equal counts and Wilson's bounds; few values get one bin each") {
     std::vector<double> size, z, levels;
     std::vector<int> hit;
     for (int i = 0; i < 500; ++i) {
@@ -81,7 +81,7 @@ TEST_CASE("Bins have equal counts and Wilson's bounds; few values have a bin eac
     CHECK(few.values == std::vector<double>{0.0, 100.0, 200.0});
 }
 
-TEST_CASE("Values that repeat share a bin") {
+TEST_CASE("Repeated values share a bin") {
     const InputBins bins = equal_count_bins(std::vector<double>{5, 5, 5, 5, 5, 1, 2, 3, 4, 6}, 4);
     CHECK(bins.of == std::vector<std::size_t>{2, 2, 2, 2, 2, 0, 0, 0, 1, 3});
     CHECK(bins.bins == 4);
@@ -108,7 +108,7 @@ struct Study {
     }
 };
 
-TEST_CASE("The curve of the study itself gives the map; the idle input has no effect") {
+TEST_CASE("The study's own curve gives the map; the irrelevant input has no effect") {
     const Study study(2000, 3);
     const HitMissPod pod = hit_miss_pod(
         hit_miss_table(study.size, std::vector<char>(study.hit.begin(), study.hit.end())),
@@ -137,7 +137,7 @@ TEST_CASE("Sizes beyond the tested ones are not extrapolated") {
     CHECK(result.inputs[0].a90.back().estimate.where == Where::reached);
 }
 
-TEST_CASE("One class, no gearbox, no curve: the reason instead of a number") {
+TEST_CASE("One outcome class, no gearboxes or no curve: a reason instead of a number") {
     Study study(200, 5);
     const auto effects = [&](const std::vector<int>& hit, const HitMissPod& pod) {
         return input_effects(study.size, hit, {{"z", "1", study.z}}, pod, {0.0, 4.0}, 0.95);
@@ -145,7 +145,7 @@ TEST_CASE("One class, no gearbox, no curve: the reason instead of a number") {
     const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.01, 4.0);
     for (const int outcome : {0, 1}) {
         const InputEffects same = effects(std::vector<int>(200, outcome), pod);
-        CHECK(same.inputs[0].refusal == "all outcomes are alike");
+        CHECK(same.inputs[0].refusal == "all outcomes are equal");
         CHECK(std::isnan(same.inputs[0].p_value));
         CHECK(same.inputs[0].a90.empty());
         CHECK(same.inputs[0].bins.size() == 5);
@@ -154,7 +154,7 @@ TEST_CASE("One class, no gearbox, no curve: the reason instead of a number") {
     HitMissPod none = pod;
     none.refusal = "no threshold";
     CHECK(effects(study.hit, none).inputs[0].refusal == "no threshold");
-    // Hits and misses that one input parts completely have no maximum.
+    // Hits and misses that one input separates completely have no likelihood maximum.
     std::vector<int> parted;
     for (const double z : study.z) {
         parted.push_back(z > 0.0 ? 1 : 0);
@@ -162,7 +162,7 @@ TEST_CASE("One class, no gearbox, no curve: the reason instead of a number") {
     CHECK(!effects(parted, pod).inputs[0].refusal.empty());
 }
 
-TEST_CASE("Bins are of sizes at which detection is neither rare nor sure") {
+TEST_CASE("Bins contain sizes at which detection is neither rare nor certain") {
     const auto cell = [](double size, double pd) {
         DetectionCell c;
         c.size = {size, size};
@@ -179,7 +179,7 @@ TEST_CASE("Bins are of sizes at which detection is neither rare nor sure") {
     CHECK(!in_range(1.0, transition_sizes({})));
 }
 
-TEST_CASE("Bounds of the a90 map cover the truth, the test keeps its level", "[.coverage]") {
+TEST_CASE("Bounds of the a90 map cover the truth; the test keeps its level", "[.coverage]") {
     constexpr int kStudies = 2000;
     const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.001, 4.0);
     double upper[5] = {}, lower[5] = {}, false_alarms = 0.0;
@@ -195,7 +195,7 @@ TEST_CASE("Bounds of the a90 map cover the truth, the test keeps its level", "[.
             upper[i] += a90.upper.where == Where::not_reached || a90.upper.size >= truth;
             lower[i] += a90.lower.where == Where::reached && a90.lower.size <= truth;
         }
-        // Alone, so that no adjustment hides the level.
+        // The p-value is taken alone, so that no adjustment hides the level.
         false_alarms +=
             input_effects(study.size, study.hit, {{"idle", "1", study.idle}}, pod, {1.0, 3.0}, 0.95)
                 .inputs[0]

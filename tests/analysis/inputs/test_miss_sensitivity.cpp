@@ -10,7 +10,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// Gearboxes detected where size - torque's effect + scatter exceeds 1.
+// Gearboxes are detected where size - torque's effect + scatter exceeds 1.
 struct Study {
     std::vector<double> size, torque, bearing, fixed;
     std::vector<int> hit;
@@ -36,7 +36,7 @@ Study study(bool levels, unsigned seed, double effect) {
     return out;
 }
 
-TEST_CASE("The input that decides the misses leads, the idle ones hold 1/2") {
+TEST_CASE("The input that decides the misses ranks first; irrelevant inputs stay at 1/2") {
     for (const bool levels : {true, false}) {
         const Study drawn = study(levels, 4, 0.6);
         const MissSensitivity result =
@@ -48,12 +48,12 @@ TEST_CASE("The input that decides the misses leads, the idle ones hold 1/2") {
         CHECK(result.inputs[1].bounds.lower < 0.5);
         CHECK(result.inputs[1].bounds.upper > 0.5);
         CHECK(result.left_out == std::vector<std::string>{"fixed"});
-        CHECK(result.smallest >= 0.9);  // half or more are detected
+        CHECK(result.smallest >= 0.9);  // at least half are detected
     }
 }
 
 TEST_CASE("With one size the influence is the area between two shifted normal laws") {
-    // Misses and hits apart by 1: Phi(1 / sqrt 2).
+    // Misses and hits differ by 1: Phi(1 / sqrt 2).
     std::mt19937_64 engine(9);
     std::normal_distribution<double> draw;
     std::vector<double> size(20000, 2.0), input;
@@ -70,7 +70,7 @@ TEST_CASE("With one size the influence is the area between two shifted normal la
     CHECK(result.inputs[0].larger_in_misses == Approx(truth).margin(0.015));
 }
 
-TEST_CASE("Intervals of an idle input cover 1/2 over 1,000 studies") {
+TEST_CASE("Intervals of an irrelevant input cover 1/2 over 1,000 studies") {
     int covered = 0, judged = 0;
     for (unsigned seed = 0; seed < 1000; ++seed) {
         const Study drawn = study(true, 100 + seed, 0.0);
@@ -85,10 +85,11 @@ TEST_CASE("Intervals of an idle input cover 1/2 over 1,000 studies") {
         covered += result.inputs[0].bounds.lower <= 0.5 && result.inputs[0].bounds.upper >= 0.5;
     }
     CHECK(judged > 700);
-    CHECK(covered / static_cast<double>(judged) == Approx(0.95).margin(0.025));  // three deviations
+    // The margin is three standard deviations.
+    CHECK(covered / static_cast<double>(judged) == Approx(0.95).margin(0.025));
 }
 
-TEST_CASE("Without misses or hits there is nothing to decide") {
+TEST_CASE("Without misses or hits there is no influence to estimate") {
     const std::vector<double> size{0.0, 1.0, 1.0, 1.0, 2.0, 2.0};
     const std::vector<double> input{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
     for (const int outcome : {0, 1, -1}) {

@@ -1,4 +1,4 @@
-// Given-data Sobol indices against functions whose indices are known in closed form.
+// Checks given-data Sobol indices against functions whose indices are known in closed form.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -55,7 +55,7 @@ const SobolIndex& index_of(const SobolIndices& all, const std::string& name) {
     throw std::invalid_argument(name);
 }
 
-TEST_CASE("Inputs that go together have no shares of their own") {
+TEST_CASE("Dependent inputs get no separate indices") {
     std::mt19937_64 engine(5);
     Inputs inputs = uniform_inputs(3, 1000, 0.0, 1.0, engine);
     const auto sum = [](const std::vector<double>& x) { return x[0] + x[1] + x[2]; };
@@ -64,7 +64,7 @@ TEST_CASE("Inputs that go together have no shares of their own") {
         inputs[2][i] = std::exp(inputs[0][i] + 0.5 * inputs[2][i]);
     }
     const SobolIndices refused = indices(inputs, outputs(inputs, sum));
-    CHECK(refused.refusal.find("x1 and x3 go together (rank correlation 0.") == 0);
+    CHECK(refused.refusal.find("x1 and x3 are correlated (rank correlation 0.") == 0);
     CHECK(refused.inputs.empty());
 }
 
@@ -124,11 +124,12 @@ TEST_CASE("Sobol's g-function has its known indices") {
     CHECK(found.inputs[1].name == "x2");
 }
 
-TEST_CASE("Misses with noise of their own leave a share unexplained") {
+TEST_CASE("Misses with independent noise leave a share unexplained") {
     std::mt19937_64 engine(7);
     std::uniform_real_distribution<double> draw;
     const Inputs x = uniform_inputs(3, 3000, 0.0, 1.0, engine);
-    // P(miss) = 0.1 + 0.6 x1 x2: E of it 0.25, variance 0.1875; x1 alone 0.36 / 48 of it.
+    // P(miss) = 0.1 + 0.6 x1 x2 has mean 0.25 and variance 0.1875; x1 alone explains 0.36 / 48 of
+    // it.
     const SobolIndices found = indices(x, outputs(x, [&](const std::vector<double>& v) {
                                            return draw(engine) < 0.1 + 0.6 * v[0] * v[1] ? 1. : 0.;
                                        }));
@@ -143,7 +144,7 @@ TEST_CASE("Misses with noise of their own leave a share unexplained") {
     CHECK(found.explained < 0.2);
 }
 
-TEST_CASE("Inputs of few values count by their values") {
+TEST_CASE("Inputs with few values are binned by value") {
     std::mt19937_64 engine(11);
     std::normal_distribution<double> draw;
     Inputs x(2);
@@ -166,13 +167,14 @@ TEST_CASE("Without variation there are no indices") {
         ramp.push_back(i);
     }
     CHECK(sobol_indices(constant, {{"x", "1", ramp}}, 0.95).refusal ==
-          "all gearboxes give the same");
+          "all gearboxes have the same value");
     CHECK_THAT(sobol_indices(few, {}, 0.95).refusal, Catch::Contains("100 are needed"));
     CHECK_THAT(sobol_indices({}, {}, 0.95).refusal, Catch::Contains("100 are needed"));
     const SobolIndices none = sobol_indices(ramp, {{"x", "1", constant}}, 0.95);
     CHECK(none.refusal == "no input varies");
     CHECK(none.left_out.size() == 1);
-    // A deterministic output has no scatter within bins to judge by, yet never a NaN estimate.
+    // A deterministic output has no scatter within bins for an interval, but the estimate is never
+    // NaN.
     const SobolIndices sure = sobol_indices(ramp, {{"x", "1", ramp}}, 0.95);
     CHECK(sure.inputs[0].first.share > 0.95);
     CHECK(sure.inputs[0].total == Approx(1.0).margin(1e-6));

@@ -9,8 +9,9 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// logit POD = -6 + 3 a + effect . z of independent standard normal z; a90 is then normal, with
-// mean (log 9 + 6) / 3 and the effects' root of squares over 3 as its deviation.
+// Synthetic campaign with logit POD = -6 + 3 a + effect . z for independent standard normal z. The
+// a90 is then normal with mean (log 9 + 6) / 3; its standard deviation is the root sum of squares
+// of the effects over 3.
 struct Campaign {
     std::vector<double> size, first, second;
     std::vector<int> hit;
@@ -43,7 +44,7 @@ const double kMiddle = (std::log(9.0) + 6.0) / 3.0;
 
 }  // namespace
 
-TEST_CASE("The band of two uncertain inputs has the width of both together") {
+TEST_CASE("The band of two uncertain inputs has their combined width") {
     const Campaign campaign(40000, 1.5, 2.0);
     const UncertainBand found = campaign.band();
     REQUIRE(found.refusal.empty());
@@ -51,7 +52,7 @@ TEST_CASE("The band of two uncertain inputs has the width of both together") {
     const double half = kQuantile * 2.5 / 3.0;
     CHECK(found.a90_low.size == Approx(kMiddle - half).margin(0.05));
     CHECK(found.a90_high.size == Approx(kMiddle + half).margin(0.05));
-    // At size 2 the logit is 2.5 times a standard normal number.
+    // The logit at size 2 is 2.5 times a standard normal number.
     REQUIRE(found.band.size() == 2);
     CHECK(found.band[1].pod == Approx(0.5).margin(0.02));
     CHECK(found.band[1].upper == Approx(1.0 / (1.0 + std::exp(-2.5 * kQuantile))).margin(0.01));
@@ -59,7 +60,8 @@ TEST_CASE("The band of two uncertain inputs has the width of both together") {
 }
 
 TEST_CASE(
-    "Inputs that decide nothing leave nothing open, and sizes beyond the tested are not read") {
+    "Inputs without effect leave no uncertainty, and there is no extrapolation beyond the tested "
+    "sizes") {
     const UncertainBand none = Campaign(40000, 0.0, 0.0).band();
     CHECK(none.a90_high.size - none.a90_low.size < 0.1);
     const UncertainBand wide = Campaign(40000, 8.0, 0.0).band();
@@ -67,7 +69,7 @@ TEST_CASE(
     CHECK(wide.a90_high.where == SizeEstimate::Where::not_reached);
 }
 
-TEST_CASE("Without an input that varies, or without a curve, there is no band") {
+TEST_CASE("Without a varying input, or without a curve, there is no band") {
     Campaign campaign(200, 1.0, 0.0);
     std::fill(campaign.first.begin(), campaign.first.end(), 1.0);
     std::fill(campaign.second.begin(), campaign.second.end(), 1.0);

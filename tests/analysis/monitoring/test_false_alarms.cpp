@@ -1,4 +1,5 @@
-// False alarms per 1000 machine hours: thresholds, counts, and how often their intervals hold.
+// Checks false alarms per 1000 machine hours: thresholds, counts and the coverage of their
+// intervals.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -14,7 +15,8 @@ namespace {
 
 using Engine = std::mt19937_64;
 
-// Hourly records of gearboxes that learn their baseline from `baseline` records (0: know it).
+// Hourly records of gearboxes whose baseline comes from the first `baseline` records (0: known
+// baseline).
 std::vector<HealthyLife> draw_lives(int gearboxes, std::size_t baseline, int records,
                                     Engine& engine) {
     std::normal_distribution<double> normal;
@@ -30,7 +32,7 @@ std::vector<HealthyLife> draw_lives(int gearboxes, std::size_t baseline, int rec
     return lives;
 }
 
-TEST_CASE("A detector that says nothing of such short lives has no threshold") {
+TEST_CASE("A detector that gives no statistic for such short lives has no threshold") {
     Engine engine(3);
     const auto lives = draw_lives(40, 0, 4, engine);
     const auto set = [&](const char* text) {
@@ -59,14 +61,14 @@ TEST_CASE("Lives of one record have the thresholds of single recordings") {
     }
 }
 
-TEST_CASE("A threshold is the smallest that keeps the stated false alarms") {
+TEST_CASE("A threshold is the smallest that keeps the stated false-alarm rate") {
     Engine engine(2);
     const auto lives = draw_lives(30, 20, 100, engine);  // 3000 h
     for (const char* text : {"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 30"}) {
         INFO(text);
         const Detector detector = *parse_detector(text);
         const auto threshold = monitor_threshold(detector, lives, 4.0);
-        // 3000 records, 3001 * 0.004 = 12.004: the twelfth largest, eleven beyond it.
+        // 3000 records, 3001 * 0.004 = 12.004: the twelfth largest, with eleven beyond it.
         CHECK(threshold.alarms <= 11);
         CHECK(false_alarms(detector, lives, threshold.value, 0.95).alarms == threshold.alarms);
         const double less = std::nextafter(threshold.value, -1e9);
@@ -79,7 +81,7 @@ TEST_CASE("A threshold is the smallest that keeps the stated false alarms") {
 }
 
 TEST_CASE("Intervals of independent counts are Garwood's") {
-    // E. L. Crow, R. S. Gardner / F. Garwood: 95 % limits of a Poisson mean.
+    // Source: 95 % limits of a Poisson mean (E. L. Crow, R. S. Gardner / F. Garwood).
     struct Row {
         int count;
         double lower, upper;
@@ -101,8 +103,8 @@ struct Coverage {
     double rate = 0.0, expected = 0.0;
 };
 
-// Shares of campaigns in which the intervals hold: that of the threshold's own rate, told by many
-// more lives, and the one in which what was stated should lie.
+// Shares of campaigns in which two intervals hold: that of the threshold's own rate, known from
+// many more lives, and the one that should contain the stated rate.
 Coverage coverage(const char* text, std::size_t baseline, int campaigns) {
     constexpr double kStated = 5.0;
     const Detector detector = *parse_detector(text);
@@ -130,7 +132,7 @@ TEST_CASE("Intervals of false alarms hold in nearly all of 100 campaigns") {
 }
 
 TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-coverage]") {
-    // 1000 campaigns: three standard deviations of a coverage of 0.95 are 0.021.
+    // Three standard deviations of a coverage of 0.95 in 1000 campaigns are 0.021.
     for (const char* text : {"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 30"}) {
         for (const std::size_t baseline : {0U, 20U}) {
             const Coverage held = coverage(text, baseline, 1000);

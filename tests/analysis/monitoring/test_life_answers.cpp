@@ -1,4 +1,4 @@
-// What a monitor is worth, on lives whose detections are known.
+// Checks the summary of a monitor's performance on lives whose detections are known.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// Values 0 and, of the healthy lives, one of `peak` each: thresholds fall on it.
+// Values are 0 except one `peak` in each healthy life, so that thresholds equal it.
 std::vector<HealthyLife> healthy_lives(int lives, int records, double peak) {
     std::vector<HealthyLife> all;
     for (int i = 0; i < lives; ++i) {
@@ -23,7 +23,8 @@ std::vector<HealthyLife> healthy_lives(int lives, int records, double peak) {
     return all;
 }
 
-// Grows by one a record from record 2 on, ends at record 10; alarms from the size `seen` on.
+// Size grows by one per record from record 2 on; the life ends at record 10. Records alarm from the
+// size `seen` on.
 CrackedLife cracked_life(double seen) {
     CrackedLife life;
     for (int i = 0; i < 10; ++i) {
@@ -37,7 +38,7 @@ CrackedLife cracked_life(double seen) {
     return life;
 }
 
-TEST_CASE("Detection, depth and warning are those of the first alarm on the crack") {
+TEST_CASE("Detection, depth and warning time are those of the first alarm after crack initiation") {
     const auto setting = healthy_lives(10, 100, 1.0), further = healthy_lives(5, 100, 2.0);
     std::vector<CrackedLife> cracked{cracked_life(1), cracked_life(3), cracked_life(5),
                                      cracked_life(99)};
@@ -59,8 +60,8 @@ TEST_CASE("Detection, depth and warning are those of the first alarm on the crac
     CHECK(got.warning_90 == 4.0);
 }
 
-TEST_CASE("What false alarms alone find is what they find of blind records") {
-    // Independent normal records: one of n alarms with 1 - (1 - p)^n.
+TEST_CASE("The share of detections by chance equals the detections on uninformative records") {
+    // The records are independent and normal: at least one of n alarms with 1 - (1 - p)^n.
     std::mt19937_64 engine(12);
     std::normal_distribution<double> normal;
     const auto draw = [&](int lives, std::size_t records) {
@@ -73,19 +74,19 @@ TEST_CASE("What false alarms alone find is what they find of blind records") {
     };
     const auto setting = draw(400, 100), further = draw(1600, 100);
     std::vector<CrackedLife> blind;
-    for (const HealthyLife& life : draw(1600, 50)) {  // a crack that changes nothing
+    for (const HealthyLife& life : draw(1600, 50)) {  // a crack without effect
         blind.push_back({life.values, std::vector<double>(50), std::vector<double>(50), 20, 50.0});
     }
     const auto got = answer(*parse_detector("single"), setting, further, blind, 20.0, 0.95);
     const double expected = 1.0 - std::pow(1.0 - 0.02, 30.0);
-    // A share of 1600 lives scatters by 0.012.
+    // The share among 1600 lives has a standard deviation of 0.012.
     CHECK(got.share_by_chance == Approx(expected).margin(0.06));
     CHECK(got.share == Approx(got.share_by_chance).margin(0.06));
 }
 
-TEST_CASE("A quantile's bound holds as often as it says") {
-    // The 90 % quantile: of 28 values the largest lies above it with 1 - 0.9^28 = 94.8 %, of 29
-    // with 95.3 % (W. J. Conover's 29 of 95/90).
+TEST_CASE("A quantile's bound has its nominal coverage") {
+    // The largest of 28 values lies above the 90 % quantile with 1 - 0.9^28 = 94.8 %, the largest
+    // of 29 with 95.3 % (W. J. Conover's 29 of 95/90).
     std::vector<double> values(28, 1.0);
     CHECK(std::isnan(quantile_bound(values, 0.9, 0.95)));
     values.push_back(2.0);
@@ -101,7 +102,7 @@ TEST_CASE("A quantile's bound holds as often as it says") {
         }
         above += quantile_bound(sample, 0.9, 0.95) >= 0.9 ? 1 : 0;
     }
-    // The rank is whole, so that it holds somewhat more often.
+    // The rank is an integer, so the bound is slightly conservative.
     const double share = static_cast<double>(above) / kSamples;
     CHECK(share >= 0.94);
     CHECK(share < 0.99);

@@ -1,4 +1,4 @@
-// What a gearbox's own first records say of later ones.
+// Checks deviations of later records from a baseline of the gearbox's first records.
 #include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -35,7 +35,7 @@ double share_beyond(std::size_t baseline, bool with_condition, double freedom) {
     return static_cast<double>(beyond) / kGearboxes;
 }
 
-TEST_CASE("Deviations from one's own baseline are Student's t, whatever the gearbox") {
+TEST_CASE("Deviations from a gearbox's baseline records follow Student's t") {
     // Three standard errors of a share of 5 % are 0.33 %.
     CHECK(share_beyond(5, false, 4.0) == Approx(0.05).margin(0.0033));
     CHECK(share_beyond(20, false, 19.0) == Approx(0.05).margin(0.0033));
@@ -59,8 +59,9 @@ TEST_CASE("Without scatter, values or records there is no baseline") {
     CHECK(own_deviations(gaps, {}, 0, Alarm::low)[3] == -3.0);
 }
 
-// The mean of equal numbers is not always that number: 1.1 five times over is not 1.1.
-TEST_CASE("A baseline at one torque knows that one alone, however many records it has") {
+// The mean of equal numbers need not equal that number in floating point: the mean of five 1.1 is
+// not 1.1.
+TEST_CASE("A baseline at one torque is valid at that torque alone, however many records it has") {
     for (std::size_t baseline = 4; baseline <= 25; ++baseline) {
         std::vector<double> values, torque(baseline + 2, 1.1);
         for (std::size_t i = 0; i < baseline; ++i) {
@@ -75,7 +76,7 @@ TEST_CASE("A baseline at one torque knows that one alone, however many records i
     }
 }
 
-TEST_CASE("Fused features have unit variance, and see what moves all of them sooner") {
+TEST_CASE("Fused features have unit variance and detect a common shift sooner") {
     constexpr std::size_t kBaseline = 2000, kRecords = 40'000;
     const double shared = 0.6;  // correlation 0.36
     std::mt19937_64 engine(7);
@@ -101,7 +102,7 @@ TEST_CASE("Fused features have unit variance, and see what moves all of them soo
     CHECK(square - mean * mean == Approx(1.0).epsilon(0.05));
     CHECK(later - mean == Approx(2.0 / std::sqrt(2.0 + 2.0 * shared * shared)).epsilon(0.05));
     CHECK(std::isnan(fused[kBaseline - 1]));
-    // One feature alone is itself, and one that never varies is left out.
+    // A single feature is returned unchanged; a feature that never varies is left out.
     const auto alone = own_deviations(values[0], {}, kBaseline, Alarm::high);
     const auto beside =
         fused_deviations({values[0], std::vector<double>(kRecords, 3.0)}, {}, kBaseline, alarms);

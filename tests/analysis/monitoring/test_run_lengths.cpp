@@ -1,5 +1,5 @@
-// How many values detectors take to their alarm, on independent normal numbers: against published
-// run lengths, integral equations and Markov chains.
+// Checks run lengths of detectors on independent normal numbers against published values, integral
+// equations and Markov chains.
 #include <Eigen/Dense>
 #include <boost/math/quadrature/gauss.hpp>
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ double Phi(double x) {
     return 0.5 * std::erfc(-x / std::sqrt(2.0));
 }
 
-// Mean of many runs; in control its standard error is 1 / sqrt(runs) of it.
+// Mean of many runs. Its standard error in control is 1 / sqrt(runs) of the mean.
 double simulated_length(const std::string& text, double threshold, double shift,
                         int runs = 20'000) {
     const auto detector = parse_detector(text);
@@ -56,7 +56,7 @@ Rule gauss_on(double low, double high) {
     return rule;
 }
 
-// L(x) = 1 + atom(x) L(0) + integral of kernel(x, y) L(y) dy, at x = `start`; 0 is the first
+// Solves L(x) = 1 + atom(x) L(0) + integral of kernel(x, y) L(y) dy at x = `start`; 0 is the first
 // unknown.
 template <class Kernel, class Atom>
 double integral_equation(const Rule& rule, Kernel kernel, Atom atom) {
@@ -73,14 +73,14 @@ double integral_equation(const Rule& rule, Kernel kernel, Atom atom) {
     return a.partialPivLu().solve(Eigen::VectorXd::Ones(n))(0);
 }
 
-// E. S. Page (1954): one-sided, from 0.
+// One-sided run length from 0 (E. S. Page 1954).
 double cusum_length(double k, double h, double shift) {
     return integral_equation(
         gauss_on(0.0, h), [&](double x, double y) { return phi(y - x + k - shift); },
         [&](double x) { return Phi(k - x - shift); });
 }
 
-// S. V. Crowder, Technometrics 29 (1987), 401-407: two-sided.
+// Two-sided run length (S. V. Crowder, Technometrics 29 (1987), 401-407).
 double ewma_length(double lambda, double limit, double shift) {
     const double h = limit * std::sqrt(lambda / (2.0 - lambda));
     return integral_equation(
@@ -89,18 +89,18 @@ double ewma_length(double lambda, double limit, double shift) {
         [](double /*x*/) { return 0.0; });
 }
 
-// Of both sides together: K. W. Kemp, J. R. Stat. Soc. B 23 (1961), 149-153.
+// Run length of both sides together (K. W. Kemp, J. R. Stat. Soc. B 23 (1961), 149-153).
 double two_sided(double up, double down) {
     return 1.0 / (1.0 / up + 1.0 / down);
 }
 
-TEST_CASE("CUSUM and EWMA take as many values to an alarm as published", "[runlength]") {
+TEST_CASE("CUSUM and EWMA have their published run lengths", "[runlength]") {
     struct Row {
         const char* detector;
         double threshold, shift, published;
     };
-    // CUSUM: D. C. Montgomery, Introduction to Statistical Quality Control, table of two-sided run
-    // lengths at k = 1/2; EWMA: Lucas and Saccucci (1990), table 3.
+    // Sources: for CUSUM D. C. Montgomery, Introduction to Statistical Quality Control, table of
+    // two-sided run lengths at k = 1/2; for EWMA Lucas and Saccucci (1990), table 3.
     for (const Row& row :
          {Row{"cusum 0.5 two-sided", 5.0, 0.0, 465.0}, Row{"cusum 0.5 two-sided", 5.0, 1.0, 10.4},
           Row{"cusum 0.5 two-sided", 4.0, 0.0, 168.0}, Row{"cusum 0.5 two-sided", 4.0, 1.0, 8.38},
@@ -112,7 +112,7 @@ TEST_CASE("CUSUM and EWMA take as many values to an alarm as published", "[runle
     }
 }
 
-TEST_CASE("Run lengths are those of the integral equations", "[runlength]") {
+TEST_CASE("Run lengths satisfy their integral equations", "[runlength]") {
     for (const double shift : {0.0, 0.5, 1.0, 2.0}) {
         INFO(shift);
         const double cusum =
@@ -123,7 +123,7 @@ TEST_CASE("Run lengths are those of the integral equations", "[runlength]") {
         CHECK(simulated_length("ewma 0.1 two-sided", 2.3, shift) ==
               Approx(ewma_length(0.1, 2.3, shift)).epsilon(0.02));
     }
-    // The equations themselves give the published digits.
+    // The equations give the published digits.
     CHECK(two_sided(cusum_length(0.5, 5.0, 0.0), cusum_length(0.5, 5.0, 0.0)) ==
           Approx(465.0).margin(0.5));
     CHECK(two_sided(cusum_length(0.5, 4.0, 1.0), cusum_length(0.5, 4.0, -1.0)) ==
@@ -132,7 +132,8 @@ TEST_CASE("Run lengths are those of the integral equations", "[runlength]") {
     CHECK(ewma_length(0.1, 2.814, 1.0) == Approx(10.3).margin(0.05));
 }
 
-// States: which of the last n - 1 values lay beyond, the latest in bit 0; absorbed at m of n.
+// States are the bit patterns of which of the last n - 1 values lay beyond, the latest in bit 0;
+// absorption is at m of n.
 double m_of_n_length(int m, int n, double p) {
     const int states = 1 << (n - 1);
     Eigen::MatrixXd a = Eigen::MatrixXd::Identity(states, states);
@@ -146,7 +147,8 @@ double m_of_n_length(int m, int n, double p) {
     return a.partialPivLu().solve(Eigen::VectorXd::Ones(states))(0);
 }
 
-TEST_CASE("m of n and single values alarm as often as their Markov chains", "[runlength]") {
+TEST_CASE("Rules of m of n and of single values have the run lengths of their Markov chains",
+          "[runlength]") {
     const double threshold = 1.5, p = Phi(-threshold);
     CHECK(m_of_n_length(2, 2, p) == Approx((1.0 + p) / (p * p)));  // runs of two
     CHECK(simulated_length("single", 2.0, 0.0) == Approx(1.0 / Phi(-2.0)).epsilon(0.02));
@@ -159,12 +161,12 @@ TEST_CASE("m of n and single values alarm as often as their Markov chains", "[ru
 }
 
 // P(no statistic beyond h) does not factor, but two values give a closed integral: the statistics
-// are x and (x' + 2 x) / sqrt 5. L(x') = 1 + integral over the x that stay quiet.
-TEST_CASE("The trend's run lengths are those of its integral equation", "[runlength]") {
+// are x and (x' + 2 x) / sqrt 5. L(x') = 1 + integral over the x without an alarm.
+TEST_CASE("The trend's run lengths satisfy their integral equation", "[runlength]") {
     const double h = 2.0;
     CHECK(simulated_length("trend 1", h, 0.0) == Approx(1.0 / Phi(-h)).epsilon(0.02));
-    // From -8 on, where values no more occur; the kink of the quiet region is resolved by many
-    // panels.
+    // The lower limit is -8, below which values have negligible probability; many panels resolve
+    // the kink of the region without an alarm.
     Rule rule;
     for (double low = -8.0; low < h - 1e-9; low += 0.25) {
         using Gauss = boost::math::quadrature::gauss<double, 10>;
@@ -187,7 +189,7 @@ TEST_CASE("The trend's run lengths are those of its integral equation", "[runlen
             a(i, j) -= quiet ? rule.weights[y] * phi(rule.nodes[y]) : 0.0;
         }
     }
-    // The first value stays quiet or not by itself.
+    // The first value can alarm by itself.
     const double length = 1.0 + first.dot(a.partialPivLu().solve(Eigen::VectorXd::Ones(n)));
     CHECK(simulated_length("trend 2", h, 0.0) == Approx(length).epsilon(0.02));
 }
@@ -203,7 +205,7 @@ TEST_CASE("The trend's statistic is the likelihood ratio of the best ramp") {
         double best = 0.0;
         for (std::size_t begin = values.size() - std::min(values.size(), window);
              begin < values.size(); ++begin) {
-            // Least squares of b j, j = 1, 2, ...; what it takes off the sum of squares is 2 ln
+            // Least squares of b j, j = 1, 2, ...; its reduction of the sum of squares is 2 ln
             // ratio.
             double xy = 0.0, xx = 0.0, without = 0.0, with = 0.0;
             for (std::size_t i = begin; i < values.size(); ++i) {
@@ -222,7 +224,7 @@ TEST_CASE("The trend's statistic is the likelihood ratio of the best ramp") {
     }
 }
 
-TEST_CASE("Detectors are written as they are read, and nonsense is none") {
+TEST_CASE("Detectors are formatted as they are parsed, and malformed ones are refused") {
     for (const char* text : {"single", "2 of 3", "ewma 0.1", "cusum 0.5", "trend 100",
                              "cusum 0.25 two-sided", "single two-sided"}) {
         const auto detector = parse_detector(text);
@@ -237,7 +239,7 @@ TEST_CASE("Detectors are written as they are read, and nonsense is none") {
     }
 }
 
-TEST_CASE("A missing value leaves a detector as it was, and an alarm starts it anew") {
+TEST_CASE("A missing value leaves a detector unchanged, and an alarm resets it") {
     const double nan = std::nan("");
     const Detector cusum = *parse_detector("cusum 0");
     const auto seen = watch(cusum, std::vector<double>{2, nan, 2, nan, 3, 2, 2}, 3.5);

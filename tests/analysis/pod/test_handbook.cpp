@@ -1,5 +1,5 @@
-// The examples of MIL-HDBK-1823A to the digits it prints. Their data are not part of the sources:
-// the environment variable GEARPOD_HANDBOOK_DATA names the folder that has them (README.md).
+// Checks the examples of MIL-HDBK-1823A to their printed digits. The data are not part of the
+// sources: the environment variable GEARPOD_HANDBOOK_DATA names their folder (README.md).
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -14,7 +14,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// Columns by number of a file; empty after a message where the folder is not there.
+// Columns of a file by number. Prints a message and returns nothing if the folder does not exist.
 Inspections handbook(const std::string& name, std::size_t size, std::vector<std::size_t> values) {
     const char* folder = std::getenv("GEARPOD_HANDBOOK_DATA");
     std::ifstream file(std::filesystem::path(folder == nullptr ? "" : folder) / name);
@@ -76,7 +76,7 @@ TEST_CASE("Example 2, repeated measurements, against statsmodels' mixed model", 
     request.insist = true;
     const SignalResponsePod pod = inspect(data, request).signal_response;
     REQUIRE(pod.refusal == "");
-    // mixedlm("y ~ log(size)", groups = target).fit(reml=False), uncensored
+    // Reference: mixedlm("y ~ log(size)", groups = target).fit(reml=False), uncensored.
     const ResponseModel& model = pod.candidates[pod.chosen].model;
     CHECK(model.intercept == Approx(-1153.4044).epsilon(1e-5));
     CHECK(model.slope == Approx(610.66542).epsilon(1e-5));
@@ -100,9 +100,9 @@ TEST_CASE("Example 3, hit/miss by the logit of size and of log size", "[handbook
     CHECK(inspect(data, request).hit_miss.a90.upper.size == Approx(0.2106).margin(0.00005));
 }
 
-// The table as it is published elsewhere gives a63 to the digit, a90 0.1317 instead of 0.1315 and
-// a90/95 0.1555 instead of 0.1553, by this program and by statsmodels alike. Both printed sizes are
-// those of eta = 0.83 instead of ln ln 10 = 0.834: of a POD of 0.8991.
+// The table published elsewhere gives a63 to the digit, but a90 0.1317 instead of 0.1315 and a90/95
+// 0.1555 instead of 0.1553, both here and in statsmodels. Both printed sizes follow from eta = 0.83
+// instead of ln ln 10 = 0.834, a POD of 0.8991.
 TEST_CASE("Example 4, hit/miss by the complementary log-log", "[handbook]") {
     const Inspections data = handbook("example-4-hit-miss-cloglog.csv", 1, {2});
     if (data.size.empty()) {

@@ -36,7 +36,7 @@ SizeBounds bounds_of(const HitMissTable& table, const PodForm& form, double pod)
 }
 
 TEST_CASE("The hit/miss fit of a published data set has its published numbers") {
-    // Air Force Research Laboratory, POD 4.5, HitMissResults_Good_1.csv.
+    // Source: Air Force Research Laboratory, POD 4.5, HitMissResults_Good_1.csv.
     const HitMissFit fit = fit_hit_miss(targets(), {Link::logit, false, 0.0, false});
     CHECK(fit.refusal == "");
     CHECK(fit.curve.intercept == Approx(-11.83265105).epsilon(1e-8));
@@ -51,7 +51,7 @@ TEST_CASE("All four two-parameter fits and their likelihood-ratio bounds agree w
         bool log_size;
         double intercept, slope, log_likelihood, a50[3], a90[3];
     };
-    // reference/reference_R.txt
+    // Reference: reference/reference_R.txt.
     const Row rows[] = {{Link::logit,
                          false,
                          -11.83265106,
@@ -99,7 +99,7 @@ TEST_CASE("All four two-parameter fits and their likelihood-ratio bounds agree w
 }
 
 TEST_CASE("Fits with a floor and a ceiling, and their bounds, agree with a general optimiser") {
-    // reference/reference_R.txt: optim() on the same counts, floor 0.05.
+    // Reference: reference/reference_R.txt, optim() on the same counts with floor 0.05.
     const HitMissTable table = levels();
     const PodForm floored{Link::logit, false, 0.05, false};
     const HitMissFit plain = fit_hit_miss(table, floored);
@@ -147,10 +147,11 @@ TEST_CASE("Every bound of the band lies where the profile deviance is z squared"
     }
 }
 
-TEST_CASE("The band of a rate that hardly rises is that of a search over all curves") {
-    // Alarms of features that hear nothing of the fault, at a false-alarm rate of 0.05. In the
-    // first curves that fall steeply fit the smallest size best, far from those that bound the
-    // others; in the second the best curve is the floor itself, where the likelihood is flat.
+TEST_CASE("The band of a nearly constant rate matches a search over all curves") {
+    // Alarms of features that do not respond to the fault, at a false-alarm rate of 0.05. The best
+    // curves of the first case fall steeply and fit the smallest size best, far from the curves
+    // that bound the others. The best curve of the second case is the floor itself, where the
+    // likelihood is flat.
     const struct {
         double floor;
         int hits[6];
@@ -169,7 +170,7 @@ TEST_CASE("The band of a rate that hardly rises is that of a search over all cur
         sizes.push_back(0.0005 + 0.00378 * i / 20);
     }
     const auto band = pod_band(likelihood, maximum, sizes, one_sided_bound(0.95));
-    // Curves by their logits at the smallest and the largest size.
+    // Parametrizes curves by their logits at the smallest and the largest size.
     const auto pod_at = [&](double first, double last, double size) {
         const double eta = first + (last - first) * (size - 0.0005) / 0.00378;
         return form.floor + (1.0 - form.floor) / (1.0 + std::exp(-eta));
@@ -195,8 +196,8 @@ TEST_CASE("The band of a rate that hardly rises is that of a search over all cur
     CHECK(band[1].upper < 0.1);
 }
 
-TEST_CASE("The band keeps to the floor where the best curve is at it to the last digit") {
-    // Alarms of 500 gearboxes each: only the largest fault is heard at all.
+TEST_CASE("The band includes the floor where the best curve equals it to the last digit") {
+    // Alarms of 500 gearboxes each: only the largest fault is detectable.
     const double tested[] = {0.0005, 0.001, 0.0015, 0.002, 0.003, 0.00428};
     const double hits[] = {25, 18, 37, 25, 25, 122};
     HitMissTable table;
@@ -216,12 +217,12 @@ TEST_CASE("The band keeps to the floor where the best curve is at it to the last
         INFO(point.size);
         CHECK(point.lower >= form.floor);
         CHECK(point.upper >= point.pod);
-        // No rate that any size had, but the largest fault's.
+        // The bound is above every observed rate except that of the largest fault.
         CHECK(point.upper < (point.size < 0.003 ? 37.0 / 500.0 : 0.3));
     }
 }
 
-TEST_CASE("The curve of least AIC keeps the floor and the ceiling that made the data") {
+TEST_CASE("The curve of least AIC keeps the floor and the ceiling that generated the data") {
     const HitMissPod pod = hit_miss_pod(levels(), {0.05, 0.95, 9});
     CHECK(pod.refusal == "");
     CHECK(pod.chosen.curve.form.free_ceiling);
@@ -233,26 +234,27 @@ TEST_CASE("The curve of least AIC keeps the floor and the ceiling that made the 
     }
 }
 
-TEST_CASE("Outcomes that fix no curve are refused with the reason") {
+TEST_CASE("Outcomes that determine no curve are refused with the reason") {
     const auto refusal = [](const HitMissTable& table) {
         const HitMissPod pod = hit_miss_pod(table, {});
         CHECK(pod.a90.estimate.where != Where::reached);
         CHECK(pod.band.empty());
         return pod.refusal;
     };
-    CHECK_THAT(refusal({}), Catch::Contains("no faulty gearbox gave a value"));
-    CHECK_THAT(refusal({{1.0, 0.0, 9.0}, {2.0, 0.0, 9.0}}), Catch::Contains("was detected: not"));
+    CHECK_THAT(refusal({}), Catch::Contains("no faulty gearbox has a value"));
+    CHECK_THAT(refusal({{1.0, 0.0, 9.0}, {2.0, 0.0, 9.0}}),
+               Catch::Contains("was detected: a90 is not"));
     CHECK_THAT(refusal({{1.0, 9.0, 9.0}, {2.0, 9.0, 9.0}}), Catch::Contains("every faulty"));
-    CHECK_THAT(refusal({{1.0, 4.0, 9.0}}), Catch::Contains("one fault size only"));
+    CHECK_THAT(refusal({{1.0, 4.0, 9.0}}), Catch::Contains("only one fault size"));
     CHECK_THAT(refusal({{1.0, 0.0, 9.0}, {2.0, 9.0, 9.0}}), Catch::Contains("do not overlap"));
-    // One mixed size between misses and hits does not fix the slope either.
+    // One mixed size between misses and hits does not determine the slope either.
     CHECK_THAT(refusal({{1.0, 0.0, 9.0}, {2.0, 4.0, 9.0}, {3.0, 9.0, 9.0}}),
                Catch::Contains("do not overlap"));
     CHECK_THAT(refusal({{1.0, 7.0, 9.0}, {2.0, 3.0, 9.0}, {3.0, 2.0, 9.0}}),
                Catch::Contains("does not rise"));
 }
 
-TEST_CASE("Sizes beyond the tested ones are not read off the curve") {
+TEST_CASE("a90 is not extrapolated beyond the tested sizes") {
     const HitMissTable weak{{1.0, 2.0, 50.0}, {2.0, 6.0, 50.0}, {3.0, 9.0, 50.0}};
     const HitMissPod far = hit_miss_pod(weak, {});
     CHECK(far.a90.estimate.where == Where::not_reached);
@@ -293,11 +295,11 @@ TEST_CASE("Sizes are not binned: a size split into near-equal ones gives the sam
 }
 
 TEST_CASE("Hosmer-Lemeshow keeps its level for a true curve and rejects a wrong one") {
-    // 200 sizes of one gearbox each: ten groups.
+    // Two hundred sizes of one gearbox each make ten groups.
     HitMissTable right, wrong;
     for (int i = 1; i <= 200; ++i) {
         const double size = 0.02 * i;
-        // Low-discrepancy outcomes, so that counts follow their rates closely.
+        // Outcomes from a low-discrepancy sequence, so that counts follow their rates closely.
         const double draw = std::fmod(0.5 + i * 0.6180339887498949, 1.0);
         right.push_back({size, draw < 1.0 / (1.0 + std::exp(4.0 - 2.0 * size)) ? 1.0 : 0.0, 1.0});
         wrong.push_back({size, size > 1.0 && size < 2.0 ? 1.0 : (draw < 0.3 ? 1.0 : 0.0), 1.0});

@@ -1,4 +1,4 @@
-// POD of inspections against statsmodels and scipy: reference/inspection_py.txt.
+// Checks the POD of inspections against statsmodels and scipy (reference/inspection_py.txt).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -78,7 +78,7 @@ TEST_CASE("Curves of all four links on both scales agree with statsmodels") {
     }
 }
 
-TEST_CASE("The conventions of a bound are chi-squared 2.71, 3.84 and 5.99") {
+TEST_CASE("The confidence-bound conventions are chi-squared 2.71, 3.84 and 5.99") {
     const std::pair<BoundConvention, double> rows[] = {{BoundConvention::one_sided, 3.0141444},
                                                        {BoundConvention::two_sided, 3.1112525},
                                                        {BoundConvention::handbook, 3.1112525},
@@ -129,7 +129,7 @@ TEST_CASE("Firth's penalty gives a curve where hits and misses do not overlap") 
     CHECK(pod.a90.upper.size == Approx(19.473016).epsilon(1e-5));
 }
 
-TEST_CASE("Random deviations of specimens agree with statsmodels' mixed model") {
+TEST_CASE("Random specimen effects agree with statsmodels' mixed model") {
     const InspectionResult result = inspect(responses(true), of_responses());
     const SignalResponsePod& pod = result.signal_response;
     REQUIRE(pod.refusal == "");
@@ -157,16 +157,16 @@ TEST_CASE("Censored responses, and likelihood-ratio bounds of their POD, agree w
     CHECK(model.sigma == Approx(0.32789997).epsilon(1e-6));
     CHECK(pod.a90.estimate.size == Approx(4.8409999).epsilon(1e-6));
     CHECK(pod.a90.upper.size == Approx(5.4181964).epsilon(1e-5));
-    // The band's bound of POD at that size is the POD itself.
+    // The band's bound at that size equals the POD itself.
     request.method = BoundMethod::wald;
     const SignalResponsePod wald = inspect(responses(false), request).signal_response;
     CHECK(wald.curve.eta_at(std::log(wald.a90.upper.size), wald.rule.limit()) ==
           Approx(link_quantile(Link::probit, 0.9)));
 }
 
-TEST_CASE("Censored and repeated responses are those of a dense integral") {
-    // Two values of one specimen, one of them at or below a limit: the integral over the deviation
-    // by a fine sum.
+TEST_CASE("The likelihood of censored and repeated responses matches a dense integral") {
+    // Two values of one specimen, one at or below a limit: the integral over the specimen effect by
+    // a fine sum.
     std::vector<Response> data;
     std::mt19937 engine(5);
     std::normal_distribution<double> normal;
@@ -204,7 +204,7 @@ TEST_CASE("Censored and repeated responses are those of a dense integral") {
     CHECK(maximum.log_likelihood == Approx(here).epsilon(1e-5));
 }
 
-TEST_CASE("Box and Cox's power and the laws of noise agree with scipy") {
+TEST_CASE("Box and Cox's power and the noise laws agree with scipy") {
     const Inspections data = responses(false);
     const auto power = box_cox_power({data.size, data.value, {}}, true, {}, false);
     CHECK(*power == Approx(-0.18186023).epsilon(1e-4));
@@ -225,13 +225,13 @@ TEST_CASE("Box and Cox's power and the laws of noise agree with scipy") {
     }
 }
 
-TEST_CASE("So many more specimens as are said bring the bound to the target") {
+TEST_CASE("The reported number of further specimens brings the bound to the target") {
     InspectionRequest request = of_hits(Link::logit, false);
     request.target = 2.8;
     Inspections data = hits(false);
     const double factor = inspect(data, request).hit_miss.specimens_factor;
     CHECK(factor > 2.0);
-    // As many times the same table, rounded either way.
+    // Repeats the same table so many times, rounded either way.
     const auto upper_of = [&](int times) {
         Inspections many;
         for (int t = 0; t < times; ++t) {
@@ -250,7 +250,8 @@ TEST_CASE("So many more specimens as are said bring the bound to the target") {
     CHECK(inspect(data, request).all_found == 29);
 }
 
-TEST_CASE("A lower threshold trades false calls for smaller sizes, and a rate sets it") {
+TEST_CASE(
+    "A lower threshold trades false calls for smaller sizes, and a rate determines the threshold") {
     Inspections data = responses(true);
     std::mt19937 engine(3);
     std::lognormal_distribution<double> noise(0.2, 0.3);
@@ -279,7 +280,7 @@ TEST_CASE("A lower threshold trades false calls for smaller sizes, and a rate se
     }
 }
 
-TEST_CASE("Flaws of no size give the floor of hit/miss curves") {
+TEST_CASE("Inspections without a flaw determine the floor of hit/miss curves") {
     Inspections data = hits(false);
     for (int i = 0; i < 50; ++i) {
         data.size.push_back(0.0);

@@ -25,7 +25,7 @@ TEST_CASE("Lines and checks agree with statsmodels on the standard's a-hat examp
         bool log_size, log_response;
         double intercept, slope, sigma, linearity[2], variance[2], normality[2];
     };
-    // reference/reference_py.txt
+    // Reference: reference/reference_py.txt.
     const Row rows[] = {{false,
                          false,
                          88.7428555,
@@ -85,7 +85,7 @@ TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the
     REQUIRE(pod.candidates.size() == 4);
     const SignalResponseFit& fit = pod.candidates[pod.chosen];
     CHECK((fit.scale.log_size && fit.scale.power == 0.0));
-    // reference/reference_py.txt
+    // Reference: reference/reference_py.txt.
     CHECK(pod.a50.lower.size == Approx(1.201482904).epsilon(1e-6));
     CHECK(pod.a50.estimate.size == Approx(1.316336108).epsilon(1e-6));
     CHECK(pod.a50.upper.size == Approx(1.420518259).epsilon(1e-6));
@@ -94,7 +94,7 @@ TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the
     CHECK(pod.a90.upper.size == Approx(1.952244324).epsilon(1e-6));
 }
 
-TEST_CASE("A low alarm on the reciprocal is the same detector") {
+TEST_CASE("A low alarm on the reciprocal gives the same detector") {
     const auto columns = reference_columns("line_60.csv");
     std::vector<double> reciprocal;
     for (const double value : columns[1]) {
@@ -140,11 +140,11 @@ TEST_CASE("Responses without scatter, sizes or values are refused") {
     const auto refusal = [](const std::vector<double>& a, const std::vector<double>& y, double t) {
         return signal_response_pod(a, y, {t, Alarm::high, 0.95}).refusal;
     };
-    CHECK_THAT(refusal(size, constant, 2.0), Catch::Contains("the values do not scatter"));
+    CHECK_THAT(refusal(size, constant, 2.0), Catch::Contains("the values have no scatter"));
     CHECK_THAT(refusal(size, none, 2.0), Catch::Contains("0 faulty gearboxes with a value"));
     CHECK(refusal(size, constant, nan) == "no threshold");
     const std::vector<double> one_size(40, 1.0);
-    CHECK_THAT(refusal(one_size, constant, 2.0), Catch::Contains("linearity needs three"));
+    CHECK_THAT(refusal(one_size, constant, 2.0), Catch::Contains("linearity check needs three"));
 }
 
 }  // namespace

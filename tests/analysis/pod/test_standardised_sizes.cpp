@@ -1,4 +1,4 @@
-// Few nodes in place of many sizes: moments, and log likelihoods of curves of any slope.
+// Checks few nodes in place of many sizes: moments, and log likelihoods of curves of any slope.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -12,7 +12,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// As many sizes as gearboxes, found as a curve with this slope at its middle says.
+// Table with one size per gearbox, with outcomes from a curve of this slope at its midpoint.
 HitMissTable drawn(int count, double slope, double floor, double ceiling, std::mt19937_64& engine) {
     std::uniform_real_distribution<double> uniform;
     std::vector<double> sizes;
@@ -26,7 +26,7 @@ HitMissTable drawn(int count, double slope, double floor, double ceiling, std::m
     return hit_miss_table(sizes, hits);
 }
 
-TEST_CASE("nodes of any width have the sizes' count, mean and variance, and are fewer") {
+TEST_CASE("nodes of any width keep the sizes' count, mean and variance, and are fewer") {
     std::mt19937_64 engine(1);
     const HitMissTable table = drawn(9000, 2.0, 0.05, 1.0, engine);
     for (const bool log_size : {false, true}) {
@@ -46,7 +46,7 @@ TEST_CASE("nodes of any width have the sizes' count, mean and variance, and are 
     }
 }
 
-TEST_CASE("sizes tested at few levels stay as they are") {
+TEST_CASE("sizes tested at few levels stay unchanged") {
     HitMissTable table;
     for (int level = 1; level <= 12; ++level) {
         table.push_back({0.3 * level, 40.0 + level, 100.0});
@@ -56,7 +56,7 @@ TEST_CASE("sizes tested at few levels stay as they are") {
     CHECK(sizes.nodes(100.0).u.size() == 24);
 }
 
-// The sum over every gearbox, in long double.
+// The sum over all gearboxes in long double.
 double log_likelihood(const HitMissTable& table, const PodCurve& curve) {
     long double sum = 0.0L;
     const long double rise = curve.ceiling - curve.form.floor;
@@ -78,7 +78,7 @@ double log_likelihood(const HitMissTable& table, const PodCurve& curve) {
     return static_cast<double>(sum);
 }
 
-TEST_CASE("log likelihoods over nodes are those over all gearboxes, for flat and steep curves") {
+TEST_CASE("log likelihoods over nodes equal those over all gearboxes, for flat and steep curves") {
     std::mt19937_64 engine(2);
     for (const double slope : {0.2, 1.0, 4.0, 15.0, 60.0, 300.0}) {
         for (const double floor : {0.0, 0.002, 0.05}) {

@@ -47,7 +47,7 @@ TEST_CASE("The combined detector agrees with scikit-learn on the same halves") {
         }
     }
     const CombinedDetector result = study.combine();
-    // reference/robustness_py.txt
+    // Reference: reference/robustness_py.txt.
     CHECK(result.refusal == "");
     CHECK(result.trained_healthy == 183);
     CHECK(result.trained_faulty == 126);
@@ -67,7 +67,7 @@ TEST_CASE("The combined detector agrees with scikit-learn on the same halves") {
     }
 }
 
-// Two features with a common disturbance d: a / 2 + d and d; their difference finds the fault.
+// Two features with a common disturbance d: a / 2 + d and d. Their difference detects the fault.
 Study disturbed(int count, double gain, unsigned seed) {
     Study study(2, {0.0, 1.0, 2.0, 3.0});
     std::mt19937_64 engine(seed);
@@ -86,10 +86,10 @@ Study disturbed(int count, double gain, unsigned seed) {
     return study;
 }
 
-TEST_CASE("Features that share a disturbance find together what neither finds alone") {
+TEST_CASE("Features with a common disturbance detect together a fault that neither detects alone") {
     const CombinedDetector result = disturbed(4000, 0.7, 2).combine();
     REQUIRE(result.refusal == "");
-    // Differences of 0.7, 1.4, 2.1 in a scatter of sqrt(0.5): mean of Phi(difference).
+    // Mean of Phi(difference) for differences of 0.7, 1.4, 2.1 with a scatter of sqrt(0.5).
     const auto area = [](double d) { return 0.5 * std::erfc(-d / std::sqrt(2.0)); };
     CHECK(result.combined.auc.auc ==
           Approx((area(0.7) + area(1.4) + area(2.1)) / 3.0).margin(0.02));
@@ -98,7 +98,7 @@ TEST_CASE("Features that share a disturbance find together what neither finds al
     CHECK(result.weights[1].weight < 0.0);
     CHECK(result.combined.pod.refusal == "");
     CHECK(result.combined.pod.a90.estimate.where == SizeEstimate::Where::reached);
-    // Healthy held-out gearboxes alarm at the rate asked for.
+    // Healthy held-out gearboxes alarm at the requested rate.
     CHECK(result.combined.detection.cells[0].pd == Approx(0.05).margin(0.03));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("A combination of features without a fault in them gains nothing") {
     CHECK(significant <= 9);  // of 60 at 5 %: 3 expected, more than 9 in 1 of 1000
 }
 
-TEST_CASE("Halves are of equal size, and levels in turn fall into both") {
+TEST_CASE("Halves have equal sizes, and interleaved levels fall into both") {
     long all = 0, of_level[4] = {};
     for (std::size_t i = 0; i < 4000; ++i) {
         all += trains(i);
@@ -124,7 +124,7 @@ TEST_CASE("Halves are of equal size, and levels in turn fall into both") {
     }
 }
 
-TEST_CASE("Constant and missing features and single classes are stated") {
+TEST_CASE("Constant or missing features and single classes are reported") {
     Study study = disturbed(600, 0.7, 4);
     study.healthy.push_back(std::vector<double>(600, 3.0));
     study.graded.push_back(std::vector<double>(600, 3.0));
@@ -137,7 +137,7 @@ TEST_CASE("Constant and missing features and single classes are stated") {
     CHECK(result.left_out[0] == "f3: constant");
     CHECK_THAT(result.left_out[1], Catch::Contains("f4: no value for"));
 
-    // A gearbox without one value has no combined value: it counts as failed.
+    // A gearbox with a missing feature has no combined value: it counts as failed.
     study = disturbed(600, 0.7, 4);
     for (std::size_t i = 0; i < 600; i += 20) {
         study.graded[0][i] = kNan;
@@ -159,7 +159,7 @@ TEST_CASE("Constant and missing features and single classes are stated") {
 
     study = disturbed(600, 0.7, 4);
     study.graded_size.assign(600, 0.0);
-    CHECK_THAT(study.combine().refusal, Catch::Contains("0 faulty ones to train on"));
+    CHECK_THAT(study.combine().refusal, Catch::Contains("0 faulty training gearboxes"));
 
     CHECK_THAT(Study(2, {1.0}).combine().refusal, Catch::Contains("0 healthy and 0 faulty"));
 }

@@ -15,7 +15,7 @@ namespace {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE("Holm's adjustment agrees with R's p.adjust") {
-    // R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")
+    // Reference: R, p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm").
     const std::vector<double> adjusted = holm_adjusted({0.01, 0.04, 0.03, 0.005});
     CHECK(adjusted[0] == Approx(0.03));
     CHECK(adjusted[1] == Approx(0.06));
@@ -54,7 +54,8 @@ TEST_CASE("Features are ranked by area, with pROC's paired tests between them") 
     CHECK(ranking.ranks[0].name == "c");
     CHECK(ranking.ranks[1].name == "a");
     CHECK(ranking.ranks[2].name == "b");
-    // reference/reference_R.txt: 0.3702 (b, c), 0.4110 (a, c), 0.9039 (a, b); Holm: times 3, 2, 1.
+    // Reference: reference/reference_R.txt, 0.3702 (b, c), 0.4110 (a, c), 0.9039 (a, b); Holm:
+    // times 3, 2, 1.
     CHECK(ranking.ranks[0].p_values[2] == Approx(1.0));
     CHECK(ranking.ranks[1].p_values[2] == Approx(1.0));
     const std::vector<RankedFeature> two{columns.features()[0], columns.features()[1]};
@@ -62,7 +63,7 @@ TEST_CASE("Features are ranked by area, with pROC's paired tests between them") 
     CHECK(pair.ranks[0].p_values[1] == Approx(0.9038533449).epsilon(1e-8));
 }
 
-TEST_CASE("A clearly better feature is told apart, a low-alarm twin is not") {
+TEST_CASE("A clearly better feature is significantly different, a low-alarm copy is not") {
     std::mt19937_64 engine(8);
     std::normal_distribution<double> draw;
     Columns columns;
@@ -73,7 +74,7 @@ TEST_CASE("A clearly better feature is told apart, a low-alarm twin is not") {
         auto& twin = i % 2 == 0 ? columns.healthy[1] : columns.faulty[1];
         auto& poor = i % 2 == 0 ? columns.healthy[2] : columns.faulty[2];
         good.push_back(common + fault);
-        twin.push_back(-std::exp(common + fault));  // same order, other side
+        twin.push_back(-std::exp(common + fault));  // same order, other alarm side
         poor.push_back(common + 0.2 * fault);
     }
     auto features = columns.features();
@@ -84,7 +85,7 @@ TEST_CASE("A clearly better feature is told apart, a low-alarm twin is not") {
     CHECK(ranking.ranks[0].p_values[2] < 1e-6);
 }
 
-TEST_CASE("Features and samples that cannot be ranked are named, not guessed") {
+TEST_CASE("Features and samples that cannot be ranked are named with the reason") {
     Columns columns = reference();
     columns.faulty[1].assign(columns.faulty[1].size(), kNan);
     const FeatureRanking without = rank_features(columns.features(), 0.95);
@@ -92,7 +93,7 @@ TEST_CASE("Features and samples that cannot be ranked are named, not guessed") {
     REQUIRE(without.left_out.size() == 1);
     CHECK(without.left_out[0] == "b: no value for 20 of 40 gearboxes");
     columns = reference();
-    columns.faulty[0][3] = kNan;  // one failed gearbox leaves for all
+    columns.faulty[0][3] = kNan;  // one failed gearbox is left out for all features
     CHECK(rank_features(columns.features(), 0.95).faulty == 19);
     const std::vector<double> none;
     CHECK_THAT(rank_features({{"a", Alarm::high, none, none}}, 0.95).refusal,

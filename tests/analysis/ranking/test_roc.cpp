@@ -1,4 +1,4 @@
-// The ROC against a small one drawn by hand and against the area that auc() has by ranks.
+// Checks the ROC against a small hand-drawn one and against the area from ranks (auc()).
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ double area_below(const std::vector<RocPoint>& points) {
     return area;
 }
 
-// Whole numbers, so that values are equal often.
+// Integer values, so that ties are frequent.
 std::vector<double> sample(std::size_t count, double mean, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal(mean, 8.0);
@@ -33,8 +33,9 @@ std::vector<double> sample(std::size_t count, double mean, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("A ROC has a corner for each threshold, equal values join") {
-    // Thresholds 4, 3, 2, 1 find 1, 2, 2, 3 of three; call 0, 1, 2, 2 of two faulty.
+TEST_CASE("A ROC has one corner per threshold; equal values share a corner") {
+    // Thresholds 4, 3, 2, 1 detect 1, 2, 2, 3 of three faulty and give 0, 1, 2, 2 false alarms of
+    // two healthy.
     const std::vector<double> healthy{2, 3}, faulty{4, 3, 1};
     const auto points = roc_curve(healthy, faulty, true);
     REQUIRE(points.size() == 5);
@@ -78,7 +79,7 @@ TEST_CASE("A thinned ROC keeps corners of the whole one, its ends and nearly its
     }
 }
 
-TEST_CASE("Values that are not finite are left out; without a kind there is no ROC") {
+TEST_CASE("Values that are not finite are left out; with one class only there is no ROC") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(roc_curve(std::vector<double>{nan}, std::vector<double>{1.0}, true).empty());
     CHECK(roc_curve(std::vector<double>{1.0}, std::vector<double>{}, true).empty());

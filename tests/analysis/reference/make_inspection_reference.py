@@ -1,7 +1,9 @@
-"""Reference numbers for the POD of inspections, from statsmodels and scipy:
-  cd tests/analysis/reference && /usr/bin/python3 make_inspection_reference.py > inspection_py.txt
-The tables are drawn once: hit/miss of 120 flaws, each inspected twice (inspections_hits.csv); and 40
-flaws measured three times (inspections_responses.csv).
+"""Reference numbers for the POD of inspections, from statsmodels and scipy.
+
+    cd tests/analysis/reference && /usr/bin/python3 make_inspection_reference.py > inspection_py.txt
+
+The tables were generated once: hit/miss of 120 flaws, each inspected twice (inspections_hits.csv);
+and 40 flaws measured three times (inspections_responses.csv).
 """
 import os
 
@@ -62,14 +64,14 @@ for name, chi in (("one-sided", stats.norm.ppf(0.95)**2), ("two-sided", stats.ch
                   ("joint", stats.chi2.ppf(0.95, 2))):
     say(f"logit linear a90 {name} upper", a90,
         optimize.brentq(lambda at: profile(at) - chi, a90, a90 + 3.0, xtol=1e-12))
-# Robust covariance of clusters, statsmodels' without its correction for the parameters.
+# Robust covariance of clusters, without statsmodels' correction for the number of parameters.
 clustered = sm.GLM(hit, design, family=sm.families.Binomial()).fit(
     tol=1e-12, cov_type="cluster", cov_kwds={"groups": hits["specimen"], "use_correction": False})
 grown = clustered.cov_params() * 120.0 / 119.0
 say("logit linear cluster covariance", grown[0, 0], grown[0, 1], grown[1, 1])
 by = np.array([-1 / fit.params[1], -a90 / fit.params[1]])
 say("logit linear cluster wald a90 upper", a90 + stats.norm.ppf(0.95) * np.sqrt(by @ grown @ by))
-# Firth's penalty on outcomes that separate: 10 misses below 10 hits.
+# Firth's penalty on separated outcomes: 10 misses below 10 hits.
 x = np.arange(1.0, 21.0)
 y = (x > 10.5).astype(float)
 design = sm.add_constant(x)
@@ -94,7 +96,7 @@ def held(at):
 
 say("firth a90 upper", a90, optimize.brentq(lambda at: held(at) - stats.chi2.ppf(0.95, 1), a90, a90 + 9.0,
                                             xtol=1e-11))
-# Random deviations of specimens: statsmodels' mixed model by maximum likelihood.
+# Random specimen effects: statsmodels' mixed model by maximum likelihood.
 wide = pd.read_csv("inspections_responses.csv")
 long = wide.melt(id_vars=["specimen", "size [mm]"], value_name="value")
 long["x"], long["y"] = np.log(long["size [mm]"]), np.log(long["value"])
@@ -141,7 +143,7 @@ def box_cox(power):
 
 say("box-cox power", optimize.minimize_scalar(box_cox, bounds=(-2, 2), method="bounded",
                                               options={"xatol": 1e-10}).x)
-# Noise.
+# Noise laws.
 noise = np.array([1.1, 0.4, 2.3, 0.9, 1.7, 0.6, 3.1, 1.3, 0.8, 2.0, 1.5, 0.5])
 shape, _, scale = stats.weibull_min.fit(noise, floc=0)
 say("weibull scale shape loglikelihood", scale, shape, stats.weibull_min.logpdf(noise, shape, 0, scale).sum())

@@ -1,9 +1,11 @@
-"""Probabilities of the noncentral F law by adaptive integration in scipy (python3-scipy), whatever the
-noncentrality:
-  cd tests/analysis/reference && python3 make_noncentral_f_reference.py > noncentral_f.csv
-The numerator is (root(noncentrality) + z)^2 + c with z normal and c chi-squared with one degree less;
-the probability that it is small enough for a denominator y is taken over y through its normal-like
-root, with scipy's own functions (Cephes and cdflib).
+"""Probabilities of the noncentral F law by adaptive integration in scipy (python3-scipy), for any
+noncentrality.
+
+    cd tests/analysis/reference && python3 make_noncentral_f_reference.py > noncentral_f.csv
+
+The numerator is (root(noncentrality) + z)^2 + c with z normal and c chi-squared with one degree of
+freedom less. Its probability for a denominator y is integrated over y through its normal-like root,
+with scipy's own functions (Cephes and cdflib).
 """
 import numpy as np
 from scipy import integrate, special

@@ -23,8 +23,8 @@ if (!file.exists("features_40.csv")) {
             "features_40.csv", row.names = FALSE, quote = FALSE)
 }
 
-# Upper and lower one-sided 95 % likelihood-ratio bounds of the size with POD p: the curve is held to
-# the point (x, p), so that only its slope is free.
+# Upper and lower one-sided 95 % likelihood-ratio bounds of the size with POD p: the curve passes
+# through the point (x, p), so that only its slope is free.
 crit <- qnorm(0.95)^2
 bounds <- function(x, y, n, link, p) {
   fit <- glm(cbind(y, n - y) ~ x, family = binomial(link))
@@ -77,7 +77,7 @@ a90 <- (qlogis((0.9 - 0.05) / (free$par[3] - 0.05)) - free$par[1]) / free$par[2]
 beyond <- function(a) 2 * (held(a) - free$value) - crit
 say("levels ceiling a90", uniroot(beyond, c(a90 - 0.6, a90), tol = 1e-8)$root, a90,
     uniroot(beyond, c(a90, a90 + 0.8), tol = 1e-8)$root)
-# Band of the plain floor curve at size 2: eta held, slope free.
+# Band of the curve with a fixed floor at size 2: eta fixed, slope free.
 beyond <- function(eta) 2 * (optimize(function(b) minus(c(eta - 2 * b, b, 1), 0.05), plain$par[2] + c(-2, 2), tol = 1e-10)$objective - plain$value) - crit
 eta2 <- plain$par[1] + 2 * plain$par[2]
 say("levels floor POD at 2", curve(c(uniroot(beyond, c(eta2 - 1, eta2), tol = 1e-9)$root, 0, 1), 0, 0.05),

@@ -1,8 +1,10 @@
-"""Reference numbers for tests/analysis from numpy, scipy and statsmodels:
-  cd tests/analysis/reference && python3 make_reference.py > reference_py.txt
-ahat_92.csv: Example 1 of MIL-HDBK-1823A (a-hat against a), as the US Air Force Research Laboratory's
-  POD 4.5 carries it (github.com/AFRL-Material-State-Awareness/POD4.5, ahat_vs_a_1823_Example1_LogY.csv);
-  sizes in 1e-3 inch.
+"""Reference numbers for tests/analysis from numpy, scipy and statsmodels.
+
+    cd tests/analysis/reference && python3 make_reference.py > reference_py.txt
+
+ahat_92.csv: Example 1 of MIL-HDBK-1823A (a-hat against a), from the US Air Force Research
+Laboratory's POD 4.5 (github.com/AFRL-Material-State-Awareness/POD4.5,
+ahat_vs_a_1823_Example1_LogY.csv); sizes in 1e-3 inch.
 """
 import numpy as np
 import statsmodels.api as sm
@@ -54,8 +56,8 @@ for log_size in (False, True):
         say(f"{name} anderson-darling", a2, p)
         say(f"{name} aic with jacobian", -2 * fit.llf + 6 + (2 * np.log(ahat).sum() if log_response else 0))
 
-# The standard's own example is curved on all scales by these tests; bounds are compared on line_60.csv,
-# drawn once: log response on log size.
+# The standard's own example is curved on all scales according to these tests. Bounds are therefore
+# compared on line_60.csv, generated once: log response on log size.
 import os
 if not os.path.exists("line_60.csv"):
     rng = np.random.default_rng(4)

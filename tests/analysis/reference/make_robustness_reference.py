@@ -1,8 +1,10 @@
 """Reference numbers for detection against inputs and for the combined detector, from statsmodels,
-scikit-learn and scipy (python3-statsmodels, python3-sklearn):
-  cd tests/analysis/reference && python3 make_robustness_reference.py > robustness_py.txt
-inputs_300.csv (size, input, hit) and combined_600.csv (group 0: threshold sample, 1: graded; size; three
-features) were drawn once by this script.
+scikit-learn and scipy (python3-statsmodels, python3-sklearn).
+
+    cd tests/analysis/reference && python3 make_robustness_reference.py > robustness_py.txt
+
+inputs_300.csv (size, input, hit) and combined_600.csv (group 0: threshold sample, 1: graded; size;
+three features) were generated once by this script.
 """
 import os
 
@@ -33,7 +35,8 @@ if not os.path.exists("combined_600.csv"):
     np.savetxt("combined_600.csv", np.column_stack([group, a, features]), delimiter=",", fmt="%.6g",
                header="group,size,f1,f2,f3", comments="")
 
-# Likelihood ratio of a quadratic in the input beside the size, and a90 with Fieller's bounds.
+# Likelihood ratio of a quadratic in the input in addition to the size, and a90 with Fieller's
+# bounds.
 size, z, hit = np.loadtxt("inputs_300.csv", delimiter=",", skiprows=1, unpack=True)
 full = sm.GLM(hit, np.column_stack([np.ones(300), size, z, z * z]), family=sm.families.Binomial()).fit(tol=1e-13)
 less = sm.GLM(hit, np.column_stack([np.ones(300), size]), family=sm.families.Binomial()).fit(tol=1e-13)

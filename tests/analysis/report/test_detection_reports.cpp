@@ -65,7 +65,7 @@ TEST_CASE("The detection table is aligned and at most 120 columns wide") {
         CHECK(line.size() <= 120);
         all.push_back(line);
     }
-    // Rows of one block are equally long: cells are aligned to their column's right edge.
+    // Rows of one block have equal lengths: cells are aligned to their column's right edge.
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].starts_with("size mm ")) {
             for (std::size_t row = 1; row <= 6; ++row) {
@@ -81,7 +81,7 @@ TEST_CASE("The detection table is aligned and at most 120 columns wide") {
     CHECK(text.back() == '\n');
 }
 
-TEST_CASE("The table closes with the reliable sizes or says that they were not reached") {
+TEST_CASE("The table ends with the reliable sizes or states that they were not reached") {
     const std::string text = detection_text(examples(), request());
     const std::string closing = text.substr(text.find("Smallest tested size"));
     INFO(closing);
@@ -90,7 +90,7 @@ TEST_CASE("The table closes with the reliable sizes or says that they were not r
     CHECK_THAT(closing, Catch::Contains("x 4"));
 }
 
-TEST_CASE("Sizes that are pure numbers are shown as they are, without a unit") {
+TEST_CASE("Sizes that are pure numbers are shown without a unit") {
     DetectionRequest shares = request();
     shares.size.unit = "1";
     const std::string text = detection_text(examples(), shares);
@@ -101,7 +101,7 @@ TEST_CASE("Sizes that are pure numbers are shown as they are, without a unit") {
     CHECK(json["features"][0]["levels"][0]["sizes"][3]["size_high"] == 4.3e-3);
 }
 
-TEST_CASE("A table without a threshold or without features says so") {
+TEST_CASE("A table without a threshold or without features states this") {
     auto features = examples();
     features.resize(1);
     features[0].levels[0].threshold = std::numeric_limits<double>::quiet_NaN();
@@ -112,7 +112,7 @@ TEST_CASE("A table without a threshold or without features says so") {
     CHECK_THAT(detection_text({}, request()), Catch::Contains("no features"));
 }
 
-TEST_CASE("The JSON holds every number of the detection and null where there is none") {
+TEST_CASE("The JSON holds every number of the detection, and null where there is none") {
     auto features = examples();
     features[2].levels[1].threshold = std::numeric_limits<double>::quiet_NaN();
     features[2].levels[1].cells[3].pd = std::numeric_limits<double>::quiet_NaN();

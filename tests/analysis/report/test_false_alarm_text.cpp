@@ -1,4 +1,4 @@
-// What is said of healthy samples that are too small for their false-alarm rate.
+// Checks the text about healthy samples that are too small for their false-alarm rate.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -29,8 +29,8 @@ std::string shortage(const DetectionRequest& request, const std::vector<long>& s
     return sample_shortage(features, request, Subject::gearboxes);
 }
 
-TEST_CASE("The smallest sample with a threshold has an expected rate of the one asked for") {
-    // The largest of n has 1 / (n + 1) beyond it.
+TEST_CASE("The smallest sample with a threshold has the requested expected rate") {
+    // The expected rate beyond the largest of n is 1 / (n + 1).
     CHECK(sample_for_threshold(0.05) == 19);
     CHECK(sample_for_threshold(0.001) == 999);
     CHECK(sample_for_threshold(1e-6) == 999'999);
@@ -38,10 +38,10 @@ TEST_CASE("The smallest sample with a threshold has an expected rate of the one 
     CHECK(threshold_rank(998, 0.001) > 998);
 }
 
-TEST_CASE("A sample without a threshold says how many it takes") {
+TEST_CASE("A sample without a threshold reports the required number") {
     const std::string none = sample_shortage(200, 0.001, 0.95, Subject::gearboxes);
-    CHECK_THAT(none,
-               Catch::Contains("Too few healthy gearboxes") && Catch::Contains("It takes 999"));
+    CHECK_THAT(none, Catch::Contains("Too few healthy gearboxes") &&
+                         Catch::Contains("At least 999 are needed"));
     const long enough = sample_for_rate(0.001, 0.95);
     CHECK_THAT(none, Catch::Contains("and " + std::to_string(enough)));
     CHECK_THAT(sample_shortage(999, 0.001, 0.95, Subject::recordings),
@@ -51,18 +51,19 @@ TEST_CASE("A sample without a threshold says how many it takes") {
     CHECK(sample_shortage(enough, 0.001, 0.95, Subject::gearboxes).empty());
 }
 
-TEST_CASE("Records of each gearbox count, and nothing is said of what lies beyond them") {
+TEST_CASE("Several records of each gearbox count, and the text does not mention tail fits") {
     const auto of = [](long gearboxes, long records) {
         return sample_shortage(gearboxes, 1e-4, 0.95, Subject::gearboxes, records);
     };
     CHECK(of(2000, 400).empty());
     CHECK_THAT(of(2000, 4),
                Catch::StartsWith("Few records (4 of each of 2000 healthy gearboxes)") &&
-                   Catch::Contains("rarer than one") && Catch::Contains("It takes 5 of each"));
-    CHECK_THAT(of(2000, 6), Catch::Contains("fix a false-alarm rate of 0.0001 to between"));
+                   Catch::Contains("rarer than one") && Catch::Contains("At least 5 of each"));
+    CHECK_THAT(of(2000, 6), Catch::Contains("a false-alarm rate of 0.0001 only to between"));
 }
 
-TEST_CASE("A report counts the thresholds whose rate records of each gearbox leave open") {
+TEST_CASE(
+    "A report counts the thresholds whose rate is undetermined by the records of each gearbox") {
     DetectionRequest request;
     request.false_alarm_rate = 1e-4;
     request.noise_levels = {0.0, 1.0};
@@ -77,7 +78,7 @@ TEST_CASE("A report counts the thresholds whose rate records of each gearbox lea
                    Catch::Contains("1 of the 2 thresholds") && Catch::Contains("0.0018"));
 }
 
-TEST_CASE("A report counts the thresholds from tilted records and the gearboxes of the others") {
+TEST_CASE("A report counts the exponentially tilted thresholds and the gearboxes of the others") {
     DetectionRequest request;
     request.false_alarm_rate = 1e-4;
     request.noise_levels = {0.0, 1.0};
@@ -86,26 +87,29 @@ TEST_CASE("A report counts the thresholds from tilted records and the gearboxes 
     std::vector<FeatureDetection> features{with_samples(request, {640, 640})};
     features[0].feature = "window_ratio";
     CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
-               Catch::StartsWith("Too few gearboxes have the alarms") &&
+               Catch::StartsWith("Too few gearboxes have alarms") &&
                    Catch::Contains("640 give no threshold"));
     features[0].levels[1].threshold_sample = 640 * 32;
     features[0].levels[1].tilted = {640, 100.0, 15.6};
     CHECK_THAT(
         sample_shortage(features, request, Subject::gearboxes),
-        Catch::StartsWith("1 of the 2 thresholds is from 32 tilted records of each of 640") &&
-            Catch::Contains("16-fold rarer") && Catch::Contains("Of 1 other too"));
+        Catch::StartsWith(
+            "1 of the 2 thresholds is from importance sampling with 32 records of each of 640") &&
+            Catch::Contains("16 times rarer") && Catch::Contains("For 1 other, too"));
     CHECK_THAT(sample_shortage(640, 1e-4, 0.95, Subject::gearboxes, 32, true),
-               Catch::StartsWith("Tilted records carry") && Catch::Contains("640 give no"));
+               Catch::StartsWith("Importance sampling supports") && Catch::Contains("640 give no"));
 }
 
-TEST_CASE("Tilted records of fewer gearboxes than can carry a rate are not said to carry it") {
+TEST_CASE("A rate is not claimed from exponentially tilted records of too few gearboxes") {
     CHECK_THAT(sample_shortage(19, 0.01, 0.95, Subject::gearboxes, 32, true),
-               Catch::StartsWith("Tilted records set thresholds from 20 gearboxes on. Too few"));
+               Catch::StartsWith(
+                   "Importance sampling needs at least 20 gearboxes to set thresholds. Too few"));
     CHECK_THAT(sample_shortage(20, 0.01, 0.95, Subject::gearboxes, 32, true),
-               Catch::StartsWith("Tilted records carry"));
+               Catch::StartsWith("Importance sampling supports"));
 }
 
-TEST_CASE("A report does not take plain records for tilted ones without a threshold") {
+TEST_CASE(
+    "A report does not take plain records without a threshold for exponentially tilted ones") {
     DetectionRequest request;
     request.false_alarm_rate = 1e-3;
     request.noise_levels = {1.0, 5.0};
@@ -120,15 +124,14 @@ TEST_CASE("A report does not take plain records for tilted ones without a thresh
     for (LevelDetection& level : features[1].levels) {
         level.tilted = {200, 70.0, 5.0};
     }
-    // All of the accelerometer's thresholds are there, those of te_rms leave their rate open.
+    // All accelerometer thresholds exist; the rates of the te_rms thresholds are undetermined.
     CHECK(sample_shortage(features, request, Subject::gearboxes) ==
-          "2 of the 4 thresholds are from 32 tilted records of each of 200 healthy gearboxes, for "
-          "a false-alarm rate 5-fold rarer than one in these. 2 are from plain records: the rate "
-          "may be up to 0.018.");
+          "2 of the 4 thresholds are from importance sampling with 32 records of each of 200 "
+          "healthy gearboxes, for a false-alarm rate 5 times rarer than one in these. 2 are from "
+          "records without importance sampling: the rate may be up to 0.018.");
     features[0] = with_samples(request, {480, 480});
     CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
-               Catch::EndsWith("2 of features that the accelerometer's noise does not reach have "
-                               "too few records."));
+               Catch::EndsWith("2 for features without accelerometer noise have too few records."));
 }
 
 TEST_CASE("A report names the noise levels without a threshold") {

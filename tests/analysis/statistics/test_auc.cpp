@@ -29,7 +29,7 @@ AucShares shares_of(const Sample& sample) {
 }
 
 TEST_CASE("Areas, their variances and paired differences agree with pROC, ties included") {
-    // reference/reference_R.txt, method "delong".
+    // Reference: reference/reference_R.txt, method "delong".
     const double area[] = {0.62625, 0.6125, 0.715};
     const double variance[] = {0.008141282895, 0.008259868421, 0.007759210526};
     const AucShares a = shares_of(feature(1)), b = shares_of(feature(2)), c = shares_of(feature(3));
@@ -47,7 +47,7 @@ TEST_CASE("Areas, their variances and paired differences agree with pROC, ties i
     CHECK(z(b, c) == Approx(-0.8960643217).epsilon(1e-8));
 }
 
-TEST_CASE("Midranks give the same shares as comparing every pair") {
+TEST_CASE("Midranks give the same shares as a comparison of all pairs") {
     std::mt19937_64 engine(3);
     std::uniform_int_distribution<int> draw(0, 12);  // many ties
     Sample sample;
@@ -95,7 +95,7 @@ TEST_CASE("The area of two normal laws is Phi(d / sqrt 2), and its interval cove
     CHECK(covered / static_cast<double>(kStudies) == Approx(0.95).margin(0.015));
 }
 
-TEST_CASE("Areas of separated, constant, empty and broken samples are stated as what they are") {
+TEST_CASE("Areas of separated, constant, empty and invalid samples are reported as such") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<double> low(10, 1.0), high{2.0, 3.0, 4.0, 5.0, nan};
     const Auc complete = auc(low, high, true, 0.95);

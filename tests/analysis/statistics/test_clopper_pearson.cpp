@@ -14,8 +14,8 @@ TEST_CASE("Clopper-Pearson intervals agree with the published examples") {
         long detected, tested;
         double lower, upper;
     };
-    // Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, exact method, 95 %; and R's
-    // binom.test to all its digits (reference/reference_R.txt).
+    // Sources: Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, exact method, 95 %;
+    // R's binom.test to all its digits (reference/reference_R.txt).
     for (const Row& row : {Row{81, 263, 0.2527, 0.3676}, Row{15, 148, 0.0578, 0.1617},
                            Row{0, 20, 0.0, 0.1684}, Row{1, 29, 0.0009, 0.1776}}) {
         const Interval interval = clopper_pearson_interval(row.detected, row.tested, 0.95);
@@ -28,7 +28,7 @@ TEST_CASE("Clopper-Pearson intervals agree with the published examples") {
 }
 
 TEST_CASE("29 detections of 29 show a rate of 90 % at 95 %, 28 of 28 do not") {
-    // The 29-of-29 rule of demonstration tests; its confidence is one-sided.
+    // The 29-of-29 rule of demonstration tests has a one-sided confidence.
     CHECK(clopper_pearson_interval(29, 29, 0.9).lower > 0.9);
     CHECK(clopper_pearson_interval(28, 28, 0.9).lower < 0.9);
 }

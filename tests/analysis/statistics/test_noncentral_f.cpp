@@ -1,5 +1,5 @@
-// The noncentral F law against integrals over its two chi-squared variables, the correlation
-// ratio's bounds where an input explains all but everything.
+// Checks the noncentral F law against integrals over its two chi-squared variables, and the bounds
+// of the correlation ratio where an input explains almost everything.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -25,7 +25,7 @@ TEST_CASE("the noncentral F law agrees with its integral up to a noncentrality o
     }
 }
 
-TEST_CASE("the noncentral F law has no step where the way to compute it changes") {
+TEST_CASE("the noncentral F law has no step where the computation method changes") {
     for (const double numerator : {1.0, 4.0, 42.0}) {
         for (const double denominator : {15.0, 900.0, 9957.0, 2e5}) {
             const double change = std::max(1e5, 100.0 * denominator);
@@ -39,7 +39,7 @@ TEST_CASE("the noncentral F law has no step where the way to compute it changes"
     }
 }
 
-TEST_CASE("bounds of a share stand at any sample, for inputs that explain nothing to all") {
+TEST_CASE("bounds of a share exist for any sample, for inputs that explain nothing to everything") {
     std::mt19937_64 engine(5);
     std::normal_distribution<double> normal;
     for (const int count : {20, 21, 150, 2000, 10000, 20000}) {
@@ -55,7 +55,7 @@ TEST_CASE("bounds of a share stand at any sample, for inputs that explain nothin
                             scatter * noise[static_cast<std::size_t>(i)]);
             }
             const CorrelationRatio found = correlation_ratio(x, y, 0.95);
-            // Of x's variance 5/4 and the scatter's.
+            // Variance of x (5/4) over the total variance.
             const double share = 1.25 / (1.25 + scatter * scatter);
             CAPTURE(count, scatter, found.share, found.bounds.lower, found.bounds.upper);
             CHECK(found.share == Approx(share).margin(5.0 / std::sqrt(count)));

@@ -13,8 +13,8 @@ TEST_CASE("Wilson intervals agree with the published examples") {
         long detected, tested;
         double lower, upper;
     };
-    // Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, score method without continuity
-    // correction, 95 %.
+    // Source: Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, score method without
+    // continuity correction, 95 %.
     for (const Row& row : {Row{81, 263, 0.2553, 0.3662}, Row{15, 148, 0.0624, 0.1605},
                            Row{0, 20, 0.0, 0.1611}, Row{1, 29, 0.0061, 0.1718}}) {
         const Interval interval = wilson_interval(row.detected, row.tested, 0.95);
@@ -23,7 +23,7 @@ TEST_CASE("Wilson intervals agree with the published examples") {
     }
 }
 
-TEST_CASE("Wilson bounds are the rates at which the observation is just z standard errors away") {
+TEST_CASE("The observation is z standard errors away from Wilson's bounds") {
     const double z = 2.5758293035489004;  // 99 %
     for (const int detected : {3, 50, 97}) {
         const Interval interval = wilson_interval(detected, 100, 0.99);
@@ -33,7 +33,7 @@ TEST_CASE("Wilson bounds are the rates at which the observation is just z standa
     }
 }
 
-TEST_CASE("Wilson intervals mirror, end exactly at 0 and 1, and need a sample") {
+TEST_CASE("Wilson intervals are symmetric, end exactly at 0 and 1, and require a sample") {
     const Interval low = wilson_interval(7, 40, 0.9);
     const Interval high = wilson_interval(33, 40, 0.9);
     CHECK(low.lower == Approx(1.0 - high.upper));

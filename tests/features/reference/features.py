@@ -3,7 +3,7 @@
 
     features.py SIGNAL.csv HEALTHY.csv ... > expected.json
 
-Columns mesh_phase, sensor (m/s^2) and te (rad); P samples a mesh period.
+Columns mesh_phase, sensor (m/s^2) and te (rad); P samples per mesh period.
 """
 import csv
 import json
@@ -17,7 +17,7 @@ TAPER, TE_HARMONICS = 0.1, 8
 
 
 def tukey(points, taper):
-    """As printed in Liang (2016), section 5.3.1."""
+    """Window as printed in Liang (2016), section 5.3.1."""
     n = np.arange(points)
     last = points - 1
     w = np.ones(points)
@@ -63,7 +63,7 @@ def separate(turn, teeth):
 
 
 def tooth_signals(y, teeth, turns, offset):
-    """Cut, window and assemble, tooth by tooth."""
+    """Cuts, windows and assembles the signal tooth by tooth."""
     y = y[: teeth * turns * P]
     w = tukey(P, TAPER)
     at = np.arange(P) + offset
@@ -78,7 +78,7 @@ def rms(x):
 
 
 def best_teeth(y, teeth, turns):
-    """The tooth signals at the offset whose largest RMS is largest; the first of equals."""
+    """Tooth signals at the offset of maximum RMS; the first of equal offsets."""
     largest = [max(rms(s) for s in tooth_signals(y, teeth, turns, o)) for o in range(P)]
     offset = next(o for o in range(P) if largest[o] >= max(largest) * (1 - 1e-13))
     return tooth_signals(y, teeth, turns, offset)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Takes the columns that features look at out of what gearpod simulate writes.
+"""Extracts the columns that features use from the output of gearpod simulate.
 
-    signals.py SIMULATED.csv with-te|without-te > SIGNAL.csv
+signals.py SIMULATED.csv with-te|without-te > SIGNAL.csv
 """
 import csv
 import sys

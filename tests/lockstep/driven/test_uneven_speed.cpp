@@ -1,5 +1,5 @@
-// A train whose speed fluctuates: closed forms, the same train at another steady speed, and the
-// slow limit.
+// Checks a train with fluctuating speed against closed forms, the same train at another steady
+// speed, and the slow limit.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <complex>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-// Between a motor and a load, all springs steady.
+// A train between a motor and a load with constant springs.
 struct TwoShafts {
     MarchPlan plan;
     dynamics::FixedShaftInputs in;
@@ -61,7 +61,7 @@ TileState still(int degrees, int channels) {
     return state;
 }
 
-// A speed that is (1 + value) times its mean throughout, or rises by `slope` a second.
+// A speed that is (1 + value) times its mean throughout, or rises by `slope` per second.
 Fluctuation ramp(double value, double slope) {
     Fluctuation f{{}, {}, {}, {}, {100.0}, {10.0}, {}};
     for (int knot = 0; knot < 200; ++knot) {
@@ -72,7 +72,7 @@ Fluctuation ramp(double value, double slope) {
 
 }  // namespace
 
-TEST_CASE("a speed that varies as a sine shakes a train as its inertias say",
+TEST_CASE("a sinusoidal speed excites a train according to its inertias",
           "[uneven-speed][lockstep]") {
     constexpr int kSteps = 400, kMeshes = 60;
     constexpr double kAmplitude = 1e-6, kOrder = 2.0, kSpeed = 3.0;
@@ -102,7 +102,7 @@ TEST_CASE("a speed that varies as a sine shakes a train as its inertias say",
     const Eigen::MatrixXcd dynamic = m.stiffness.cast<std::complex<double>>() -
                                      w * w * m.mass.cast<std::complex<double>>() +
                                      i * w * m.damping.cast<std::complex<double>>();
-    // Of sin(w t + phase): the acceleration is w A u' cos(w t + phase).
+    // The speed varies as sin(w t + phase): the acceleration is w A u' cos(w t + phase).
     const Eigen::VectorXcd q = dynamic.fullPivLu().solve(force) * (i * w * kAmplitude * kSpeed);
     const std::complex<double> te = q(dynamics::u_1) - q(dynamics::u_2);
     const double p = box.plan.low_pass_rad_s;
@@ -122,7 +122,8 @@ TEST_CASE("a speed that varies as a sine shakes a train as its inertias say",
     CHECK(sensor_error < 1e-5 * std::abs(sensor));
 }
 
-TEST_CASE("a speed that stays above its mean is another steady speed", "[uneven-speed][lockstep]") {
+TEST_CASE("a speed that stays above its mean equals another steady speed",
+          "[uneven-speed][lockstep]") {
     const auto& train = test::LiangTrain::instance();
     const auto [motion, inertial] =
         GENERATE(std::pair(dynamics::Motion::torsional, false),
@@ -157,8 +158,7 @@ TEST_CASE("a speed that stays above its mean is another steady speed", "[uneven-
     }
 }
 
-TEST_CASE("a body that nothing holds flies straight past a carrier that speeds up",
-          "[uneven-speed][lockstep]") {
+TEST_CASE("a free body moves straight while the carrier accelerates", "[uneven-speed][lockstep]") {
     const auto& train = test::LiangTrain::instance();
     MarchPlan plan = train.plan(40, 400, dynamics::Motion::translational_torsional, true);
     std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 0.0);
@@ -169,7 +169,7 @@ TEST_CASE("a body that nothing holds flies straight past a carrier that speeds u
     in.bearing_stiffness_N_m[dynamics::sun] = in.bearing_damping_N_s_m[dynamics::sun] = 0.0;
     in.bearing_stiffness_N_m[dynamics::planet] = in.bearing_damping_N_s_m[dynamics::planet] = 0.0;
     const std::vector<dynamics::GearboxInputs> inputs{in};
-    constexpr double kRise = 6.0;  // of the speed a second: 1.6 times at the end
+    constexpr double kRise = 6.0;  // relative rise per second: 1.6 times at the end
     Excitation excitation;
     excitation.speed = ramp(0.0, kRise);
     excitation.driving = dynamics::motion_index(dynamics::carrier) + 2;
@@ -184,7 +184,7 @@ TEST_CASE("a body that nothing holds flies straight past a carrier that speeds u
     MeshRecord record = make_record(plan, 1, false);
     (*march)(0, {}, state, record);
 
-    // At rest the frame's axes are the housing's; there the body moves with v + W x r.
+    // The frame's axes coincide with the housing's at rest; there the body moves with v + W x r.
     const double time = std::log1p(kRise * in.mesh_period_s) / kRise;
     const double x = 2e-3 + (0.01 - 15.0 * 1e-3) * time;
     const double y = 1e-3 + (-0.05 + 15.0 * 2e-3) * time;
@@ -193,7 +193,7 @@ TEST_CASE("a body that nothing holds flies straight past a carrier that speeds u
     CHECK(state.q[sun + 1] == Approx(y * std::cos(angle) - x * std::sin(angle)).epsilon(1e-9));
 }
 
-TEST_CASE("a speed that varies slowly passes through the orbits of steady speeds",
+TEST_CASE("a slowly varying speed passes through the periodic orbits of steady speeds",
           "[uneven-speed][lockstep]") {
     const auto& train = test::LiangTrain::instance();
     constexpr double kSpeedup = 40.0, kAmplitude = 0.2;
@@ -209,7 +209,7 @@ TEST_CASE("a speed that varies slowly passes through the orbits of steady speeds
         (*steady)({}, orbit, at_top);
         turn.remove(orbit);
     }
-    // The mesh period in which the speed is highest, of a variation that takes so many of them.
+    // Difference in the mesh period of highest speed, for a variation of so many mesh periods.
     const auto difference = [&](int meshes) {
         Excitation excitation;
         excitation.speed =

@@ -1,5 +1,5 @@
-// What tests of an integrator's order share: marches of one gearbox and how far apart they end, and
-// a gearbox without any transition.
+// Shared by tests of an integrator's order: integration of one realization, the difference of two
+// final states, and a realization without contact transitions.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ struct Marched {
     lockstep::MeshRecord record;  // of the last mesh period
 };
 
-// `meshes` mesh periods from `start`.
+// Integrates `meshes` mesh periods from `start`.
 inline Marched march(const lockstep::MarchPlan& plan, const dynamics::GearboxInputs& in,
                      lockstep::TileState start, int meshes) {
     const auto marching = lockstep::make_mesh_march<1>(plan, std::span(&in, 1));
@@ -48,7 +48,7 @@ inline double largest_difference(const machine::AlignedVector& a, const machine:
     return largest;
 }
 
-// Tian's gearbox with nothing stiff but its one pair.
+// Tian's gearbox in which only the gear pair is stiff.
 inline dynamics::FixedShaftInputs soft_tian() {
     dynamics::FixedShaftInputs in = TianGearbox::instance().inputs();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
@@ -58,7 +58,7 @@ inline dynamics::FixedShaftInputs soft_tian() {
     return in;
 }
 
-// Its pair's stiffness swings as a sine about 8e8 N/m: no transition anywhere.
+// The pair's stiffness varies as a sine about 8e8 N/m, without transitions.
 inline lockstep::MarchPlan smooth_plan(int steps, lockstep::Integrator integrator) {
     lockstep::MarchPlan plan = TianGearbox::instance().plan(20, steps, integrator);
     plan.grid = lockstep::make_phase_grid(20, steps, {});

@@ -1,5 +1,5 @@
-// The explicit integrators' order: on a smooth stiffness, across contact transitions with a node on
-// each, and without such nodes; and the error that bs3 estimates.
+// Checks the explicit integrators' order on a smooth stiffness, across contact transitions with a
+// node on each, and without such nodes; and the error estimate of bs3.
 #include <catch2/catch.hpp>
 #include <complex>
 #include <numbers>
@@ -26,7 +26,7 @@ double largest(const machine::AlignedVector& a) {
     return largest_difference(a, machine::AlignedVector(a.size(), 0.0));
 }
 
-// Slope of log error over log step, by least squares.
+// Slope of log error over log step by least squares.
 double slope(const std::vector<double>& steps, const std::vector<double>& errors) {
     double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
     const double n = static_cast<double>(steps.size());
@@ -42,7 +42,8 @@ double slope(const std::vector<double>& steps, const std::vector<double>& errors
     return xy / xx;
 }
 
-// Liang's train at twenty times its speed, 24 samples; with no node on the transitions if asked.
+// Liang's train at twenty times its speed with 24 samples; optionally with no node on the
+// transitions.
 MarchPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions) {
     const auto& train = LiangTrain::instance();
     MarchPlan plan = train.plan(24, steps, dynamics::Motion::translational_torsional);
@@ -66,7 +67,7 @@ TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
     const Marched exact = march(fine, in, away, 2);
     for (const Integrator integrator : kExplicit) {
         const int order = facts(integrator).order;
-        // An order higher, and the last digits of the motion are reached with fewer steps.
+        // The order is one higher, and fewer steps reach the last digits of the state.
         const std::vector<double> counts =
             order > 4 ? std::vector{100.0, 200.0, 400.0} : std::vector{400.0, 800.0, 1600.0};
         std::vector<double> motions, sensors;
@@ -92,8 +93,8 @@ TEST_CASE(
     const Marched exact = march(fine, in, rest, 2);
     for (const Integrator integrator : kExplicit) {
         for (const bool nodes : {true, false}) {
-            // Several numbers of steps: without nodes the error depends on where within its step a
-            // transition falls.
+            // Several numbers of steps: without nodes the error depends on the position of a
+            // transition within its step.
             std::vector<double> counts, motions, sensors;
             for (const int steps : {960, 1080, 1320, 1560, 1920, 2280, 2760, 3240, 3840}) {
                 const Marched m = march(liang_plan(steps, integrator, nodes), in, rest, 2);
@@ -115,7 +116,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A step of next to no length leaves an explicit march as it is") {
+TEST_CASE("A step of nearly zero length leaves an explicit integration unchanged") {
     const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
     const TileState rest = rest_state(liang_plan(1200, Integrator::rk4, true), std::span(&in, 1));
     for (const Integrator integrator : kExplicit) {
@@ -143,8 +144,9 @@ TEST_CASE("A step of next to no length leaves an explicit march as it is") {
     }
 }
 
-TEST_CASE("The error that bs3 estimates is the distance of its two solutions") {
-    // d'' = -w^2 d as z' = i w z, z = d + i d'/w: one step by the pair's printed coefficients.
+TEST_CASE("The error estimate of bs3 is the difference of its two solutions") {
+    // Writes d'' = -w^2 d as z' = i w z, z = d + i d'/w: one step by the pair's printed
+    // coefficients.
     using Complex = std::complex<double>;
     test::PairOfMasses pair(dynamics::MeshLaw::linear, 4, 4e-5, 0.0, Integrator::bs3);
     pair.plan.grid.stage_nodes.push_back(1.0);
@@ -156,7 +158,7 @@ TEST_CASE("The error that bs3 estimates is the distance of its two solutions") {
                                          {test::PairOfMasses::kStiffness, 0.0});
         pair.plan.nodes.damping_shape.insert(pair.plan.nodes.damping_shape.end(), {1.0, 0.0});
     }
-    // The masses move against one another, the planet more.
+    // The masses move in opposite directions, the planet more.
     const double share = test::PairOfMasses::kMass / test::PairOfMasses::kPlanet;
     pair.state.q[2] = 1e-6 * test::PairOfMasses::kMass / test::PairOfMasses::kSun;
     pair.state.q[3] = 1e-6 * share;

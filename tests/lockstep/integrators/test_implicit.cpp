@@ -1,5 +1,5 @@
-// The implicit integrators against a much finer march by another method, a conserved energy and
-// each other's bits.
+// Checks the implicit integrators against a much finer integration by another method, a conserved
+// energy and each other's bits.
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -40,7 +40,7 @@ TileState state_at(const MarchPlan& plan, const Eigen::VectorXd& q) {
     return state;
 }
 
-// One lane's values.
+// Values of one lane.
 std::vector<double> column(const machine::AlignedVector& values, std::size_t lane,
                            std::size_t width) {
     std::vector<double> result;
@@ -50,7 +50,7 @@ std::vector<double> column(const machine::AlignedVector& values, std::size_t lan
     return result;
 }
 
-// The record of a tile of eight again, from tiles of W.
+// The record of a tile of eight, recomputed from tiles of W.
 template <int W, class Faults>
 void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const Faults& faults, const TileSettings& settings, std::size_t record,
@@ -94,7 +94,7 @@ TEST_CASE("The implicit integrators keep their order across contact transitions"
     }
 }
 
-TEST_CASE("Without nodes on the contact transitions every integrator falls to order 1") {
+TEST_CASE("Without nodes on the contact transitions the order of every integrator drops to 1") {
     const auto& train = LiangTrain::instance();
     const auto in = train.inputs(20.0);
     const auto motion = dynamics::Motion::torsional;
@@ -114,7 +114,7 @@ TEST_CASE("Without nodes on the contact transitions every integrator falls to or
     };
     for (const Integrator integrator : {Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                         Integrator::generalized_alpha}) {
-        // Where a transition falls within its step is chance: the mean of three grids, over three
+        // The position of a transition within its step is random: mean of three grids, over three
         // octaves.
         double coarse = 0.0, close = 0.0;
         for (const int more : {0, 24, 48}) {
@@ -146,7 +146,7 @@ TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
     }
 }
 
-TEST_CASE("Newmark keeps the energy of an undamped, unloaded gearbox of constant stiffness") {
+TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of constant stiffness") {
     const auto energy = [](const dynamics::GearboxMatrices& m, const TileState& s) {
         const Eigen::Map<const Eigen::VectorXd> q(s.q.data(), m.mass.rows());
         const Eigen::Map<const Eigen::VectorXd> v(s.v.data(), m.mass.rows());
@@ -177,14 +177,14 @@ TEST_CASE("Newmark keeps the energy of an undamped, unloaded gearbox of constant
         const TileState start = state_at(plan, away);
         const Marched m = march(plan, in, start, 20);
         CHECK(energy(matrices, m.state) == Approx(energy(matrices, start)).epsilon(1e-10));
-        CHECK(largest_difference(m.state.q, start.q) > 1e-7);  // it did move
+        CHECK(largest_difference(m.state.q, start.q) > 1e-7);  // the state did change
     }
 }
 
-TEST_CASE("Generalized-alpha lets decay what its steps cannot follow") {
+TEST_CASE("Generalized-alpha damps modes that its steps cannot resolve") {
     // An undamped stage a million times stiffer than Tian's, in 60 steps of many periods each.
-    // Newmark's method keeps its energy; here rho^2 is left of it a step (2e-12 in all), once it
-    // has overshot in the first one.
+    // Newmark's method conserves its energy; here a factor of rho^2 per step remains (2e-12 in
+    // all), after an overshoot in the first step.
     const auto& gearbox = TianGearbox::instance();
     dynamics::FixedShaftInputs in = gearbox.inputs();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
@@ -215,7 +215,7 @@ TEST_CASE("Generalized-alpha lets decay what its steps cannot follow") {
     }
 }
 
-TEST_CASE("Implicit integrators settle on the orbit of Runge-Kutta") {
+TEST_CASE("Implicit integrators converge to the periodic orbit of Runge-Kutta") {
     const auto& train = LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> one{train.inputs(10.0)};
     const auto full = dynamics::Motion::translational_torsional;
@@ -235,7 +235,8 @@ TEST_CASE("Implicit integrators settle on the orbit of Runge-Kutta") {
 }
 
 TEST_CASE(
-    "Implicit marches give the same bits for eight lanes, four and one, on every instruction set") {
+    "Implicit integration gives the same bits for eight lanes, four and one, on every instruction "
+    "set") {
     const auto& train = LiangTrain::instance();
     const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
     std::vector<dynamics::GearboxInputs> inputs;
@@ -272,9 +273,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Separating meshes march implicitly as they do explicitly") {
-    // A light load on Tian's gearbox with gentle dampers: a strong transmission error makes the
-    // teeth bounce, against their back flanks as well.
+TEST_CASE("Implicit and explicit integration of separating meshes agree") {
+    // A light load on Tian's gearbox with soft dampers: a large transmission error makes the teeth
+    // bounce, also against their back flanks.
     const auto& gearbox = TianGearbox::instance();
     dynamics::FixedShaftInputs in = gearbox.inputs();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
@@ -312,7 +313,7 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
         for (const double q : exact) {
             scale = std::max(scale, std::abs(q));
         }
-        CHECK(largest_difference(exact, linear) > 0.1 * scale);  // the teeth did part
+        CHECK(largest_difference(exact, linear) > 0.1 * scale);  // the teeth lost contact
         for (const Integrator integrator : kImplicitOnes) {
             const auto separating =
                 run(plan_of(6400, integrator, 5e-6, MeshLaw::separating), backlash_m, 2);
@@ -322,7 +323,7 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
             CHECK(largest_difference(with_error, linear) < 1e-4 * scale);
         }
     }
-    // Under full load and little error the teeth never part: the same motion as the linear mesh's.
+    // Contact is never lost under full load and a small error: the motion equals the linear mesh's.
     in = gearbox.inputs();
     for (const Integrator integrator : kImplicitOnes) {
         const auto separating = run(plan_of(400, integrator, 1e-7, MeshLaw::separating), 1e-4, 2);
@@ -330,7 +331,7 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
         CHECK(separating == linear);
     }
 
-    // Lanes part and touch in different rounds, and keep their bits.
+    // Lanes lose and regain contact in different iterations, and keep their bits.
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
         in.coupling_damping_N_m_s_rad[g] = 5.0;
     }

@@ -1,5 +1,5 @@
-// The sensor's low-pass against the closed form of a 4th-order Butterworth filter,
-// |H|^2 = 1 / (1 + (f / f_c)^8).
+// Checks the sensor's low-pass against the closed form of a 4th-order Butterworth filter, |H|^2 = 1
+// / (1 + (f / f_c)^8).
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -13,13 +13,13 @@ using namespace gearpod::lockstep;
 
 namespace {
 
-// Where within a step a method takes the input of each column of its coefficients.
+// Position within a step of the input of each column of a method's coefficients.
 std::vector<double> input_nodes(Integrator integrator) {
     if (integrator == Integrator::rk5) {
         return {0.0, 0.25, 0.25, 0.5, 0.75, 1.0};
     }
-    // newmark has no middle: it takes the input at the start and the end; generalized-alpha does so
-    // a little before them. central-difference takes it at the middle alone.
+    // The newmark method uses the input at the start and the end of a step; generalized-alpha
+    // slightly before them; central-difference in the middle.
     const std::vector<double> given = stage_nodes(integrator);
     const double lag = integrator == Integrator::generalized_alpha ? ChungHulbert::kLag : 0.0;
     return given.size() == 1                 ? std::vector<double>(3, given[0])
@@ -87,7 +87,7 @@ TEST_CASE("The low-pass has the gain of a 4th-order Butterworth filter") {
 }
 
 TEST_CASE("The low-pass converges at its integrator's order in the step") {
-    // At twice the cutoff, where the gain is small and its error shows.
+    // The gain at twice the cutoff is small, so its error is visible.
     const auto order = [](Integrator integrator, double steps) {
         const double coarse = std::abs(gain(integrator, 2.0, steps) - butterworth(2.0));
         const double fine = std::abs(gain(integrator, 2.0, 2 * steps) - butterworth(2.0));

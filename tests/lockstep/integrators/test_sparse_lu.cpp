@@ -1,4 +1,4 @@
-// Sparse factors against the dense solver of Eigen.
+// Checks sparse factors against the dense solver of Eigen.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -8,7 +8,7 @@ using namespace gearpod::lockstep;
 
 namespace {
 
-// An arrow: `spokes` blocks of two that couple only with the last three rows; not symmetric.
+// Arrow matrix: `spokes` blocks of two that couple only with the last three rows; not symmetric.
 Eigen::MatrixXd arrow(int spokes, std::mt19937& engine) {
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const int n = 2 * spokes + 3;
@@ -24,7 +24,7 @@ Eigen::MatrixXd arrow(int spokes, std::mt19937& engine) {
     return m;
 }
 
-// A x = g as the lockstep stage solves it.
+// Solves A x = g with the algorithm of the lockstep stage.
 Eigen::VectorXd solve(const SparseLu& lu, const Eigen::MatrixXd& f, Eigen::VectorXd x) {
     const auto substitute = [&](const SparseEntries& entries) {
         for (std::size_t e = 0; e < entries.to.size(); ++e) {
@@ -39,7 +39,7 @@ Eigen::VectorXd solve(const SparseLu& lu, const Eigen::MatrixXd& f, Eigen::Vecto
 
 }  // namespace
 
-TEST_CASE("Sparse factors solve what dense ones solve, for any order of the rows") {
+TEST_CASE("Sparse factors give the dense solution for any order of the rows") {
     std::mt19937 engine(1);
     for (const int spokes : {1, 4, 8}) {
         const Eigen::MatrixXd tidy = arrow(spokes, engine);
@@ -51,13 +51,13 @@ TEST_CASE("Sparse factors solve what dense ones solve, for any order of the rows
         const Eigen::VectorXd g = Eigen::VectorXd::LinSpaced(m.rows(), -1.0, 2.0);
         const Eigen::VectorXd exact = m.partialPivLu().solve(g);
         CHECK((solve(lu, factors(lu, m), g) - exact).norm() < 1e-13 * exact.norm());
-        // An arrow eliminated from its spokes fills nothing in: the factors have its entries.
+        // Elimination of an arrow from its spokes causes no fill-in: the factors have its entries.
         const int entries = static_cast<int>((m.array() != 0.0).count());
         CHECK(lu.lower.size() + lu.upper.size() + m.rows() == entries);
     }
 }
 
-TEST_CASE("Entries are those that differ from zero, column by column") {
+TEST_CASE("Entries are the nonzero elements, column by column") {
     Eigen::MatrixXd m(2, 2);
     m << 1.0, 0.0, 3.0, -4.0;
     const SparseEntries entries = nonzero_entries(m);

@@ -1,7 +1,7 @@
 #!/bin/sh
-# An effect that a scene does not have leaves no instructions in its kernel: the plainest kernel is
-# compiled from the sources as they are, and from a copy from which the compile-time branches of the
-# effects that it lacks are cut out by hand. Both must be the same code.
+# Checks that an effect which a scene lacks leaves no instructions in its kernel. The plainest
+# kernel is compiled from the sources, and from a copy without the compile-time branches of the
+# missing effects. Both must have the same code.
 #   check_absent_effects.sh COMPILER TOP-FOLDER EIGEN-INCLUDES
 set -eu
 work=$(mktemp -d)
@@ -36,8 +36,8 @@ code() {
 }
 code "$1" "$3" > "$work/as-they-are"
 
-# The branches "if constexpr (...) {" of transmission errors, separation and varying forces, up to
-# the closing brace at the same depth.
+# Branches "if constexpr (...) {" of transmission errors, separation and varying forces, up to the
+# closing brace at the same depth.
 cut=$(awk '
     /if constexpr \((Model::Mesh::k|requires \{ (m[.]row|Model::add_forces))/ {
         match($0, /^ */); depth = RLENGTH; inside = 1; ++blocks; next

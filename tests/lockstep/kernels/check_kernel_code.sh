@@ -1,11 +1,12 @@
 #!/bin/sh
-# Holds the compiler to the lockstep kernels: the code of OBJECT that fills registers, of AVX-512
-# (eight doubles, sixteen singles) or AVX2 (four, eight, or twice as many), must be packed (full-width fused
-# multiply-adds) and must call no scalar mathematics: nothing but moves, memory, destructors and exceptions.
+# Checks the compiler's output for the lockstep kernels. Code in OBJECT that fills registers of
+# AVX-512 (eight doubles, sixteen singles) or AVX2 (four, eight, or twice as many) must be packed
+# (full-width fused multiply-adds). It must call no scalar mathematics: only moves, memory,
+# destructors and exceptions.
 #   check_kernel_code.sh OBJECT
 set -eu
 objdump -dr --no-show-raw-insn "$1" | awk '
-    # Of march_x86_64_v4<Method, Motion<..., 8, double>> the mangled name.
+    # Mangled name of march_x86_64_v4<Method, Motion<..., 8, double>>.
     /^[0-9a-f]+ </ {
         name = $2
         single = name ~ /Li[0-9]+Ef/

@@ -1,4 +1,4 @@
-// The kernels that the program was built with: all that the table of integrators asks for.
+// Checks that the program was built with all kernels that the table of integrators requires.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -26,7 +26,7 @@ std::vector<Moving> movings(Integrator integrator) {
 
 }  // namespace
 
-TEST_CASE("Every integrator has the kernels that it says it has, for every mesh law") {
+TEST_CASE("Every integrator has its declared kernels for every mesh law") {
     const machine::InstructionSet set = built_instruction_sets().back();
     for (const Integrator integrator : all_integrators()) {
         const IntegratorFacts& f = facts(integrator);
@@ -50,7 +50,7 @@ TEST_CASE("Every integrator has the kernels that it says it has, for every mesh 
     }
 }
 
-TEST_CASE("Stage nodes ascend from 0 to 1, and names are those of no other integrator") {
+TEST_CASE("Stage nodes ascend from 0 to 1, and integrator names are unique") {
     for (const Integrator integrator : all_integrators()) {
         const IntegratorFacts& f = facts(integrator);
         INFO(f.name);
@@ -63,7 +63,7 @@ TEST_CASE("Stage nodes ascend from 0 to 1, and names are those of no other integ
     }
 }
 
-TEST_CASE("A kernel that was not built is refused by name, and one is not given other lanes") {
+TEST_CASE("A missing kernel is refused by name and not replaced by one of other lanes") {
     KernelKey key{Integrator::rk4,
                   dynamics::MeshLaw::linear,
                   Drive::steady,

@@ -1,4 +1,4 @@
-// Meshes with transmission error and meshes that separate, against closed forms.
+// Checks meshes with transmission error and meshes that separate against closed forms.
 #include <catch2/catch.hpp>
 #include <complex>
 #include <numbers>
@@ -17,8 +17,8 @@ using test::PairOfMasses;
 
 namespace {
 
-// A ball that lands on a spring with a damper and leaves it where d passes 0, from one event to the
-// next by the closed forms of both phases.
+// A ball that lands on a spring with a damper and leaves it where d passes 0, computed from one
+// event to the next by the closed forms of both phases.
 class BouncingBall {
   public:
     BouncingBall(double d, double v, double gravity, double w, double damping_ratio)
@@ -84,7 +84,7 @@ std::vector<dynamics::GearboxInputs> eight_trains(double backlash_m) {
 
 }  // namespace
 
-TEST_CASE("Nothing acts in the gap, and a collision conserves momentum and energy") {
+TEST_CASE("No force acts in the gap, and a collision conserves momentum and energy") {
     PairOfMasses masses(MeshLaw::separating, 4000, 1e-4);
     masses.state.q[2] = -3e-6;
     masses.state.v = {0.0, 0.0, 0.2, -0.05};
@@ -93,11 +93,50 @@ TEST_CASE("Nothing acts in the gap, and a collision conserves momentum and energ
     PairOfMasses in_gap = masses;
     in_gap.in.mesh_period_s = 1.9e-5;  // the gap closes after 2e-5 s
     in_gap.march();
-    CHECK(in_gap.state.v == flight);  // to the bit
+    CHECK(in_gap.state.v == flight);  // equal to the bit
     masses.march();
-    CHECK(masses.deflection() < 0.0);  // it has come back
+    CHECK(masses.deflection() < 0.0);  // it has returned
     CHECK(masses.rate() == Approx(-std::sqrt(energy)).epsilon(1e-6));
     CHECK(masses.momentum() == Approx(momentum).epsilon(1e-12));
+}
+
+TEST_CASE("Undamped tooth pairs that touch one after another conserve energy") {
+    // Three tooth pairs of different stiffness, whose gaps close one after another.
+    const double stiffness[] = {1e8, 2e8, 3e8}, gap[] = {0.0, 1.3e-6, 2.1e-6};
+    for (const auto integrator : {Integrator::rk4, Integrator::central_difference}) {
+        std::vector<double> errors;
+        for (const int steps : {4000, 8000}) {
+            PairOfMasses masses(MeshLaw::unilateral, steps, 3e-4, 0.0, integrator);
+            StiffnessNodes& nodes = masses.plan.nodes;
+            nodes.tooth_pairs = 3;
+            for (std::size_t i = 0; i < nodes.stiffness.size() / 2; ++i) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    nodes.tooth_stiffness.insert(nodes.tooth_stiffness.end(), {stiffness[j], 0.0});
+                    nodes.tooth_gap.insert(nodes.tooth_gap.end(), {gap[j], 0.0});
+                    nodes.tooth_place.insert(nodes.tooth_place.end(), 2, 0.0);
+                }
+            }
+            masses.in.force_N[dynamics::sun] = 0.0;
+            masses.state.q[2] = 0.5e-6;
+            masses.state.v = {0.0, 0.0, 0.12, 0.0};
+            const auto energy = [&] {
+                double sum = 0.5 * PairOfMasses::kMass * std::pow(masses.rate(), 2);
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const double pressed = std::max(0.0, masses.deflection() - gap[j]);
+                    sum += 0.5 * stiffness[j] * pressed * pressed;
+                }
+                return sum;
+            };
+            const double before = energy(), momentum = masses.momentum();
+            const auto d = masses.march();
+            CHECK(*std::ranges::max_element(d) > gap[2]);  // all three have touched
+            CHECK(masses.momentum() == Approx(momentum).epsilon(1e-12));
+            errors.push_back(std::abs(energy() / before - 1.0));
+        }
+        INFO("integrator " << static_cast<int>(integrator) << ": errors " << errors[0] << ", "
+                           << errors[1]);
+        CHECK(errors[1] < 2e-6);
+    }
 }
 
 TEST_CASE("A loaded pair bounces as the event-driven solution does") {
@@ -128,13 +167,14 @@ TEST_CASE("A loaded pair bounces as the event-driven solution does") {
         }
         INFO("integrator " << static_cast<int>(integrator) << ", damping ratio " << damping_ratio
                            << ": errors " << errors[0] << ", " << errors[1]);
-        // The damping force jumps where the flanks meet, at whatever place within a step.
+        // The damping force jumps at contact, at an arbitrary position within a step.
         CHECK(errors[1] < (damping_ratio > 0.0 ? 2e-3 : 1e-5));
         CHECK((damping_ratio == 0.0 || errors[1] < 0.7 * errors[0]));
     }
 }
 
-TEST_CASE("Between front and back flanks a pair rattles with the period of flight and half waves") {
+TEST_CASE(
+    "Between front and back flanks a pair rattles with the period of free motion and half waves") {
     const double backlash = 5e-6, speed = 0.3;
     const auto integrator = GENERATE(Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                      Integrator::central_difference);
@@ -151,7 +191,7 @@ TEST_CASE("Between front and back flanks a pair rattles with the period of fligh
     CHECK(*std::min_element(d.begin(), d.end()) == Approx(-backlash - depth).epsilon(1e-4));
 }
 
-TEST_CASE("A loaded train that never separates keeps the linear march's bits") {
+TEST_CASE("A loaded train that never separates keeps the linear integration's bits") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
     const auto& train = LiangTrain::instance();
     for (const auto motion :
@@ -189,7 +229,8 @@ TEST_CASE("A loaded train that never separates keeps the linear march's bits") {
     }
 }
 
-TEST_CASE("A pair follows each harmonic of its transmission error by its frequency response") {
+TEST_CASE(
+    "A pair responds to each harmonic of its transmission error with its frequency response") {
     const double period = 1.3e-4, damping_ratio = 0.06;
     const MeshError error{{2e-6, 0.7e-6, 0.4e-6}, {0.3, -1.1, 2.0}};
     for (const auto& [law, integrator, tolerance] :
@@ -204,7 +245,7 @@ TEST_CASE("A pair follows each harmonic of its transmission error by its frequen
         const double w = base.natural_rad_s();
         PairOfMasses masses(law, 2000, period, 2.0 * damping_ratio * w * PairOfMasses::kMass,
                             integrator);
-        // Loaded enough to stay in contact.
+        // The load is high enough to keep contact.
         const double gravity = 1e5;
         masses.in.force_N[dynamics::sun] = gravity * PairOfMasses::kSun;
         for (const Step& step : masses.plan.grid.steps) {
@@ -222,7 +263,7 @@ TEST_CASE("A pair follows each harmonic of its transmission error by its frequen
         }
         double worst = 0.0;
         for (int i = 0; i < 2000; i += 20) {
-            // d'' + 2 z w d' + w^2 d = g + 2 z w e' + w^2 e.
+            // Frequency response of d'' + 2 z w d' + w^2 d = g + 2 z w e' + w^2 e.
             std::complex<double> sum = gravity / (w * w);
             for (std::size_t h = 0; h < 3; ++h) {
                 const double rate = 2.0 * std::numbers::pi * static_cast<double>(h + 1) / period;
@@ -251,7 +292,7 @@ TEST_CASE("Errors shift with the pairs' phases and run backwards where contact d
         return nodes;
     };
     const StiffnessNodes forward = table();
-    // 19/31/81: planet 2 meshes three quarters of a period after planet 1; 15 steps of 20.
+    // Planet 2 of 19/31/81 meshes three quarters of a period after planet 1, 15 steps of 20.
     const auto at = [&](const StiffnessNodes& nodes, int step, int node, int pair) {
         return nodes.error[static_cast<std::size_t>(((step % 20) * 3 + node) * 8 + pair)];
     };
@@ -260,7 +301,7 @@ TEST_CASE("Errors shift with the pairs' phases and run backwards where contact d
         CHECK(at(forward, step, 2, 0) == Approx(at(forward, step + 1, 0, 0)).margin(1e-18));
     }
     CHECK(at(forward, 0, 0, 0) == Approx(1e-6 * std::sin(0.4)).margin(1e-18));  // pitch point
-    // The mirror image: the same engagements in reverse time, t to -t.
+    // Mirror image: the same engagements in reverse time, t to -t.
     pairs.reversed = true;
     for (int pair = 0; pair < 8; ++pair) {
         const auto i = static_cast<std::size_t>(pair);
@@ -279,7 +320,7 @@ TEST_CASE("Errors shift with the pairs' phases and run backwards where contact d
     }
 }
 
-TEST_CASE("Planets in phase stay alike under errors and separation") {
+TEST_CASE("Planets in phase have equal motions under errors and separation") {
     const auto& train = LiangTrain::instance();
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
@@ -289,7 +330,7 @@ TEST_CASE("Planets in phase stay alike under errors and separation") {
         plan.nodes.error_rate.resize(plan.nodes.stiffness.size());
         const MeshError error{{12e-6}, {}};
         for (std::size_t i = 0; i < plan.nodes.stiffness.size(); ++i) {
-            // All planets as planet 1.
+            // Expected motion of all planets: that of planet 1.
             const std::size_t first = i - i % 8 + (i % 8 < 4 ? 0 : 4);
             plan.nodes.stiffness[i] = plan.nodes.stiffness[first];
             plan.nodes.damping_shape[i] = plan.nodes.damping_shape[first];
@@ -299,8 +340,8 @@ TEST_CASE("Planets in phase stay alike under errors and separation") {
             plan.nodes.error[i] = e.error;
             plan.nodes.error_rate[i] = e.rate;
         }
-        // Where teeth part, rounding that tells planets in different places apart may grow; the
-        // rotations alone have none.
+        // Rounding differences between planets at different positions may grow where teeth
+        // separate; the rotations alone have none.
         const bool torsional = motion == dynamics::Motion::torsional;
         auto in = train.inputs(60.0);
         for (double& force : in.force_N) {
@@ -334,7 +375,7 @@ TEST_CASE("Planets in phase stay alike under errors and separation") {
     }
 }
 
-TEST_CASE("From far apart a loaded train finds the orbit that it has from rest") {
+TEST_CASE("From a far start a loaded train converges to the periodic orbit reached from rest") {
     const auto& train = LiangTrain::instance();
     MarchPlan plan = train.plan(24, 1200, dynamics::Motion::torsional);
     plan.mesh_law = MeshLaw::separating;
@@ -344,7 +385,7 @@ TEST_CASE("From far apart a loaded train finds the orbit that it has from rest")
     state.q.assign(7, 0.0);
     state.v.assign(7, 0.0);
     state.filter.assign(8 * kFilterStates, 0.0);
-    state.q[2] = -1e-3;  // the sun turned back by a millimetre
+    state.q[2] = -1e-3;  // the sun rotated back by a millimetre
     MeshRecord record = make_record(plan, 1, false);
     const auto march = make_mesh_march<1>(plan, std::span(&inputs, 1));
     for (int mesh = 0; mesh < 400; ++mesh) {

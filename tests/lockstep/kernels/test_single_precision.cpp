@@ -1,4 +1,4 @@
-// Single precision: what it costs in accuracy, and the same bits for any lanes.
+// Checks single precision: its loss of accuracy, and equal bits for any number of lanes.
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -55,7 +55,7 @@ TileResult tile(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs
                        LiangTrain::instance().ring_side_cracks({depth, depth + W}), how);
 }
 
-// Lane `lane` of all records in the order in which the pattern shows them.
+// Lane `lane` of all records, in the order of the pattern.
 std::vector<double> unrolled(const TileResult& tile, machine::AlignedVector MeshRecord::*member,
                              std::size_t lane, std::size_t width) {
     std::vector<double> all;
@@ -81,7 +81,7 @@ void check_width(const MarchPlan& plan, const std::vector<dynamics::GearboxInput
     }
 }
 
-// rms of a - b over the rms of b about its mean.
+// Root mean square of a - b over that of b about its mean.
 double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
     double mean = 0.0, deviation = 0.0, own = 0.0;
     for (const double x : b) {
@@ -122,9 +122,10 @@ TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every ins
     }
 }
 
-TEST_CASE("Singles keep sensor signal and transmission error close to the doubles'") {
-    // Liang's own speed, where a step changes a motion by 1e-4 of itself, and ten times it, where
-    // a mesh period brings the orbit less far: that it counts as reached at 1e-5 then costs most.
+TEST_CASE("Single precision keeps sensor signal and transmission error close to double precision") {
+    // Liang's own speed, where a step changes a displacement by 1e-4 of itself, and ten times it,
+    // where a mesh period reduces the distance to the periodic orbit less. The convergence
+    // tolerance of 1e-5 then has the largest effect.
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
     const int steps = integrator == Integrator::rk4 ? 5200 : 10400;
     for (const auto& [speedup, allowed] : {std::pair{1.0, 1e-4}, std::pair{10.0, 5e-4}}) {
@@ -146,7 +147,7 @@ TEST_CASE("Singles keep sensor signal and transmission error close to the double
 }
 
 TEST_CASE(
-    "Small steps do not drown in a single's rounding: an undamped mode swings as its cosine") {
+    "Small steps are not lost in single-precision rounding: an undamped mode follows its cosine") {
     const auto& train = LiangTrain::instance();
     dynamics::PlanetaryInputs in = train.inputs();
     std::fill(std::begin(in.bearing_damping_N_s_m), std::end(in.bearing_damping_N_s_m), 0.0);
@@ -174,7 +175,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Singles march by two methods alone, and doubles at most eight abreast") {
+TEST_CASE("Two methods alone support single precision, and doubles have at most eight lanes") {
     const auto& train = LiangTrain::instance();
     const auto inputs = sixteen(10.0);
     MarchPlan plan = train.plan(24, 1200, kFull);

@@ -1,5 +1,5 @@
-// Tooth pairs that push each for itself: as one mesh where they are alike, and against a march of
-// the assembled matrices that knows every tooth where they are not.
+// Checks unilateral contact per tooth pair: equal pairs against one mesh, and different pairs
+// against an integration of the assembled matrices with separate teeth.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -37,7 +37,7 @@ MarchPlan plan_for(Integrator integrator, MeshLaw law, int steps, dynamics::Moti
     return plan;
 }
 
-// Turned fast under a part of the load, so that teeth part.
+// A train at high speed under partial load, so that teeth lose contact.
 std::vector<dynamics::GearboxInputs> light_trains(double load, double speedup) {
     std::vector<dynamics::GearboxInputs> inputs;
     for (int l = 0; l < 8; ++l) {
@@ -88,7 +88,7 @@ ToothErrors random_errors(const PairSet& pairs, double rms_m, bool with_slopes) 
     return errors;
 }
 
-// One lane of the train, tooth by tooth: M q'' = f - (C + G) q' - (K + K_c) q - sum of R_p F_p.
+// One lane of the train with separate teeth: M q'' = f - (C + G) q' - (K + K_c) q - sum of R_p F_p.
 class ToothByTooth {
   public:
     ToothByTooth(const MarchPlan& plan, const dynamics::PlanetaryInputs& in,
@@ -108,9 +108,10 @@ class ToothByTooth {
     }
 
     Eigen::VectorXd q, v;
-    int lost = 0, open = 0;  // times that a tooth pair, a whole mesh was out of contact
+    int lost = 0, open = 0;  // time steps in which a tooth pair, a whole mesh was out of contact
 
-    // Mesh k by the classical Runge-Kutta method, two of its steps in one of the grid's.
+    // Integrates mesh k by the classical Runge-Kutta method, with two of its steps in one of the
+    // grid's.
     void march(int k) {
         for (const Step& step : plan_.grid.steps) {
             const double inside = k + step.phase + 0.5 * step.length;
@@ -169,8 +170,8 @@ class ToothByTooth {
         return pressed > 0.0 ? pressed + c * rate : 0.0;
     }
 
-    // Gap of the tooth pair that begins to engage in mesh m. The sun drives the planets and they drive
-    // the ring; a driving flank is touched from its root.
+    // Gap of the tooth pair that begins to engage in mesh m. The sun drives the planets and they
+    // drive the ring; contact on a driving flank begins at its root.
     double error(std::size_t pair, int m, double place) const {
         double sum = 0.0;
         for (const int side : {0, 1}) {
@@ -208,7 +209,7 @@ Eigen::VectorXd lane_of(const machine::AlignedVector& values, std::size_t lane) 
 
 }  // namespace
 
-TEST_CASE("Tooth pairs without errors push as one mesh that separates") {
+TEST_CASE("Tooth pairs without errors act as one mesh that separates") {
     const auto& train = LiangTrain::instance();
     const auto integrator =
         GENERATE(Integrator::rk4, Integrator::bs3, Integrator::newmark, Integrator::sdirk3,
@@ -232,16 +233,17 @@ TEST_CASE("Tooth pairs without errors push as one mesh that separates") {
         }
         INFO("integrator " << static_cast<int>(integrator));
         const double size = largest(ends[0].q);
-        // Where teeth meet anew what rounding tells apart grows.
+        // Rounding differences grow where teeth regain contact.
         CHECK(largest_difference(ends[1].q, ends[0].q) < 1e-7 * size);
         CHECK(largest_difference(ends[2].q, ends[0].q) > 1e-3 * size);
     }
 }
 
-TEST_CASE("Teeth with errors move as an independent march moves them, in and out of contact") {
+TEST_CASE("Teeth with errors move as in an independent integration, in and out of contact") {
     const auto& train = LiangTrain::instance();
     const bool with_slopes = GENERATE(false, true);
-    // Tooth pairs lose contact under the load; with larger errors and a third of it all of a mesh.
+    // Tooth pairs lose contact under the load; with larger errors and a third of the load a whole
+    // mesh does.
     for (const auto& [load, rms_m] : {std::pair{1.0, 1e-6}, std::pair{0.33, 3e-6}}) {
         const ToothErrors errors = random_errors(train.pairs, rms_m, with_slopes);
         FaultCurves faults = train.ring_side_cracks(kDepths);
@@ -275,7 +277,7 @@ TEST_CASE("Teeth with errors move as an independent march moves them, in and out
                              << lane << ": lost " << expected.lost << ", open " << expected.open);
                 CHECK(expected.lost > 100);
                 CHECK((expected.open > 100) == (load < 1.0));
-                // Where a whole mesh parts, its damper jumps within a step.
+                // The damping force of a mesh that separates jumps within a step.
                 const double allowed = expected.open > 0 ? 3e-3 : tolerance;
                 CHECK((q - expected.q).norm() < allowed * expected.q.norm());
             }
@@ -283,7 +285,7 @@ TEST_CASE("Teeth with errors move as an independent march moves them, in and out
     }
 }
 
-TEST_CASE("Varying forces, an uneven speed and single precision march the same teeth") {
+TEST_CASE("Kernels for varying forces, variable speed and single precision treat separate teeth") {
     const auto& train = LiangTrain::instance();
     const ToothErrors errors = random_errors(train.pairs, 1e-6, true);
     FaultCurves faults = train.ring_side_cracks(kDepths);
@@ -296,7 +298,7 @@ TEST_CASE("Varying forces, an uneven speed and single precision march the same t
         march(FaultSchedule(plan, faults).all_overrides(0), state, record);
         return state.q;
     };
-    // Nothing varies, but their own kernels march.
+    // The excitation is constant, but kernels for varying excitation run.
     Excitation torque, speed;
     const machine::AlignedVector none(8, 0.0), one(8, 1.0);
     torque.torque = Fluctuation{none, one, none, none, {}, {}, {}};
@@ -316,7 +318,7 @@ TEST_CASE("Varying forces, an uneven speed and single precision march the same t
         };
         CHECK(largest_difference(end_of(plan, varied), expected) < 1e-9 * largest(expected));
     }
-    // Sixteen singles, the eight gearboxes twice.
+    // Sixteen singles: the eight realizations twice.
     MarchPlan plan = plan_for(Integrator::rk4, MeshLaw::unilateral, 2400, full);
     const auto expected = end_of(plan, *make_mesh_march<8>(plan, trains));
     plan.precision = Precision::single_precision;

@@ -1,4 +1,4 @@
-// Gearboxes that are driven unevenly: fluctuating torque and speed against closed forms.
+// Checks realizations under variable excitation: fluctuating torque and speed against closed forms.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <complex>
@@ -16,12 +16,12 @@ using std::numbers::pi;
 
 namespace {
 
-// A sine of one gearbox.
+// A sine for one realization.
 Fluctuation sine(double amplitude, double per_mesh, double per_s, double turns) {
     return {{amplitude}, {per_mesh}, {per_s}, {turns}, {}, {}, {}};
 }
 
-// Marches mesh periods first <= k < last and returns the transmission errors of the last one.
+// Integrates mesh periods first <= k < last and returns the transmission errors of the last one.
 machine::AlignedVector march_pair(test::PairOfMasses& pair, const Excitation& excitation, int first,
                                   int last) {
     const std::vector<dynamics::GearboxInputs> inputs{pair.in};
@@ -46,7 +46,7 @@ TEST_CASE("a sine of the torque gives the frequency response of a mass on a spri
     test::PairOfMasses pair(dynamics::MeshLaw::linear, steps, kPeriod, c, integrator);
     pair.in.force_N[dynamics::sun] = kTorque;
     Excitation excitation;
-    // Half of the frequency counts by mesh periods, half by seconds: here they are the same.
+    // Half of the frequency is specified per mesh period, half per second: here they are the same.
     excitation.torque = sine(kAmplitude, 0.5 * frequency * kPeriod, 0.5 * frequency, kTurns);
     constexpr int kMeshes = 20;
     const auto te = march_pair(pair, excitation, 0, kMeshes);
@@ -68,7 +68,8 @@ TEST_CASE("a sine of the torque gives the frequency response of a mass on a spri
     CHECK(worst / std::abs(response) < 1e-6);
 }
 
-TEST_CASE("what a fluctuating torque puts in, the damper takes out", "[excitation][lockstep]") {
+TEST_CASE("the damper dissipates the power that a fluctuating torque supplies",
+          "[excitation][lockstep]") {
     constexpr double kPeriod = 1e-3, kForce = 1500.0, kAmplitude = 0.5, kFrequency = 6000.0;
     constexpr int kSteps = 960;
     const double c =
@@ -77,8 +78,9 @@ TEST_CASE("what a fluctuating torque puts in, the damper takes out", "[excitatio
     pair.in.force_N[dynamics::sun] = kForce;
     Excitation excitation;
     excitation.torque = sine(kAmplitude, kFrequency * kPeriod, 0.0, 0.0);
-    const auto d = march_pair(pair, excitation, 0, 20);  // six turns of the torque a mesh period
-    // Over whole turns: the sum of (F A / m_s) m sin(w t) d' is that of c d'^2.
+    // The torque has six periods per mesh period.
+    const auto d = march_pair(pair, excitation, 0, 20);
+    // Over whole periods the sum of (F A / m_s) m sin(w t) d' equals that of c d'^2.
     double in = 0.0, out = 0.0;
     const std::size_t n = d.size();
     for (std::size_t i = 0; i < n; ++i) {

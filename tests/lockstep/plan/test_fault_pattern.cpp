@@ -1,4 +1,4 @@
-// When a faulty tooth meets which pair, checked by the angles through which the gears turn.
+// Checks which pair a faulty tooth meets and when, from the gears' rotation angles.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 
 const stiffness::SquareWaveMesh kSunMesh(1e9, 2e9, 1.6, 0.7), kRingMesh(2e9, 3e9, 1.9, 0.9);
 
-// A train's pairs with planets at these parts of a turn; phases from Parker and Lin's formulas.
+// Pairs of a train with planets at these parts of a turn; phases from Parker and Lin's formulas.
 struct Train {
     Train(int sun_teeth, int planet_teeth, int ring_teeth, PlanetTurns planets, bool reversed)
         : sun(sun_teeth), planet(planet_teeth), ring(ring_teeth), turns(std::move(planets)) {
@@ -38,7 +38,8 @@ struct Train {
     PairSet pairs;
 };
 
-// Equal planets, and planets wherever (Z_s + Z_r) psi / 2 pi is a whole number.
+// Trains with equally spaced planets, and with planets at positions where (Z_s + Z_r) psi / 2 pi is
+// an integer.
 std::vector<Train> trains() {
     std::vector<Train> all;
     for (const bool reversed : {false, true}) {
@@ -55,7 +56,9 @@ double to_whole(double x) {
 
 }  // namespace
 
-TEST_CASE("a sun or ring tooth meets each planet when it has turned that far past the carrier") {
+TEST_CASE(
+    "a sun or ring tooth meets each planet after the corresponding rotation relative to the "
+    "carrier") {
     for (const Train& train : trains()) {
         const int n = train.turns.planets();
         for (const bool on_sun : {true, false}) {
@@ -65,7 +68,8 @@ TEST_CASE("a sun or ring tooth meets each planet when it has turned that far pas
             const int teeth = on_sun ? train.sun : train.ring;
             REQUIRE(pattern.length == teeth);
             REQUIRE(pattern.passages.size() == static_cast<std::size_t>(n));
-            // The sun turns past the planets in the order of their positions, the ring against it.
+            // The sun passes the planets in the order of their positions, the ring in reverse
+            // order.
             const double sense = on_sun != train.pairs.reversed ? 1 : -1;
             std::vector<bool> met(static_cast<std::size_t>(n));
             double before = -1;
@@ -116,7 +120,7 @@ TEST_CASE("a planet tooth meets sun and ring half a planet turn apart") {
             CHECK(sun.pair == planet);
             CHECK(ring.pair == train.turns.planets() + planet);
             CHECK(ring.curve == 1);
-            // From pitch point to pitch point: the tooth's middle makes half a turn, and the two
+            // Distance between pitch points: the middle of the tooth makes half a turn, and the two
             // flanks are half a tooth pitch apart.
             const auto pitch = [&](const FaultPassage& p) {
                 const auto pair = static_cast<std::size_t>(p.pair);

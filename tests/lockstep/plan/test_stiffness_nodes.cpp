@@ -1,5 +1,5 @@
-// Stiffness at the stage nodes: one-sided at transitions, mirrored for reversed contact, and lane
-// by lane while a fault passes.
+// Checks stiffness at the stage nodes: one-sided at transitions, mirrored for reversed contact, and
+// per lane during a fault passage.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -19,7 +19,7 @@ PairSet ring_pair(const stiffness::MeshStiffness& mesh, double start, bool rever
     return {{&mesh}, {start}, reversed};
 }
 
-// A marching plan that knows the pairs' stiffness and nothing of dynamics.
+// A plan with the pairs' stiffness and without dynamics.
 MarchPlan stiffness_plan(const PairSet& pairs, std::vector<double> cuts, int steps) {
     MarchPlan plan;
     for (const double cut : contact_transitions(pairs)) {
@@ -32,7 +32,7 @@ MarchPlan stiffness_plan(const PairSet& pairs, std::vector<double> cuts, int ste
 
 }  // namespace
 
-TEST_CASE("Nodes hold the total at any positions of stages, one-sided at the steps' ends") {
+TEST_CASE("Nodes hold the total at any stage positions, one-sided at the ends of steps") {
     const auto& mesh = LiangTrain::instance().ring_planet;
     for (const auto& stages :
          {std::vector{0.0, 0.5, 1.0}, std::vector{0.4359, 0.7179, 1.0}, std::vector{0.0, 1.0}}) {
@@ -56,7 +56,7 @@ TEST_CASE("Nodes hold the total at any positions of stages, one-sided at the ste
     }
 }
 
-TEST_CASE("Reversed contact is the forward one run backwards") {
+TEST_CASE("Reversed contact is forward contact run backwards") {
     const auto& mesh = LiangTrain::instance().sun_planet;
     const double c = mesh.contact_ratio();
     const PairSet forward = ring_pair(mesh, 0.0, false);
@@ -66,10 +66,10 @@ TEST_CASE("Reversed contact is the forward one run backwards") {
     }
 }
 
-TEST_CASE("Two broken teeth pass for a contact ratio and a mesh period, either way round") {
+TEST_CASE("Two broken teeth pass within a contact ratio and a mesh period, in both directions") {
     const auto& mesh = LiangTrain::instance().ring_planet;
     const double c = mesh.contact_ratio(), start = 0.37;
-    // Two neighbours of the broken kind.
+    // Two neighbouring teeth of the broken kind.
     struct TwoBroken : stiffness::ToothFault {
         int teeth() const override { return 2; }
         double pair_factor() const override { return 0.0; }
@@ -151,7 +151,8 @@ TEST_CASE("A pit's edges are jumps at the ends of steps") {
                 }
             }
         }
-        // Two edges of two teeth, and the engagements that the passage sees begin or end.
+        // The jumps are two edges of two teeth, and the starts or ends of engagements during the
+        // passage.
         CHECK(jumps >= 4);
     }
 }

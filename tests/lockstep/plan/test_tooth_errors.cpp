@@ -1,4 +1,4 @@
-// Errors of single teeth: who meets whom, and what the load makes of it.
+// Checks errors of single teeth: which teeth meet, and the resulting deflection under load.
 #include <catch2/catch.hpp>
 
 #include "dynamics/gearbox_matrices.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 
-// All gears of the train, without errors: sun, ring, and each planet's two sides.
+// All gears of the train without errors: sun, ring, and both sides of each planet.
 ToothErrors no_errors(const PairSet& pairs, std::size_t lanes) {
     ToothErrors errors{{}, planetary_teeth(pairs, kLiang, gears::PlanetSense::clockwise)};
     for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
@@ -37,7 +37,8 @@ MarchPlan error_plan(int samples, int steps, dynamics::Motion motion) {
 
 }  // namespace
 
-TEST_CASE("Equal errors of all teeth are one error, of both gears, while a tooth pair touches") {
+TEST_CASE(
+    "Equal errors of all teeth act as one error while a tooth pair is in contact, for both gears") {
     const auto& pairs = LiangTrain::instance().pairs;
     const MarchPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
     ToothErrors errors = no_errors(pairs, 1);
@@ -52,7 +53,7 @@ TEST_CASE("Equal errors of all teeth are one error, of both gears, while a tooth
     }
 }
 
-TEST_CASE("A tooth's error is its own while it touches, and follows its slope along the flank") {
+TEST_CASE("A tooth's error acts while it is in contact, and follows its slope along the flank") {
     const auto& train = LiangTrain::instance();
     const auto& pairs = train.pairs;
     const MarchPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
@@ -60,7 +61,7 @@ TEST_CASE("A tooth's error is its own while it touches, and follows its slope al
     const int tooth = 7;
     for (const bool on_sun : {false, true}) {
         ToothErrors errors = no_errors(pairs, 1);
-        // Planet 2, sun side; or the sun.
+        // Sun side of planet 2, or the sun.
         GearErrors& gear = errors.gears[on_sun ? 0 : 4];
         gear.error_m[tooth] = 3e-6;
         gear.slope_m.assign(gear.error_m.size(), 0.0);
@@ -80,7 +81,7 @@ TEST_CASE("A tooth's error is its own while it touches, and follows its slope al
                         tooth_gap(plan, all, 1, static_cast<int>(s), 1, static_cast<int>(j), 0);
                     sum += k_j > 0.0 ? gap : 0.0;
                 }
-                // The sun drives: its flank is touched from the root to the tip.
+                // The sun drives: contact on its flank moves from the root to the tip.
                 const double place = (on_sun ? 1.0 : -1.0) * (since / ratio - 0.5);
                 CHECK(sum == Approx(since < ratio ? 3e-6 + place * 2e-6 : 0.0).margin(1e-15));
             }
@@ -88,21 +89,22 @@ TEST_CASE("A tooth's error is its own while it touches, and follows its slope al
     }
 }
 
-TEST_CASE("A sun tooth carries its error from planet to planet, a ring tooth the other way") {
+TEST_CASE(
+    "A sun tooth's error acts at one planet after the other, a ring tooth's in reverse order") {
     const auto& pairs = LiangTrain::instance().pairs;
     const MarchPlan plan = error_plan(24, 24, dynamics::Motion::torsional);
     for (const bool on_sun : {true, false}) {
         ToothErrors errors = no_errors(pairs, 1);
         errors.gears[on_sun ? 0 : 1].error_m[0] = 1e-6;
         const int teeth = on_sun ? 19 : 81;
-        std::vector<double> met(4, -1.0);  // phase at which the tooth begins to touch
+        std::vector<double> met(4, -1.0);  // phase at which the contact of the tooth begins
         for (int k = 0; k < teeth; ++k) {
             const auto all = tooth_gaps(plan, errors, k);
             const auto before = tooth_gaps(plan, errors, k - 1);
             const int last_step = static_cast<int>(plan.grid.steps.size()) - 1;
             for (std::size_t n = 0; n < 4; ++n) {
                 const auto pair = n + (on_sun ? 0 : 4);
-                // The youngest tooth pair of the last node.
+                // Latest tooth pair of the last node.
                 const auto youngest = [&](const auto& overrides) {
                     return tooth_gap(plan, overrides, static_cast<int>(pair), last_step, 2, 0, 0);
                 };
@@ -121,7 +123,7 @@ TEST_CASE("A sun tooth carries its error from planet to planet, a ring tooth the
 }
 
 TEST_CASE(
-    "Slowly turned, a train follows its tooth errors by the stiffness of the planets' paths") {
+    "At low speed a train follows its tooth errors by the stiffness of the planets' load paths") {
     const auto& train = LiangTrain::instance();
     const auto sun_mesh = stiffness::SquareWaveMesh::constant(3e8);
     const auto ring_mesh = stiffness::SquareWaveMesh::constant(5e8);
@@ -158,7 +160,7 @@ TEST_CASE(
                     std::invalid_argument);
 }
 
-TEST_CASE("Marched with tooth errors, lanes keep their bits; without errors nothing changes") {
+TEST_CASE("Integrated with tooth errors, lanes keep their bits; without errors nothing changes") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = error_plan(12, 1200, dynamics::Motion::torsional);
     ToothErrors errors = no_errors(train.pairs, 8);
@@ -202,7 +204,9 @@ TEST_CASE("Marched with tooth errors, lanes keep their bits; without errors noth
     }
 }
 
-TEST_CASE("Two tooth pairs share a load at rest by their gaps, and the one behind lets go") {
+TEST_CASE(
+    "Two tooth pairs share a static load by their gaps, and the pair with the larger gap can lose "
+    "contact") {
     const auto& gearbox = test::TianGearbox::instance();
     constexpr double k = 3e8, kRatio = 1.5;
     const stiffness::SquareWaveMesh mesh(k, 2.0 * k, kRatio);
@@ -219,14 +223,14 @@ TEST_CASE("Two tooth pairs share a load at rest by their gaps, and the one behin
     in.load_torque_N_m = in.motor_torque_N_m * 48 / 19;
     const double force = in.motor_torque_N_m / gearbox.pinion.base_radius();
     const std::vector<dynamics::GearboxInputs> inputs(8, in);
-    // Pinion tooth 3 has a gap in lanes 1 to 7; the largest is more than the pair deflects.
+    // Pinion tooth 3 has a gap in lanes 1 to 7; the largest is more than the pair's deflection.
     ToothErrors errors{
         {{19, machine::AlignedVector(19 * 8, 0.0)}, {48, machine::AlignedVector(48 * 8, 0.0)}},
         fixed_shaft_teeth()};
     for (std::size_t l = 0; l < 8; ++l) {
         errors.gears[0].error_m[3 * 8 + l] = 0.3 * static_cast<double>(l) * force / k;
     }
-    // It has lost half of its stiffness as well in lanes 2 and 6.
+    // The tooth has also lost half of its stiffness in lanes 2 and 6.
     const stiffness::BrokenTooth family;
     FaultCurves faults{&pairs, shaft_fault_pattern(pairs, 19), {{}}};
     faults.curve[0].resize(8);
@@ -248,7 +252,7 @@ TEST_CASE("Two tooth pairs share a load at rest by their gaps, and the one behin
         for (int i = 1; i < 16; ++i) {
             const double since = mesh_period + i / 16.0 - 3.0;  // of tooth 3
             if (std::abs(since - std::round(2.0 * since) / 2.0) < 1e-9) {
-                continue;  // on a transition
+                continue;  // exactly at a transition
             }
             for (std::size_t l = 0; l < 8; ++l) {
                 const bool touches = since > 0.0 && since < kRatio;

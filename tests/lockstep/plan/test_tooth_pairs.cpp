@@ -1,5 +1,5 @@
-// The tooth pairs one by one: they add up to their pair, forwards and backwards, healthy and
-// faulty.
+// Checks single tooth pairs: they add up to the total of their gear pair, forwards and backwards,
+// healthy and faulty.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -21,7 +21,8 @@ PhaseGrid grid_for(const PairSet& pairs) {
     return make_phase_grid(10, 40, contact_transitions(pairs));
 }
 
-// The faulty tooth pairs of the first passage, at all stages of meshes 0..3, with the totals.
+// Checks the faulty tooth pairs of the first passage at all stages of meshes 0..3 against the
+// totals.
 void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
     const PhaseGrid grid = grid_for(pairs);
     double least = 1e300, most = 0.0;
@@ -46,7 +47,8 @@ void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
 
 }  // namespace
 
-TEST_CASE("Tooth pairs share their pair's stiffness and touch as long as their engagement lasts") {
+TEST_CASE(
+    "Tooth pairs share their gear pair's stiffness and are in contact during their engagement") {
     const auto& train = LiangTrain::instance();
     for (const bool reversed : {false, true}) {
         PairSet pairs = train.pairs;
@@ -61,7 +63,8 @@ TEST_CASE("Tooth pairs share their pair's stiffness and touch as long as their e
                 for (std::size_t pair = 0; pair < 8; ++pair) {
                     const double* own = &nodes.tooth_stiffness[at * 2 * 8 + pair];
                     CHECK(own[0] + own[8] == Approx(nodes.stiffness[at * 8 + pair]).epsilon(1e-12));
-                    // The youngest, from the curve of one tooth pair itself.
+                    // Expected stiffness of the latest tooth pair, from the curve of a single tooth
+                    // pair.
                     const double middle = step.phase + 0.5 * step.length;
                     const double ratio = pairs.curve(static_cast<int>(pair)).contact_ratio();
                     double begun = pairs.start[pair];
@@ -92,7 +95,7 @@ TEST_CASE("Faulty tooth pairs add up to the faulty mesh, on one and on three nei
                                        1, {train.sun.pitch_radius(), 2e-3, 0.0, 3});
     const auto pitted = pits.at(pits.largest_size() / 2);
     const gears::Gear tall{60, false, 2e-3, LiangTrain::kAngle, 1.4, 1.65};
-    const gears::MeshGeometry tall_mesh(tall, tall);  // three tooth pairs at once
+    const gears::MeshGeometry tall_mesh(tall, tall);  // three tooth pairs in contact
     options.body_radius_1_m = options.body_radius_2_m = 0.020;
     const stiffness::CoupledMesh three(tall_mesh, train.steel, stiffness::Profile::root_circle,
                                        options);
@@ -115,7 +118,7 @@ TEST_CASE("Faulty tooth pairs add up to the faulty mesh, on one and on three nei
     }
 }
 
-TEST_CASE("More tooth pairs at once than can push are refused by their number") {
+TEST_CASE("More simultaneous tooth pairs than supported are refused with their number") {
     struct Many : stiffness::MeshStiffness {
         double contact_ratio() const override { return 8.4; }
         double pitch_position() const override { return 4.2; }

@@ -1,4 +1,4 @@
-// Graded grids, and the pilots that choose them.
+// Checks graded grids and the pilots that choose them.
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -35,8 +35,8 @@ PhaseGrid for_integrator(PhaseGrid grid, Integrator integrator) {
     return grid;
 }
 
-// Every sample lies where its step says, once; the steps cover the mesh period and end on every
-// transition.
+// Checks that every sample occurs once in its stated step, and that the steps cover the mesh period
+// and end on every transition.
 void check_grid(const PhaseGrid& grid, const std::vector<double>& transitions) {
     double phase = 0.0;
     int sample = 0;
@@ -101,7 +101,7 @@ TEST_CASE("Graded steps start short after a transition, double, and end on the n
         const double since = since_transition(transitions, step.phase);
         CHECK(step.length < 1.5 * longest_step(grading, since) + 1e-12);
     }
-    // With nothing to start from, steps are long from the beginning.
+    // Steps are long from the beginning if there is no transition.
     CHECK(make_graded_grid(10, {}, {1.0 / 3200, 0.25, 0.01}).steps.size() == 100);
     CHECK_THROWS_AS(make_graded_grid(0, transitions, grading), std::invalid_argument);
     CHECK_THROWS_AS(make_graded_grid(10, transitions, {0.0, 1.0, 1.0}), std::invalid_argument);
@@ -114,7 +114,7 @@ TEST_CASE("A divided grid keeps a node on every sample and no step longer than a
     check_grid(grid, transitions);
     for (const Step& step : grid.steps) {
         CHECK(step.inside == 0);
-        // The allowance of the cell between samples, which may begin before the middle.
+        // Limit of the cell between samples, which may begin before the middle.
         CHECK(step.length <= (step.phase < 0.5 ? 1e-3 : 3.1e-4) + 1e-12);
     }
     CHECK_THROWS_AS(make_divided_grid(10, {}, [](double, double) { return 0.0; }),
@@ -154,7 +154,8 @@ TEST_CASE("Samples inside steps are interpolated at the integrator's order") {
     }
 }
 
-TEST_CASE("Steps by bs3's estimate shorten as the cube root of the tolerance and keep it") {
+TEST_CASE(
+    "Steps by bs3's error estimate decrease with the cube root of the tolerance and meet it") {
     const std::vector<double> transitions = liang_transitions();
     const Pilot pilot = liang_pilot(Integrator::bs3);
     PhaseGrid uniform = make_phase_grid(24, 9600, transitions);
@@ -162,7 +163,7 @@ TEST_CASE("Steps by bs3's estimate shorten as the cube root of the tolerance and
     const StepProfile loose = estimated_profile(pilot, uniform, 2e-5);
     const StepProfile tight = estimated_profile(pilot, uniform, 2e-5 / 8);
     CHECK(loose.longest_step(0.0, 1.0) / tight.longest_step(0.0, 1.0) == Approx(2.0).epsilon(0.01));
-    // Marched with its own steps, the estimate stays within the tolerance.
+    // The error estimate stays within the tolerance on the chosen steps.
     PhaseGrid graded = make_divided_grid(24, transitions, [&](double start, double end) {
         return std::min(1.0 / 4000, tight.longest_step(start, end));
     });
@@ -173,7 +174,7 @@ TEST_CASE("Steps by bs3's estimate shorten as the cube root of the tolerance and
         least =
             std::min(least, again.longest_step(step.phase, step.phase + step.length) / step.length);
     }
-    CHECK(least > 0.8);  // of the steps that it would choose now
+    CHECK(least > 0.8);  // relative to the steps that it would choose now
 }
 
 TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the tolerance") {
@@ -188,7 +189,7 @@ TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the to
     CHECK(choice.error <= kTolerance);
     const std::size_t uniform = grid_of({1.0 / 4000, 0.0, 1.0 / 4000}).steps.size();
     CHECK(choice.grid.steps.size() < uniform);
-    // Against another method's fine steps, for a gearbox and a crack that the pilot has not seen.
+    // Compared with another method's fine steps, for a realization and a crack outside the pilot.
     const auto& train = LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> one{train.inputs(2.0, 1.07e8)};
     const auto faults = train.ring_side_cracks({3e-3});
@@ -201,6 +202,6 @@ TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the to
         const auto& b = exact.records[static_cast<std::size_t>(exact.content[k])];
         CHECK(rms_error(a.acceleration, b.acceleration) < 3 * kTolerance);
     }
-    // What cannot be met is said.
+    // A tolerance that cannot be met is reported.
     CHECK(!choose_grading(pilot, 1.0 / 50, 1e-12, grid_of).reached);
 }

@@ -1,6 +1,6 @@
-// The step limit against the method's known bounds: 2.8284 / omega for an undamped mode and
-// 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2); that of central
-// differences against the spectral radius of a step.
+// Checks the step limit against the method's known bounds: 2.8284 / omega for an undamped mode and
+// 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2). The limit of central
+// differences is compared with the spectral radius of a step.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -27,7 +27,7 @@ TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on 
     const double omega = 5e4;
     CHECK(lockstep::runge_kutta_limit(oscillator(omega * omega, 0.0)).step_s * omega ==
           Approx(2.0 * std::sqrt(2.0)).epsilon(1e-3));
-    // Overdamped: the fast root is close to the damping rate.
+    // Overdamped case: the fast root is close to the damping rate.
     const double rate = 1e7;
     CHECK(lockstep::runge_kutta_limit(oscillator(1e6, rate)).step_s * rate ==
           Approx(2.7853).epsilon(1e-3));
@@ -35,7 +35,7 @@ TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on 
 
 namespace {
 
-// Spectral radius of one step of central differences on (q, v, a before), from the method's own
+// Spectral radius of one step of central differences on (q, v, previous a), from the method's own
 // formulas.
 double central_growth(const dynamics::GearboxMatrices& m, double h) {
     const Eigen::Index n = m.mass.rows();
@@ -49,7 +49,7 @@ double central_growth(const dynamics::GearboxMatrices& m, double h) {
     q << one, h * one, Eigen::MatrixXd::Zero(n, n);
     Eigen::MatrixXd step(3 * n, 3 * n);
     step << q + 0.5 * h * h * a, v + h * a, a;
-    // Scaled so that q, h v and h^2 a are alike in size.
+    // Scaled so that q, h v and h^2 a have similar magnitudes.
     const Eigen::VectorXd scale =
         (Eigen::VectorXd(3 * n) << Eigen::VectorXd::Ones(n), Eigen::VectorXd::Constant(n, h),
          Eigen::VectorXd::Constant(n, h * h))
@@ -58,7 +58,8 @@ double central_growth(const dynamics::GearboxMatrices& m, double h) {
     return dynamics::eigenvalues(scaled).cwiseAbs().maxCoeff();
 }
 
-// What the gearbox itself grows in that time: linearised, the pull on riding planets turns it.
+// Growth due to the model itself in that time: in the linearized equations centrifugal forces on
+// the planets accelerate the rotation.
 double own_growth(const dynamics::GearboxMatrices& m, double h) {
     const Eigen::MatrixXd system = state_matrix(m);
     return std::exp(h * dynamics::eigenvalues(system).real().maxCoeff());
@@ -79,10 +80,10 @@ TEST_CASE("The step limit of central differences is where one mode's step begins
     CHECK(std::isinf(lockstep::central_difference_limit(oscillator(0.0, 0.0))));
 }
 
-TEST_CASE("The step limit of central differences is that of whole gearboxes, turning or not") {
+TEST_CASE("The step limit of central differences holds for whole gearboxes, rotating or not") {
     const auto& train = test::LiangTrain::instance();
     const auto plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
-    for (const double speedup : {1.0, 1000.0}) {  // at 8870 rpm gyroscopic forces are no small part
+    for (const double speedup : {1.0, 1000.0}) {  // gyroscopic forces are significant at 8870 rpm
         for (const double stiffness : {2e8, 1e9}) {
             const auto m = dynamics::assemble(plan.layout, train.inputs(speedup),
                                               std::vector<double>(8, stiffness));
@@ -104,8 +105,8 @@ TEST_CASE("The slowest decay of an oscillator is half its damping rate") {
     CHECK(lockstep::runge_kutta_limit(oscillator(1e8, 500.0)).slowest_decay_1_s == Approx(250.0));
 }
 
-TEST_CASE("What is stiff in Tian's gearbox is the motor coupling's damper; it calls for sdirk3") {
-    // Its rate, from the printed values: c (1/I_m + 1/I_1), the gears barely moving with it.
+TEST_CASE("The stiff mode of Tian's gearbox is the motor coupling's damper; it requires sdirk3") {
+    // Rate of the damper from the printed values, c (1/I_m + 1/I_1); the gears barely move.
     const auto& gearbox = test::TianGearbox::instance();
     const dynamics::GearboxLayout layout = gearbox.layout();
     const dynamics::FixedShaftInputs in = gearbox.inputs();
@@ -117,7 +118,7 @@ TEST_CASE("What is stiff in Tian's gearbox is the motor coupling's damper; it ca
     CHECK(limit.step_s * stiff.rate_1_s == Approx(2.7853).epsilon(1e-3));
     CHECK(choose_integrator(in.mesh_period_s / limit.step_s) == Integrator::sdirk3);
 
-    // A gearbox without heavy dampers is stiff by a spring and marches explicitly.
+    // A gearbox without strong dampers is stiff only by its springs and is integrated explicitly.
     const auto& train = test::LiangTrain::instance();
     const auto plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
     const auto inputs = train.inputs();

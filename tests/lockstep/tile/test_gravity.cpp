@@ -1,4 +1,4 @@
-// Weight against statics: bearings carry all of it, whatever turns.
+// Checks weight against statics: the bearings carry all of it in any rotation.
 #include <catch2/catch.hpp>
 
 #include "lockstep/integrators/facts.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGravity = 9.80665;
 
-// Force of the three central bearings' springs along an axis at a sample, N.
+// Force of the three central bearings' springs along an axis at a sample, in N.
 double bearing_force(const MeshRecord& record, const dynamics::PlanetaryInputs& in, int degrees,
                      std::size_t sample, int axis) {
     double sum = 0.0;
@@ -32,7 +32,7 @@ double weight(const dynamics::PlanetaryInputs& in) {
 
 }  // namespace
 
-TEST_CASE("the bearings of a turning train carry its weight, which turns backwards",
+TEST_CASE("the bearings of a rotating train carry its weight, which rotates backwards",
           "[gravity][lockstep]") {
     const auto& train = test::LiangTrain::instance();
     const MarchPlan plan = train.plan(10, 10, dynamics::Motion::translational_torsional, false);
@@ -51,7 +51,7 @@ TEST_CASE("the bearings of a turning train carry its weight, which turns backwar
     for (std::size_t k = 0; k < 81; ++k) {
         const MeshRecord& record = tile.records[static_cast<std::size_t>(tile.content[k])];
         for (std::size_t s = 0; s < 10; ++s) {
-            // Down in the housing, seen from the carrier.
+            // Vertical direction of the housing in the carrier's frame.
             const double angle =
                 -pi / 2 -
                 2.0 * pi * (static_cast<double>(k) + static_cast<double>(s) / 10.0) / 81.0;
@@ -64,7 +64,8 @@ TEST_CASE("the bearings of a turning train carry its weight, which turns backwar
     CHECK(worst < 1e-6 * weight(in));
 }
 
-TEST_CASE("a marched train rests on its bearings by its weight, too", "[gravity][lockstep]") {
+TEST_CASE("in time integration, too, the bearings of a train carry its weight",
+          "[gravity][lockstep]") {
     const auto& train = test::LiangTrain::instance();
     const auto [integrator, steps] =
         GENERATE(std::pair(Integrator::rk4, 450), std::pair(Integrator::sdirk3, 200));
@@ -89,7 +90,7 @@ TEST_CASE("a marched train rests on its bearings by its weight, too", "[gravity]
     settings.excitation = &excitation;
     const TileResult tile = run_tile<1>(plan, inputs, healthy, settings);
     REQUIRE(tile.status[0] == LaneStatus::ok);
-    // What the springs carry over a mesh period is the weight, but for the change of momentum.
+    // The mean spring force over a mesh period is the weight, apart from the change of momentum.
     double worst = 0.0;
     for (std::size_t k = 0; k < 81; ++k) {
         const MeshRecord& record = tile.records[static_cast<std::size_t>(tile.content[k])];
@@ -105,7 +106,7 @@ TEST_CASE("a marched train rests on its bearings by its weight, too", "[gravity]
     CHECK(worst < 0.01 * weight(in));
 }
 
-TEST_CASE("weight that stands still keeps the orbit and the passage of a fault",
+TEST_CASE("constant weight keeps the periodic orbit and the passage of a fault",
           "[gravity][lockstep]") {
     const auto& train = test::LiangTrain::instance();
     const MarchPlan plan = train.plan(50, 450, dynamics::Motion::translational_torsional, false);
@@ -133,7 +134,7 @@ TEST_CASE("weight that stands still keeps the orbit and the passage of a fault",
             orbit.records[static_cast<std::size_t>(orbit.content[k % orbit.content.size()])];
         const auto& b = all.records[static_cast<std::size_t>(all.content[k])];
         for (std::size_t i = 0; i < a.motion.size(); i += 21) {
-            // The carrier sags and the transmission error is the same.
+            // The carrier is displaced and the transmission error is unchanged.
             CHECK(a.motion[i + 1] == Approx(b.motion[i + 1]).epsilon(1e-5));
             CHECK(a.te[i / 21] == Approx(b.te[i / 21]).epsilon(1e-6));
         }
@@ -145,7 +146,8 @@ TEST_CASE("weight that stands still keeps the orbit and the passage of a fault",
     CHECK(sag == Approx(-weight(in)).epsilon(1e-4));
 }
 
-TEST_CASE("a shaft's gear sags by its weight over its bearing's stiffness", "[gravity][lockstep]") {
+TEST_CASE("the displacement of a shaft's gear is its weight over its bearing's stiffness",
+          "[gravity][lockstep]") {
     dynamics::FixedShaftLayout layout;
     layout.base_radius_m[dynamics::pinion] = 0.03;
     layout.base_radius_m[dynamics::gear] = 0.06;
@@ -181,7 +183,7 @@ TEST_CASE("a shaft's gear sags by its weight over its bearing's stiffness", "[gr
     const double x = std::cos(down) * kGravity, y = std::sin(down) * kGravity;
     CHECK(q[dynamics::x_1] == Approx(1.5 * x / 1e8).margin(1e-16));
     CHECK(q[dynamics::x_2] == Approx(4.0 * x / 2e8).margin(1e-16));
-    // Nothing turns the gears, so the mesh carries nothing, and each gear hangs on its own bearing.
+    // No torque acts, so the mesh force is zero and each bearing carries its own gear.
     CHECK(q[dynamics::y_1] == Approx(1.5 * y / 1e8));
     CHECK(q[dynamics::y_2] == Approx(4.0 * y / 2e8));
 }

@@ -1,4 +1,4 @@
-// One marched mesh period against another solver, a closed form and the method's order.
+// Checks one integrated mesh period against another solver, a closed form and the method's order.
 #include <boost/numeric/odeint.hpp>
 #include <catch2/catch.hpp>
 
@@ -33,8 +33,8 @@ TileState march(const MarchPlan& plan, const dynamics::PlanetaryInputs& in, Tile
     return state;
 }
 
-// The same mesh period by an adaptive Dormand-Prince pair over the assembled matrices, restarted at
-// every contact transition, with the stiffness evaluated afresh.
+// Same mesh period by an adaptive Dormand-Prince pair over the assembled matrices, restarted at
+// every contact transition, with the stiffness evaluated anew.
 std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::PlanetaryInputs& in,
                                    const TileState& from) {
     const auto& train = LiangTrain::instance();
@@ -44,7 +44,7 @@ std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::Planet
     const auto at_rest = dynamics::assemble(plan.layout, in, std::vector<double>(8, 0.0));
     const Eigen::MatrixXd inverse_mass = dynamics::inverse(at_rest.mass);
 
-    double middle = 0.0;  // of the smooth interval: decides which tooth pairs touch
+    double middle = 0.0;  // within the smooth interval: determines the tooth pairs in contact
     const auto derivative = [&](const std::vector<double>& s, std::vector<double>& ds, double t) {
         std::vector<double> k(8, 0.0);
         const double phase = t / in.mesh_period_s;
@@ -85,9 +85,9 @@ std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::Planet
 
 }  // namespace
 
-TEST_CASE("A marched mesh period agrees with an adaptive solver over the assembled matrices") {
+TEST_CASE("An integrated mesh period agrees with an adaptive solver over the assembled matrices") {
     const auto& train = LiangTrain::instance();
-    // Fast enough that inertia, damping and the turning frame all matter.
+    // The speed is high enough for inertia, damping and the rotating frame to have an effect.
     const auto in = train.inputs(20.0);
     const MarchPlan plan = train.plan(24, 9600, dynamics::Motion::translational_torsional);
     const TileState start = rest(plan, in);
@@ -105,7 +105,7 @@ TEST_CASE("A marched mesh period agrees with an adaptive solver over the assembl
     }
 }
 
-TEST_CASE("Runge-Kutta keeps order 4 across the contact transitions, in motion and in the sensor") {
+TEST_CASE("Runge-Kutta keeps order 4 across the contact transitions, in state and sensor signal") {
     const auto& train = LiangTrain::instance();
     const auto in = train.inputs(20.0);
     for (const auto motion :
@@ -127,7 +127,7 @@ TEST_CASE("Runge-Kutta keeps order 4 across the contact transitions, in motion a
     }
 }
 
-TEST_CASE("An undamped mode of a gearbox with constant stiffness swings as its cosine") {
+TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cosine") {
     const auto& train = LiangTrain::instance();
     dynamics::PlanetaryInputs in = train.inputs();
     for (double& c : in.bearing_damping_N_s_m) {

@@ -1,4 +1,4 @@
-// Quasi-static tiles against closed forms of the planets' load paths and a dense solver.
+// Checks quasi-static tiles against closed forms of the planets' load paths and a dense solver.
 #include <catch2/catch.hpp>
 
 #include "dynamics/gearbox_matrices.hpp"
@@ -26,7 +26,7 @@ std::vector<dynamics::GearboxInputs> spread_inputs() {
     return inputs;
 }
 
-// The gearboxes of a tile of eight again, W at a time.
+// The realizations of a tile of eight, recomputed W at a time.
 template <int W>
 void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const std::vector<double>& depths, const TileResult& eight) {
@@ -58,8 +58,8 @@ std::vector<double> at_sample(const MarchPlan& plan, int sample) {
     return {};
 }
 
-// Loaded from the sun, each planet is a path of two springs in series; the paths are parallel and
-// the ring's support carries them all: approach of sun and carrier along the line of action.
+// Approach of sun and carrier along the line of action. Each planet is a path of two springs in
+// series; the paths are parallel, in series with the ring's support.
 double path_stiffness(double sun_mesh, double ring_mesh) {
     return sun_mesh == 0.0 || ring_mesh == 0.0 ? 0.0 : 1.0 / (1.0 / sun_mesh + 1.0 / ring_mesh);
 }
@@ -106,7 +106,7 @@ TEST_CASE("The torsional TE is that of springs in series and parallel at every p
     }
 }
 
-TEST_CASE("The full model rests where a dense orthogonal decomposition says") {
+TEST_CASE("The full model's equilibrium matches a dense orthogonal decomposition") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = train.plan(12, 12, kFull, false);
     const auto inputs = spread_inputs();
@@ -127,7 +127,8 @@ TEST_CASE("The full model rests where a dense orthogonal decomposition says") {
     }
 }
 
-TEST_CASE("A fixed-shaft gearbox winds up by its mesh, its bearings and its couplings") {
+TEST_CASE(
+    "The twist of a fixed-shaft gearbox is that of its mesh, its bearings and its couplings") {
     dynamics::FixedShaftLayout layout;
     layout.base_radius_m[dynamics::pinion] = 0.0283;
     layout.base_radius_m[dynamics::gear] = 0.0716;
@@ -161,11 +162,12 @@ TEST_CASE("A fixed-shaft gearbox winds up by its mesh, its bearings and its coup
     }
 }
 
-TEST_CASE("A planet whose mesh is broken carries nothing; a train without teeth has no rest") {
+TEST_CASE(
+    "A planet whose mesh is broken carries no load; a train without teeth has no equilibrium") {
     const auto& train = LiangTrain::instance();
     MarchPlan plan = train.plan(6, 6, kTorsional);
-    set_pair(plan, 1, 0.0);  // one side of planet 2: its other side holds it
-    set_pair(plan, 2, 0.0);  // both sides of planet 3: nothing holds it, nothing moves it
+    set_pair(plan, 1, 0.0);  // one side of planet 2: its other side supports it
+    set_pair(plan, 2, 0.0);  // both sides of planet 3: without support and without load
     set_pair(plan, 6, 0.0);
     const auto inputs = lanes_of(train.inputs(), 1);
     const TileResult broken = run_quasi_static<1>(plan, inputs, train.no_fault(1), {});
@@ -182,7 +184,8 @@ TEST_CASE("A planet whose mesh is broken carries nothing; a train without teeth 
     CHECK(std::isnan(none.records[0].te[0]));
 }
 
-TEST_CASE("A lane without rest leaves its neighbours their bits, and lanes count for nothing") {
+TEST_CASE(
+    "A lane without equilibrium leaves its neighbours' bits unchanged, for any number of lanes") {
     const auto& train = LiangTrain::instance();
     const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
     for (const auto motion : {kTorsional, kFull}) {
@@ -209,7 +212,7 @@ TEST_CASE("A lane without rest leaves its neighbours their bits, and lanes count
     }
 }
 
-TEST_CASE("A crack winds the train up further while its tooth carries, and only then") {
+TEST_CASE("A crack increases the twist of the train while its tooth carries load, and only then") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = train.plan(24, 24, kTorsional);
     const TileResult tile = run_quasi_static<8>(
@@ -230,13 +233,13 @@ TEST_CASE("A crack winds the train up further while its tooth carries, and only 
         CHECK((l == 0 ? more == 0.0 : more > before));
         before = more;
     }
-    // Meshes 0 and 1, which the contact ratio of 1.9 reaches into, and at most a third.
+    // Meshes 0 and 1, which a contact ratio of 1.9 covers, and at most a third.
     CHECK(std::count(tile.content.begin(), tile.content.end(), 0) >= 28);
 }
 
-TEST_CASE("Static errors share the load anew, open meshes and press back flanks") {
-    // By bisection: path n carries K_n (x - e_n) if positive, and with backlash K_n (x - e_n + 4 b)
-    // if negative, for an approach x and the sum e_n of its two meshes' errors.
+TEST_CASE("Static errors redistribute the load, separate meshes and load back flanks") {
+    // By bisection: the load of path n is K_n (x - e_n) if positive, and with backlash K_n (x - e_n
+    // + 4 b) if negative, for an approach x and the sum e_n of its two meshes' errors.
     const auto& train = LiangTrain::instance();
     const double force = 429.0 / train.sun.base_radius();
     const auto paths_force = [&](const std::vector<double>& k, const std::vector<double>& e,

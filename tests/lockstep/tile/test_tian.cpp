@@ -1,5 +1,5 @@
-// Tian's gearbox (2004, chapter 4) with Table 4.1 as printed: published frequencies, a closed form
-// and an independent solution of the printed equations.
+// Checks Tian's gearbox (2004, chapter 4) with Table 4.1 as printed against published frequencies,
+// a closed form and an independent solution of the printed equations.
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <complex>
@@ -21,9 +21,9 @@ namespace {
 constexpr double kPeriod_s = 1.0 / TianGearbox::kMeshFrequency_Hz;
 
 constexpr int kSamples = 600;
-constexpr double kLowPass_rad_s = 2 * pi * 100e3;  // hears all there is
+constexpr double kLowPass_rad_s = 2 * pi * 100e3;  // above all relevant frequencies
 
-// The healthy orbit from the pinion's bearing.
+// Healthy periodic orbit with the sensor on the pinion's bearing.
 TileResult orbit(const TianGearbox& gearbox, int steps, Integrator integrator) {
     MarchPlan plan = gearbox.plan(kSamples, steps, integrator);
     plan.low_pass_rad_s = kLowPass_rad_s;
@@ -59,13 +59,13 @@ long dominant(const std::vector<double>& amplitudes) {
     return std::max_element(amplitudes.begin() + 1, amplitudes.end()) - amplitudes.begin();
 }
 
-// Times, s, of the local extremes of one mesh period's samples.
+// Times of the local extremes of one mesh period's samples, in s.
 std::vector<double> extremes(const std::vector<double>& x) {
     std::vector<double> times;
     for (std::size_t i = 1; i + 1 < x.size(); ++i) {
         const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
         if (before * after < 0.0) {
-            // Where the parabola through the three samples turns.
+            // Vertex of the parabola through the three samples.
             const double turn = static_cast<double>(i) + 0.5 * (before + after) / (before - after);
             times.push_back(turn * kPeriod_s / static_cast<double>(x.size()));
         }
@@ -87,7 +87,8 @@ double oscillation_Hz(const std::vector<double>& times, double from, double to) 
     return 0.5 * halves / (last - first);
 }
 
-// Couplings and bearings held by their dampers: pinion with motor against gear with load.
+// Natural frequency with couplings and bearings fixed by their dampers: pinion with motor against
+// gear with load.
 double closed_form_Hz(const TianGearbox& gearbox, double stiffness) {
     const auto in = gearbox.inputs();
     const double r1 = gearbox.pinion.base_radius(), r2 = gearbox.gear.base_radius();
@@ -106,9 +107,10 @@ double mean_between(const TianGearbox& gearbox, double from, double to) {
     return sum / kParts;
 }
 
-// Eqs. 4.3-4.8 in y1 y2 and the angles of motor, pinion, gear and load, printed torques and all
-// (but for the sign in Eq. 4.4), by the trapezoidal rule with 1754 equal steps a mesh period, which
-// knows nothing of transitions. Pinion's y'' and R1 th1 - R2 th2 over the last of `meshes` periods.
+// Solves Eqs. 4.3-4.8 in y1 y2 and the angles of motor, pinion, gear and load with the printed
+// torques (except the sign in Eq. 4.4). The trapezoidal rule has 1754 equal steps per mesh period,
+// independent of transitions. Gives pinion's y'' and R1 th1 - R2 th2 over the last of `meshes`
+// periods.
 struct DenseSolution {
     std::vector<double> acceleration, turn;
 };
@@ -124,7 +126,7 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
         in.inertia_kg_m2[1], in.load_inertia_kg_m2;
     load << 0, 0, in.motor_torque_N_m, 0, 0, -in.load_torque_N_m;
     mesh << -1, 1, 0, r1, -r2, 0;
-    // Bearings and couplings of these coefficients.
+    // Matrices with these coefficients of bearings and couplings.
     const auto with = [&](double bearing, double coupling) {
         Matrix m = Matrix::Zero();
         m(0, 0) = m(1, 1) = bearing;
@@ -140,7 +142,7 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
         return gearbox.pairs.total(0, static_cast<double>(step % kSteps) / kSteps);
     };
 
-    // From the train speeding up without vibration.
+    // Start: the train accelerates without vibration.
     Vector turn;
     turn << 0, 0, 1 / r1, 1 / r1, 1 / r2, 1 / r2;
     const Vector inertia = mass.cwiseProduct(turn);
@@ -184,7 +186,7 @@ TEST_CASE("Tian's gearbox as printed agrees with a dense solution of his equatio
             INFO("order " << order);
             CHECK(ours[order] == Approx(expected[order]).margin(0.01 * expected[7]));
         }
-        // The deflection of the mesh's rotations: amplitudes of their first harmonics.
+        // Amplitudes of the first harmonics of the mesh's rotational deflection.
         std::vector<double> turn;
         for (std::size_t i = 0; i < kSamples; ++i) {
             const double* q = tile.records[0].motion.data() + i * dynamics::fixed_shaft_motions;
@@ -199,7 +201,7 @@ TEST_CASE("Tian's gearbox as printed agrees with a dense solution of his equatio
 
 TEST_CASE(
     "The 7th harmonic of 570 Hz dominates the pinion's y acceleration; the 10th without shear") {
-    // The thesis reads the 6th and the 8th off its plots; see tests/peers/tian-loose-tolerances.
+    // The thesis reads the 6th and the 8th from its plots; see tests/peers/tian-loose-tolerances.
     const TianGearbox shearless(false);
     CHECK(dominant(harmonics(
               along_y(orbit(TianGearbox::instance(), 1200, Integrator::sdirk3).records[0]), 15)) ==
@@ -208,10 +210,10 @@ TEST_CASE(
           10);
 }
 
-TEST_CASE("With steady stiffness the gearbox swings at the closed form's frequency") {
+TEST_CASE("With constant stiffness the gearbox oscillates at the closed form's frequency") {
     const TianGearbox& gearbox = TianGearbox::instance();
     const double leaves = gearbox.pair.contact_ratio() - 1.0;
-    const double published[] = {3788.0, 3049.0};  // two pairs touch, one pair
+    const double published[] = {3788.0, 3049.0};  // two pairs in contact, one pair
     const double from[] = {0.0, leaves}, to[] = {leaves, 1.0};
     for (std::size_t zone = 0; zone < 2; ++zone) {
         const double k = mean_between(gearbox, from[zone], to[zone]);
@@ -224,7 +226,7 @@ TEST_CASE("With steady stiffness the gearbox swings at the closed form's frequen
         plan.nodes.damping_shape = plan.nodes.stiffness;
         const dynamics::GearboxInputs in = gearbox.inputs();
         Eigen::VectorXd q = dynamics::static_equilibrium(dynamics::assemble(plan.layout, in, {k}));
-        q(dynamics::u_m) += 1e-6;  // motor and pinion turned together
+        q(dynamics::u_m) += 1e-6;  // motor and pinion rotated together
         q(dynamics::u_1) += 1e-6;
         TileState state;
         state.q.assign(q.begin(), q.end());
@@ -232,22 +234,24 @@ TEST_CASE("With steady stiffness the gearbox swings at the closed form's frequen
         state.filter.assign(2 * kFilterStates, 0.0);
         MeshRecord record = make_record(plan, 1, false);
         (*make_mesh_march<1>(plan, std::span(&in, 1)))({}, state, record);
-        // Extremes of the acceleration once the shock of letting go is over.
+        // Extremes of the acceleration after the initial transient.
         CHECK(oscillation_Hz(extremes(along_y(record)), 0.1e-3, 0.9e-3) ==
               Approx(expected).epsilon(0.01));
     }
 }
 
-TEST_CASE("After each transition of the orbit the published oscillations ring out") {
+TEST_CASE(
+    "After each transition of the periodic orbit the published oscillations occur and decay") {
     const TianGearbox& gearbox = TianGearbox::instance();
     const auto times = extremes(along_y(orbit(gearbox, 1200, Integrator::sdirk3).records[0]));
     const double leaves = (gearbox.pair.contact_ratio() - 1.0) * kPeriod_s;
-    constexpr double kAfter = 0.1e-3;  // the shock itself
+    constexpr double kAfter = 0.1e-3;  // end of the initial transient
     CHECK(oscillation_Hz(times, kAfter, leaves - kAfter) == Approx(3788.0).epsilon(0.08));
     CHECK(oscillation_Hz(times, leaves + 0.04e-3, kPeriod_s) == Approx(3049.0).epsilon(0.08));
 }
 
-TEST_CASE("A broken tooth leaves no stiffness where it should carry alone, and the march lives") {
+TEST_CASE(
+    "A broken tooth has zero stiffness in the single-pair zone, and time integration succeeds") {
     const TianGearbox& gearbox = TianGearbox::instance();
     const stiffness::BrokenTooth family;
     FaultCurves faults = gearbox.no_fault(1);
@@ -270,8 +274,9 @@ TEST_CASE("A broken tooth leaves no stiffness where it should carry alone, and t
     REQUIRE(tile.status[0] == LaneStatus::ok);
     REQUIRE(tile.content[1] > 0);
     const auto shock = along_y(tile.records[static_cast<std::size_t>(tile.content[1])]);
-    // Free of the mesh, motor and load push the gears apart for part of a period; then one pair
-    // takes over alone: the shock dwarfs the healthy one and rings at Tian's 2530 Hz.
+    // The mesh is open for part of a period, so motor and load accelerate the gears apart. Then one
+    // pair takes the load: its transient is much larger than the healthy one and oscillates at
+    // Tian's 2530 Hz.
     const auto healthy = along_y(tile.records[0]);
     const auto peak = [](const std::vector<double>& x) {
         double largest = 0.0;

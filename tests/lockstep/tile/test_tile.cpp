@@ -1,6 +1,8 @@
-// Tiles: the healthy orbit, the passage of a crack, and lanes that never feel their neighbours.
+// Checks tiles: the healthy periodic orbit, the passage of a crack, and lanes that are independent
+// of their neighbours.
 #include <catch2/catch.hpp>
 
+#include "lockstep/integrators/facts.hpp"
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
@@ -32,7 +34,7 @@ std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t la
     return result;
 }
 
-// Lane `lane`'s acceleration and TE over the whole pattern.
+// Acceleration and TE of lane `lane` over the whole pattern.
 std::vector<double> unrolled(const TileResult& tile, std::size_t lane, std::size_t width) {
     std::vector<double> all;
     for (const int id : tile.content) {
@@ -47,7 +49,7 @@ std::vector<double> unrolled(const TileResult& tile, std::size_t lane, std::size
 
 const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
 
-// The gearboxes of a tile of eight again, W at a time.
+// The realizations of a tile of eight, recomputed W at a time.
 template <int W>
 void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const TileResult& eight) {
@@ -107,10 +109,10 @@ TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
     }
 }
 
-TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
+TEST_CASE("Reused periodic orbits and passages agree with integration of every mesh period") {
     const auto& train = LiangTrain::instance();
     const auto inputs = spread_inputs();
-    // Decay within a few periods, and a disturbance that outlives the pattern.
+    // One disturbance decays within a few periods, the other outlasts the pattern.
     for (const double speedup : {kSpeedup, 60.0}) {
         const MarchPlan plan = train.plan(24, 1200, kFull);
         const std::vector<dynamics::GearboxInputs> one{train.inputs(speedup)};
@@ -123,7 +125,8 @@ TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
         const TileResult b = run_tile<1>(plan, one, faults, march);
         REQUIRE(a.status[0] == LaneStatus::ok);
         double difference = 0.0, scale = 0.0;
-        for (std::size_t k = 31 * 11; k < 31 * 12; ++k) {  // once the march has settled as well
+        // Compares after full integration has converged as well.
+        for (std::size_t k = 31 * 11; k < 31 * 12; ++k) {
             const auto& ra = a.records[static_cast<std::size_t>(a.content[k % 31])];
             const auto& rb = b.records[static_cast<std::size_t>(b.content[k])];
             for (std::size_t i = 0; i < ra.acceleration.size(); ++i) {
@@ -137,14 +140,15 @@ TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
     }
 }
 
-TEST_CASE("A gearbox without a fault shows one mesh period, at rest in the mean") {
+TEST_CASE("A gearbox without a fault has one mesh period, with zero mean displacement") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = train.plan(24, 1200, kFull);
     const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
     const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), {});
     CHECK(tile.records.size() == 1);
     CHECK(tile.content == std::vector<int>{0});
-    // The orbit repeats, so the vibration's mean acceleration is that of the frame alone: W^2 x.
+    // The periodic orbit repeats, so the vibration's mean acceleration is that of the frame alone:
+    // W^2 x.
     for (std::size_t channel = 0; channel < 8; ++channel) {
         double mean = 0.0, rms = 0.0;
         for (std::size_t i = 0; i < 24; ++i) {
@@ -153,5 +157,31 @@ TEST_CASE("A gearbox without a fault shows one mesh period, at rest in the mean"
             rms += a * a / 24;
         }
         CHECK(std::abs(mean) < 0.05 * std::sqrt(rms));
+    }
+}
+
+TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
+    const auto& train = LiangTrain::instance();
+    for (const auto law : {dynamics::MeshLaw::linear, dynamics::MeshLaw::unilateral}) {
+        for (const auto integrator : {Integrator::rk4, Integrator::central_difference}) {
+            MarchPlan plan = train.plan(400, 6000, kFull);
+            plan.mesh_law = law;
+            plan.integrator = integrator;
+            plan.grid.stage_nodes = facts(integrator).stage_nodes;
+            plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
+            const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
+            TileSettings settings;
+            settings.with_motion = true;
+            const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), settings);
+            const machine::AlignedVector& force = tile.records[0].mesh_force;
+            REQUIRE(force.size() == 400 * 8);
+            double sun = 0.0, ring = 0.0;  // the planets' sums, means over the period
+            for (std::size_t i = 0; i < force.size(); ++i) {
+                (i % 8 < 4 ? sun : ring) += force[i] / 400;
+            }
+            const double carried = 429.0 / train.sun.base_radius();
+            CHECK(sun == Approx(carried).epsilon(1e-3));
+            CHECK(ring == Approx(carried).epsilon(1e-3));
+        }
     }
 }

@@ -1,5 +1,5 @@
-// Contact of single tooth pairs at the steps of a mesh period: bounds that hold between samples,
-// and the share of time out of contact.
+// Checks contact of single tooth pairs at the steps of a mesh period: bounds that hold between
+// samples, and the share of time out of contact.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -34,7 +34,7 @@ MarchPlan pushing_plan(Integrator integrator, int samples, int steps) {
     return plan;
 }
 
-// Gaps of up to 0.8 um, which differ from lane to lane.
+// Gaps of up to 0.8 um, different in each lane.
 ToothErrors wavy_errors(std::size_t lanes) {
     const gears::PlanetaryTrain liang{19, 31, 81, 4};
     ToothErrors errors{
@@ -55,17 +55,16 @@ struct Marched {
     std::vector<PairGaps> gaps;
 };
 
-// Mesh periods `meshes` of them, with their step states.
+// Integrates `meshes` mesh periods and keeps their step states.
 std::vector<Marched> march(const MarchPlan& plan, const ToothErrors& errors,
                            const std::vector<dynamics::GearboxInputs>& inputs, int meshes) {
     const auto march_mesh = make_mesh_march<8>(plan, inputs);
     const RigidRotation rotation(plan.layout, inputs);
-    const ToothContact contact(plan, dynamics::mesh_periods_s(inputs));
     TileState state = rest_state(plan, inputs);
     std::vector<Marched> all;
     for (int k = 0; k < meshes; ++k) {
         Marched one{make_record(plan, 8, true), tooth_gaps(plan, errors, k)};
-        contact.ask_for_steps(one.record);
+        size_step_states(plan, 8, one.record);
         (*march_mesh)({{}, one.gaps}, state, one.record);
         rotation.remove(state);
         all.push_back(std::move(one));
@@ -81,7 +80,7 @@ std::vector<dynamics::GearboxInputs> eight_trains() {
     return inputs;
 }
 
-// The least over all stretches, pairs and tooth pairs of each lane.
+// Minimum of each lane over all stretches, pairs and tooth pairs.
 std::vector<double> least_of_lanes(const machine::AlignedVector& bounds) {
     std::vector<double> least(8, INFINITY);
     for (std::size_t i = 0; i < bounds.size(); ++i) {
@@ -92,7 +91,8 @@ std::vector<double> least_of_lanes(const machine::AlignedVector& bounds) {
 
 }  // namespace
 
-TEST_CASE("Step states hold the motion at the samples and pass from one mesh period to the next") {
+TEST_CASE(
+    "Step states hold the state at the samples and continue from one mesh period to the next") {
     for (const Integrator integrator : {Integrator::rk4, Integrator::central_difference}) {
         INFO(name(integrator));
         const MarchPlan plan = pushing_plan(integrator, 24, 1200);
@@ -108,7 +108,8 @@ TEST_CASE("Step states hold the motion at the samples and pass from one mesh per
                       record.motion[static_cast<std::size_t>(sample) * size + i]);
             }
         }
-        // Between samples too, positions change by the velocities: to the second order of a step.
+        // The change of displacement between samples matches the velocity to second order of the
+        // step.
         double largest = 0.0, deviation = 0.0;
         for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
             const double h = plan.grid.steps[s].length * dynamics::mesh_period_s(eight_trains()[0]);
@@ -123,7 +124,7 @@ TEST_CASE("Step states hold the motion at the samples and pass from one mesh per
     }
 }
 
-TEST_CASE("A bound of contact by long steps holds for the motion that short ones find") {
+TEST_CASE("A contact bound from long steps holds for the state that short steps find") {
     const ToothErrors errors = wavy_errors(8);
     const auto inputs = eight_trains();
     for (const Integrator integrator : {Integrator::rk4, Integrator::central_difference}) {
@@ -139,8 +140,7 @@ TEST_CASE("A bound of contact by long steps holds for the motion that short ones
             least_of_lanes(fine_contact.least_pressing(exact[5].record, exact[5].gaps, nullptr));
         for (std::size_t l = 0; l < 8; ++l) {
             INFO("lane " << l);
-            // Pressed together by 1 um; long steps of order 2 are off by up to 3 % of it
-            // themselves.
+            // Contact deflection is 1 um; long steps of order 2 have an error of up to 3 % of it.
             CHECK(bound[l] < 1.1 * found[l]);
             CHECK(bound[l] > found[l] - 2e-7);
         }
@@ -167,10 +167,10 @@ TEST_CASE("Bounds of parts add up to a bound of their sum") {
     CHECK(tightest < 1e-6);
 }
 
-// Every other tooth of the pinion has a gap that no load closes: while its tooth pair has company,
-// it carries nothing. With contact ratio c between 1 and 2 that is 2 (c - 1) of its engagement of
-// c, so that the share over all tooth pairs is (c - 1) / c.
-TEST_CASE("The share of time out of contact of deep gaps is that of the double-pair zones") {
+// Every second pinion tooth has a gap that no load closes: its tooth pair carries no load while
+// another pair does. With contact ratio c between 1 and 2 that is 2 (c - 1) of its engagement of c,
+// so the share over all tooth pairs is (c - 1) / c.
+TEST_CASE("The share of time out of contact of large gaps is that of the double-pair zones") {
     const auto& gearbox = test::TianGearbox::instance();
     for (const double ratio : {1.25, 1.5, 1.75}) {
         INFO("contact ratio " << ratio);
@@ -188,7 +188,7 @@ TEST_CASE("The share of time out of contact of deep gaps is that of the double-p
             {{20, machine::AlignedVector(20 * 4, 0.0)}, {48, machine::AlignedVector(48 * 4, 0.0)}},
             fixed_shaft_teeth()};
         for (std::size_t tooth = 0; tooth < 20; tooth += 2) {
-            errors.gears[0].error_m[tooth * 4 + 1] = 1e-3;  // of lane 1 alone
+            errors.gears[0].error_m[tooth * 4 + 1] = 1e-3;  // in lane 1 alone
         }
         FaultCurves faults{&pairs, {}, {}};
         faults.tooth_errors = &errors;
@@ -202,7 +202,8 @@ TEST_CASE("The share of time out of contact of deep gaps is that of the double-p
     }
 }
 
-TEST_CASE("One mesh period in 144 counts, with every tooth of any gear, and the first") {
+TEST_CASE(
+    "One mesh period in 144 is evaluated, including every tooth of any gear and the first one") {
     for (const int teeth : {1, 19, 20, 24, 31, 64, 81}) {
         INFO(teeth << " teeth");
         std::vector<int> counted(static_cast<std::size_t>(teeth), 0);
@@ -218,7 +219,7 @@ TEST_CASE("One mesh period in 144 counts, with every tooth of any gear, and the 
     }
 }
 
-TEST_CASE("Share of time out of contact keeps its bits for any lanes and vanishes under load") {
+TEST_CASE("The share of time out of contact keeps its bits for any lanes and is zero under load") {
     const MarchPlan plan = pushing_plan(Integrator::rk4, 24, 1200);
     auto inputs = eight_trains();
     for (dynamics::GearboxInputs& in : inputs) {

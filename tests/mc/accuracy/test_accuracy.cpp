@@ -1,5 +1,5 @@
-// What accuracy costs: errors against closed forms and an independent method, and the choice that
-// numerics.tolerance makes.
+// Checks the error and cost of solver settings: errors against closed forms and an independent
+// method, and the choice of numerics.tolerance.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,7 +21,7 @@ using test::shipped_study;
 
 namespace {
 
-// Tian's cracked pinion behind a sensor of a narrower band, so that it is cheap.
+// Tian's cracked pinion with a sensor of narrower band, to reduce computation time.
 const std::vector<std::string> kNarrow{"sensor.sampling_Hz=17100", "sensor.low_pass_Hz=7695",
                                        "sensor.encoder_sampling_Hz=17100"};
 
@@ -68,7 +68,7 @@ TEST_CASE("errors of a pilot are relative L2 norms") {
     CHECK(std::isinf(pilot_error(failed, reference).largest_feature()));
 }
 
-TEST_CASE("the reference is what two independent methods converge to", "[accuracy]") {
+TEST_CASE("the reference is the limit of two independent methods", "[accuracy]") {
     const Reference reference = tian_reference();
     CHECK(reference.reached);
     CHECK(reference.first.integrator != reference.second.integrator);
@@ -76,7 +76,7 @@ TEST_CASE("the reference is what two independent methods converge to", "[accurac
     CHECK(reference.agreement.sensor > 0.0);
 }
 
-TEST_CASE("Singles march the gearboxes of doubles but for rounding", "[accuracy]") {
+TEST_CASE("Single and double precision agree except for rounding", "[accuracy]") {
     const auto yang = [](std::vector<std::string> more) {
         more.insert(more.end(), {"numerics.integrator=rk4", "numerics.steps_per_mesh=384"});
         return Scene(shipped_study("published/yang-fig-15.toml", more));
@@ -92,7 +92,7 @@ TEST_CASE("Singles march the gearboxes of doubles but for rounding", "[accuracy]
     CHECK(error.largest_feature() < 1e-3);
 }
 
-TEST_CASE("numerics.tolerance keeps the features and costs less", "[accuracy]") {
+TEST_CASE("numerics.tolerance keeps the features and reduces the cost", "[accuracy]") {
     const Reference reference = tian_reference();
     const Scene own(tian());
     const Pilot pilot(own);
@@ -113,7 +113,7 @@ TEST_CASE("numerics.tolerance keeps the features and costs less", "[accuracy]") 
                      before.meshes_per_tile());
 }
 
-TEST_CASE("a tolerance chooses the same on any lanes and instruction set", "[accuracy]") {
+TEST_CASE("a tolerance leads to the same choice on any lanes and instruction set", "[accuracy]") {
     const NumericsChoice choice = *resolve_numerics(tian({"numerics.tolerance=1e-3"})).choice;
     for (const char* other : {"numerics.lanes=1", "numerics.instruction_set=baseline"}) {
         const NumericsChoice again =
@@ -123,7 +123,7 @@ TEST_CASE("a tolerance chooses the same on any lanes and instruction set", "[acc
     }
 }
 
-TEST_CASE("a study with its choice spelled out reads back to the same choice", "[accuracy]") {
+TEST_CASE("a study with its choice written out leads to the same choice", "[accuracy]") {
     const Study study = resolve_numerics(tian({"numerics.tolerance=1e-3"})).study;
     const StudyReading back = read_study_text(resolved_text(study), "resolved");
     INFO(format(back.problems));
@@ -132,12 +132,12 @@ TEST_CASE("a study with its choice spelled out reads back to the same choice", "
     CHECK(resolve_numerics(*back.study).study == study);
 }
 
-TEST_CASE("a tolerance that the steps given cannot keep is refused", "[accuracy]") {
+TEST_CASE("a tolerance that the given steps cannot meet is refused", "[accuracy]") {
     const Study study = tian(
         {"numerics.tolerance=1e-3", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
     CHECK_THROWS_AS(resolve_numerics(study), SceneError);
     CHECK_THROWS_WITH(resolve_numerics(study),
-                      Catch::Contains("no rung keeps the features within 0.001"));
+                      Catch::Contains("no solver setting keeps the features within 0.001"));
 }
 
 TEST_CASE("every integrator has a row in the table of step costs", "[accuracy]") {
@@ -147,15 +147,15 @@ TEST_CASE("every integrator has a row in the table of step costs", "[accuracy]")
     }
 }
 
-// Newmark has order 2: four times the steps leave a sixteenth of its error.
-TEST_CASE("the numerical error that finer steps find is the error against a reference",
+// The error of Newmark decreases as the square of the step: four times the steps leave a sixteenth.
+TEST_CASE("the numerical error from finer steps equals the error against a reference",
           "[accuracy]") {
     const Scene scene(tian(
         {"numerics.verify=true", "numerics.integrator=newmark", "numerics.steps_per_mesh=480"}));
     const auto found = find_numerical_error(scene);
     REQUIRE(found.has_value());
     CHECK(found->gearboxes == 8);
-    const Pilot pilot(scene);  // the study has two kinds of gearboxes, and both pilots hold them
+    const Pilot pilot(scene);  // the study has two kinds of gearboxes, and both pilots contain them
     const PilotError error = pilot_error(pilot.run(scene), tian_reference().record);
     const auto& use = scene.study().features.use;
     const auto rms =
@@ -165,7 +165,7 @@ TEST_CASE("the numerical error that finer steps find is the error against a refe
     CHECK_FALSE(find_numerical_error(Scene(tian())).has_value());
 }
 
-TEST_CASE("the share of verdicts that a numerical error could turn is counted", "[accuracy]") {
+TEST_CASE("the share of verdicts that the numerical error could change is counted", "[accuracy]") {
     Results r;
     r.parameters = {{"fault_depth_m", "m", {}}};
     r.noise_levels = {1.0};
@@ -187,14 +187,14 @@ TEST_CASE("the share of verdicts that a numerical error could turn is counted", 
     level.threshold = 0.955;
     level.cells = {{{0.001, 0.001}, 100, 54, 0, 0.54, 0.44, 0.64, {}}};
     r.detection = {{"te_rms", analysis::Alarm::high, {level}, {}}};
-    // Within 2 x 0.01 of 0.955 lie 0.94, 0.95, 0.96 and 0.97.
+    // Verdicts within 2 x 0.01 of 0.955: 0.94, 0.95, 0.96 and 0.97.
     r.numerical = NumericalError{"here", "finer", 8, {0.004}, {0.01}};
     const auto shares = numerical_shares(r, ColumnRows(r), std::nullopt);
     REQUIRE(shares.size() == 1);
     CHECK(shares[0].pd == Approx(0.04));
     CHECK(shares[0].pd_half_width == Approx(0.1));
     CHECK_FALSE(shares[0].numerical_dominates);
-    // Standard deviation of 0 ... 99 is sqrt(100 101 / 12).
+    // The standard deviation of 0 ... 99 is sqrt(100 101 / 12).
     CHECK(shares[0].spread == Approx(0.01 * std::sqrt(100.0 * 101.0 / 12.0)));
     CHECK(std::isnan(shares[0].a90));
 
@@ -223,7 +223,8 @@ std::string sets() {
 
 }  // namespace
 
-TEST_CASE("accuracy lists every rung, marks the frontier and says what is refused", "[accuracy]") {
+TEST_CASE("accuracy lists every solver setting, marks the frontier and reports what is refused",
+          "[accuracy]") {
     const test::Folder folder;
     test::write_bytes(
         folder.file("peers.csv"),
@@ -244,7 +245,7 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
     std::vector<std::pair<double, double>> frontier;
     double fastest = 1e9, closest = 1e9;
     for (const auto& rung : json["rungs"]) {
-        // A rung may be unstable: then it has no error.
+        // A solver setting may be unstable: then it has no error.
         if (rung.contains("refused") || rung["error"]["worst_feature"].is_null()) {
             continue;
         }
@@ -262,14 +263,15 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
     for (std::size_t i = 1; i < frontier.size(); ++i) {
         CHECK(frontier[i].second < frontier[i - 1].second);
     }
-    // 1e-3 is kept with fewer steps and less settling than the study's own.
+    // A tolerance of 1e-3 is met with fewer steps and fewer run-in mesh periods than the study's
+    // own.
     CHECK(json["choices"][1]["tolerance"].get<double>() == 1e-3);
     CHECK(json["choices"][1].contains("chosen"));
     CHECK(json["left_out"].empty());
 }
 
-// However little time there is, the study's own rung is held against two methods.
-TEST_CASE("accuracy leaves out what it has no time for, and says so", "[accuracy]") {
+// The study's own setting is compared with two methods even under a short time limit.
+TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy]") {
     AccuracyRequest request;
     request.seconds = 1e-3;
     const AccuracyReport report = measure_accuracy(tian(), request);
@@ -288,15 +290,16 @@ TEST_CASE("accuracy leaves out what it has no time for, and says so", "[accuracy
     }
     const std::string text = accuracy_text(report);
     const std::vector<std::string> said{
-        "left out, the time was up", std::to_string(untried) + " rungs",
-        "what numerics.tolerance = 0.001 chooses", "rungs settled more loosely", "detection rates"};
+        "omitted because the time had run out", std::to_string(untried) + " solver settings",
+        "the choice for numerics.tolerance = 0.001", "settings with a looser settle_tolerance",
+        "detection rates"};
     for (const std::string& what : said) {
         INFO(what);
         CHECK(text.find(what) != std::string::npos);
     }
 }
 
-TEST_CASE("accuracy says what it cannot do", "[accuracy]") {
+TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
     const test::Outcome still =
         test::program("accuracy " + test::study("published/park-fig-13.toml"));
     CHECK(still.code == kBadInput);
@@ -308,5 +311,5 @@ TEST_CASE("accuracy says what it cannot do", "[accuracy]") {
         test::program("accuracy " + test::study("published/tian-fig-4-9.toml") +
                       " --quiet --peers " + folder.file("bad.csv"));
     CHECK(bad.code == kBadInput);
-    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is no number >= 0"));
+    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
 }

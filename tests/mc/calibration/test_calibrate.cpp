@@ -1,4 +1,4 @@
-// Calibration recovers what synthetic recordings were made with.
+// Checks that calibration recovers the inputs from which synthetic recordings were made.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,8 @@ namespace {
 
 using namespace mc;
 
-// Ten times as fast as it is written, and a tenth of the steps: real teeth are marched in 5 ms.
+// Ten times the speed of the study and a tenth of the steps: one gearbox with real teeth takes 5
+// ms.
 const std::vector<std::string> kFast{
     "operation.carrier_speed_rpm=600", "sensor.sampling_Hz=2800",
     "sensor.low_pass_Hz=1200",         "sensor.encoder_sampling_Hz=1400",
@@ -33,7 +34,7 @@ const std::vector<std::string> kUsed{
     "sensor_rms",   "window_ratio", "window_z",       "crest_factor",   "fm4",
     "energy_ratio", "frms",         "sideband_level", "window_kurtosis"};
 
-// Three gearboxes, a record of the whole span each.
+// Three gearboxes with a record of the whole span each.
 struct Synthetic {
     CalibrationTask task;
     std::vector<const features::Feature*> used;
@@ -57,14 +58,14 @@ struct Synthetic {
             used.push_back(features::find_feature(name));
         }
         task.lengths.assign(3, {scene->span_meshes()});
-        // All of these features are positive.
+        // Scales for the features, all of which are positive.
         const RecordValues ones(3, {std::vector<double>(used.size(), 1.0)});
         summary = std::make_unique<SetSummary>(used, ones);
         task.marched = marched;
         task.threads = 2;
     }
 
-    // What was found of the set that `truth` (places in the priors) makes.
+    // Calibration result of the set at `truth` (positions in the priors).
     CalibrationResult find(const std::vector<double>& truth, std::size_t number,
                            std::vector<SimulatedSet>& first) {
         task.measured = simulate_set(*scene, given_at(task.inputs, truth), 1000000 + number,
@@ -74,7 +75,7 @@ struct Synthetic {
     }
 };
 
-// How often each input's 90 % interval holds the truth over so many sets.
+// Share of sets in which each input's 90 % interval holds the truth.
 struct Coverage {
     std::vector<double> held, left;
 };
@@ -99,13 +100,13 @@ Coverage coverage_of(Synthetic& synthetic, std::size_t sets) {
     return coverage;
 }
 
-TEST_CASE("Synthetic sets' tooth errors, background and gain lie in the intervals found") {
+TEST_CASE("Intervals hold the tooth errors, background and gain of synthetic sets") {
     Synthetic synthetic(60);
     const Coverage coverage = coverage_of(synthetic, 10);
     for (std::size_t p = 0; p < kPriors.size(); ++p) {
         INFO(kPriors[p] << ": " << coverage.held[p] << ", left " << coverage.left[p]);
-        CHECK(coverage.held[p] >= 0.6);  // less than that of ten at 90 %: once in 600
-        CHECK(coverage.left[p] < 0.75);  // and the records tell something of each
+        CHECK(coverage.held[p] >= 0.6);  // fewer than in ten sets at 90 %: once in 600
+        CHECK(coverage.left[p] < 0.75);  // and the records are informative about each input
     }
 }
 
@@ -128,7 +129,7 @@ std::string fast() {
     return options;
 }
 
-// Recordings that `simulate` exports: grade 6, 4 m/s^2 of noise.
+// Recordings exported by `simulate`: grade 6, 4 m/s^2 of noise.
 struct Exported {
     Folder folder;
 
@@ -156,7 +157,7 @@ std::string text_of(const std::string& path) {
     return text.str();
 }
 
-TEST_CASE("Exported recordings give a study file that runs, the same for any threads") {
+TEST_CASE("Exported recordings give a study file that runs, independent of the number of threads") {
     const Exported exported(4);
     const std::string prior =
         "--prior gearbox.tooth_quality=3:10 --prior sensor.gain=0.5:2:log "
@@ -170,7 +171,7 @@ TEST_CASE("Exported recordings give a study file that runs, the same for any thr
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.mentions("4 record(s) of 4 gearbox(es)"));
-    CHECK(outcome.mentions("processor seconds"));
+    CHECK(outcome.mentions("s of processor time"));
     CHECK(exported
               .calibrate(exported.records() + prior + "--quiet --json " + folder.file("3.json"),
                          "OMP_NUM_THREADS=3")
@@ -183,16 +184,16 @@ TEST_CASE("Exported recordings give a study file that runs, the same for any thr
     const std::vector<double> truth{6.0, 1.0, 4.0};
     for (std::size_t p = 0; p < truth.size(); ++p) {
         INFO(inputs[p].dump());
-        // One set in ten lies outside of a 90 % interval, but not far.
+        // One set in ten lies outside of a 90 % interval, but close to it.
         const double low = inputs[p]["low"].get<double>(), high = inputs[p]["high"].get<double>();
         CHECK(low - (high - low) <= truth[p]);
         CHECK(high + (high - low) >= truth[p]);
     }
     CHECK(inputs[1]["told"] == true);
-    // The sensor hears nothing of the encoders.
+    // The sensor signal is not sensitive to the encoders.
     CHECK(inputs[3]["told"] == false);
     CHECK(inputs[3]["left"].get<double>() > 0.8);
-    CHECK(outcome.mentions("NOT TOLD by the recordings: this is the prior"));
+    CHECK(outcome.mentions("NOT DETERMINED by the recordings: this is the prior"));
     CHECK(json["features"][0]["name"] == "sensor_rms");
     CHECK(json["features"][0]["reproduced"] == true);
 
@@ -201,7 +202,7 @@ TEST_CASE("Exported recordings give a study file that runs, the same for any thr
     REQUIRE(study.study);
     const RandomInput* noise = study.study->find_random("sensor.noise_m_s2");
     REQUIRE(noise != nullptr);
-    // Draws of all inputs together.
+    // Samples of all inputs together.
     CHECK(noise->distribution.name() == "empirical");
     CHECK(noise->distribution.rows().count == 200);
     CHECK(study.study->random.front().distribution.rows().group ==
@@ -210,14 +211,14 @@ TEST_CASE("Exported recordings give a study file that runs, the same for any thr
           Approx(inputs[2]["median"].get<double>())
               .margin(0.1 * (inputs[2]["high"].get<double>() - inputs[2]["low"].get<double>())));
     CHECK(study.study->detection.uncertain_inputs.size() == 4);
-    CHECK(text_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT TELL IT") !=
+    CHECK(text_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT DETERMINE IT") !=
           std::string::npos);
     CHECK(program("run " + folder.file("c.toml") + " --quiet --instances 2 --out " +
                   folder.file("c.h5"))
               .code == 0);
 }
 
-TEST_CASE("A table of features calibrates as the recordings that it was made of") {
+TEST_CASE("A table of features calibrates as the recordings from which it was made") {
     const Exported exported(3);
     const auto& folder = exported.folder;
     const std::string table = folder.file("t.csv");
@@ -233,7 +234,7 @@ TEST_CASE("A table of features calibrates as the recordings that it was made of"
     INFO(records.output << features.output);
     REQUIRE(records.code == 0);
     REQUIRE(features.code == 0);
-    // The table has ten digits.
+    // Numbers of the table have ten digits.
     const auto a = nlohmann::json::parse(text_of(folder.file("r.json")));
     const auto b = nlohmann::json::parse(text_of(folder.file("t.json")));
     for (std::size_t p = 0; p < a["inputs"].size(); ++p) {
@@ -242,7 +243,7 @@ TEST_CASE("A table of features calibrates as the recordings that it was made of"
     }
 }
 
-TEST_CASE("What no gearbox of the study sounds like is said not to be reproduced") {
+TEST_CASE("Recordings that no gearbox of the study can reproduce are reported as such") {
     const Folder folder;
     write_bytes(folder.file("loud.csv"), "sensor_rms,window_ratio\n20,40\n");
     const Outcome outcome = program("calibrate " + kSmallStudy + fast() + " --features " +
@@ -252,7 +253,7 @@ TEST_CASE("What no gearbox of the study sounds like is said not to be reproduced
     CHECK(outcome.mentions("# NOT REPRODUCED: window_ratio 40, simulated"));
 }
 
-TEST_CASE("Bad input to calibrate ends in one message each and exit code 2") {
+TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
     const Folder folder;
     write_bytes(folder.file("bad.csv"), "time,sensor\n0,1\n1,x\n");
     write_bytes(folder.file("table.csv"), "gearbox,speed\nA,3\n");
@@ -260,18 +261,18 @@ TEST_CASE("Bad input to calibrate ends in one message each and exit code 2") {
     const struct {
         std::string options, message;
     } cases[] = {
-        {"", "no records; give one of --healthy REC..., --manifest T.csv, --features T.csv"},
-        {"--healthy a.csv --features b.csv", "more than one source of records"},
+        {"", "no recordings; give one of --healthy REC..., --manifest T.csv, --features T.csv"},
+        {"--healthy a.csv --features b.csv", "more than one source of recordings"},
         {"--healthy no-such.csv", "no such file"},
         {"--healthy '" + folder.file("none*.csv") + "'", "no file matches"},
-        {"--healthy " + folder.file("bad.csv"), "\"x\" is no number"},
-        {"--features " + folder.file("table.csv"), "has no column named after a sensor's feature"},
+        {"--healthy " + folder.file("bad.csv"), "\"x\" is not a number"},
+        {"--features " + folder.file("table.csv"), "has no column named after a sensor feature"},
         {"--features " + folder.file("text.csv"), "unknown unit furlong"},
-        {"--features " + folder.file("text.csv"), "\"x\" is no finite number"},
+        {"--features " + folder.file("text.csv"), "\"x\" is not a finite number"},
         {"--healthy a.csv --prior sensor.nose=1:2", "unknown key"},
         {"--healthy a.csv --prior sensor.gain=2:1", "LOW must be below HIGH"},
         {"--healthy a.csv --prior sensor.gain=0:1:log", "LOW must be > 0"},
-        {"--healthy a.csv --prior sensor.gain=1", "is no range"},
+        {"--healthy a.csv --prior sensor.gain=1", "is not a range"},
         {"--healthy a.csv --prior fault.reduction=0:1", "healthy gearboxes have no fault"},
         {"--healthy a.csv --prior gearbox.planets=3:4", "may not be random"},
         {"--healthy a.csv --draws 3", "--draws"},
@@ -282,7 +283,7 @@ TEST_CASE("Bad input to calibrate ends in one message each and exit code 2") {
         CHECK(outcome.code == 2);
         CHECK(outcome.mentions(one.message));
     }
-    // A prior beyond a key's range is the study's problem.
+    // A prior beyond a key's range is a problem of the study.
     write_bytes(folder.file("good.csv"), "sensor_rms,window_ratio\n1,1.2\n1.1,1.3\n");
     const Outcome outcome = program("calibrate " + kSmallStudy + " --features " +
                                     folder.file("good.csv") + " --prior sensor.gain=-1:1");

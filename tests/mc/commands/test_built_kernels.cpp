@@ -1,4 +1,4 @@
-// What a program says that was not built with the kernels that a study asks for.
+// Checks the messages of a program that lacks the kernels that a study requires.
 #include <catch2/catch.hpp>
 
 #include "tests/mc/program.hpp"
@@ -7,7 +7,7 @@ using namespace gearpod;
 using test::Outcome;
 using test::study;
 
-TEST_CASE("Lanes that the program was not built with are bad input, named with those it has") {
+TEST_CASE("Lanes without a kernel in this build are bad input, reported with the available ones") {
     for (const int lanes : {1, 4}) {
         const std::string change = " --set numerics.lanes=" + std::to_string(lanes);
         const Outcome here = test::program("describe " + study("planet-crack-ideal.toml") + change);
@@ -23,7 +23,7 @@ TEST_CASE("Lanes that the program was not built with are bad input, named with t
     }
 }
 
-TEST_CASE("Results say which kernels the program was built with") {
+TEST_CASE("Results contain the kernels of the program") {
     const test::Folder folder;
     const std::string out = folder.file("r.h5");
     REQUIRE(test::program("run " + study("planet-crack-ideal.toml") +
@@ -35,8 +35,7 @@ TEST_CASE("Results say which kernels the program was built with") {
     CHECK(kernels.find("abreast for") != std::string::npos);
 }
 
-TEST_CASE(
-    "Singles that do not settle are counted by a program that marches sixteen of them alone") {
+TEST_CASE("Single-precision gearboxes that do not converge are counted with sixteen lanes") {
     const test::Folder folder;
     for (const std::string integrator : {"rk4", "central-difference"}) {
         const Outcome run = test::program(
@@ -50,7 +49,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A grid for singles is graded by a program that marches sixteen of them alone") {
+TEST_CASE("A grid for single precision is graded with sixteen lanes") {
     const Outcome described = test::program(
         "describe " + study("crack-in-sun.toml") + " --set numerics.precision='\"single\"'" +
         " --set numerics.integrator='\"rk4\"' --set numerics.grid='\"graded\"'");

@@ -1,4 +1,5 @@
-// compare: what is paired, what is refused, and that nothing differs from itself.
+// Checks compare: which gearboxes are paired, what is refused, and zero differences of a file from
+// itself.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// Quasi-static, with the sensor out of it: a second or so.
+// Runs a quasi-static study without sensor, in about a second.
 std::string run(const Folder& folder, const std::string& name, const std::string& options) {
     const std::string file = folder.file(name);
     const Outcome run = program("run " + test::study("planet-crack-ideal.toml") +
@@ -53,7 +54,7 @@ TEST_CASE("Comparisons pair the same gearboxes, and only these") {
             CHECK(size["only"] == Json({0, 0}));
         }
     }
-    // Sensor noise leaves the transmission error as it is, in the same gearboxes.
+    // Sensor noise does not change the transmission error of the same gearboxes.
     const Json all = compared(a + " " + noisy + " " + more + " " + other, out);
     const Json& sensor = all["files"][1];
     CHECK(sensor["pairs"] == 140);
@@ -71,14 +72,14 @@ TEST_CASE("Comparisons pair the same gearboxes, and only these") {
     CHECK(all["files"][2]["unpaired"].is_null());
     CHECK(all["files"][3]["pairs"] == 0);
     CHECK(all["files"][3]["unpaired"] == "seed 2 and 5");
-    // Their inputs are other draws, of the same seed and sizes.
+    // Random inputs differ for the same seed and sizes.
     const Json sobol = compared(a + " " + evenly, out)["files"][1];
     CHECK(sobol["pairs"] == 0);
     CHECK_THAT(sobol["unpaired"].get<std::string>(), Catch::Contains("ensemble.sampling"));
     CHECK(sobol["differing_inputs"].empty());
 }
 
-TEST_CASE("Gearboxes of several records are counted once") {
+TEST_CASE("Gearboxes with several records are counted once") {
     const Folder folder;
     const std::string file = run(folder, "r.h5",
                                  "--set ensemble.threshold_records=4 --set "
@@ -92,7 +93,7 @@ TEST_CASE("Gearboxes of several records are counted once") {
     CHECK(report["provenance"]["gearboxes_asked_for"] == "240");
 }
 
-TEST_CASE("Comparisons say what cannot be compared, all of it") {
+TEST_CASE("compare reports everything that cannot be compared") {
     const Folder folder;
     const std::string a = run(folder, "a.h5", "--set sensor.noise_levels=[1]"),
                       b = run(folder, "b.h5",
@@ -111,7 +112,7 @@ TEST_CASE("Comparisons say what cannot be compared, all of it") {
                Catch::Contains("none.h5"));
 }
 
-TEST_CASE("Comparisons say every file that is none, and what is not whole") {
+TEST_CASE("compare reports every missing or incomplete file") {
     const Folder folder;
     const std::string a = run(folder, "a.h5", ""), part = run(folder, "p.h5", "--part 1/2"),
                       text = folder.file("text.h5"), cut = folder.file("cut.h5");
@@ -130,5 +131,5 @@ TEST_CASE("Comparisons say every file that is none, and what is not whole") {
     const Outcome compare = program("compare " + a + " " + part);
     INFO(compare.output);
     CHECK(compare.code == 0);
-    CHECK(compare.mentions("part 1/2 of it alone"));
+    CHECK(compare.mentions("part 1/2 only"));
 }

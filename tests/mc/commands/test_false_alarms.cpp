@@ -1,4 +1,5 @@
-// Studies too small for their false-alarm rate: said before the run, and first of all after it.
+// Checks studies too small for their false-alarm rate: a warning before the run and at the top of
+// its report.
 #include <nlohmann/json.hpp>
 
 #include "tests/mc/program.hpp"
@@ -17,19 +18,20 @@ const std::string kSmall = study("planet-crack-ideal.toml") +
 
 }  // namespace
 
-TEST_CASE("A sample without a threshold is told before the run, and no fault counts as not found") {
+TEST_CASE(
+    "A sample without a threshold is reported before the run, and no fault counts as missed") {
     const Folder folder;
     const std::string rare = kSmall + " --set detection.false_alarm_rate=0.001";
     const Outcome described = program("describe " + rare);
     CHECK(described.mentions("Too few healthy gearboxes for a false-alarm rate of 0.001: 30"));
-    CHECK(described.mentions("takes 999"));
+    CHECK(described.mentions("At least 999 are needed"));
     const std::string results = folder.file("r.h5");
     const Outcome run = program("run " + rare + " --quiet --out " + results);
     REQUIRE(run.code == 0);
-    CHECK(run.mentions("Too few healthy gearboxes"));  // also where only problems are wanted
+    CHECK(run.mentions("Too few healthy gearboxes"));  // also where only problems are printed
     const Outcome report = program("report " + results);
     CHECK(report.output.starts_with("Too few healthy gearboxes for a false-alarm rate of 0.001"));
-    CHECK(report.mentions("no threshold: nothing is known of the faults found"));
+    CHECK(report.mentions("no threshold, so detection is unknown"));
     CHECK(!report.mentions("no tested fault"));
     CHECK(!report.mentions("not reached"));
     REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
@@ -37,19 +39,19 @@ TEST_CASE("A sample without a threshold is told before the run, and no fault cou
     CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
     CHECK(page.find("No tested") == std::string::npos);
     const Outcome compared = program("compare " + results + " " + results);
-    CHECK(compared.mentions("no threshold: nothing is known of the faults found"));
+    CHECK(compared.mentions("no threshold, so detection is unknown"));
     const auto json =
         nlohmann::json::parse(program("compare " + results + " " + results + " --json -").output);
     CHECK(json["files"][1]["shortage"].get<std::string>().starts_with("Too few healthy"));
 }
 
-TEST_CASE("A sweep begins with what its healthy samples do not carry, on its page too") {
+TEST_CASE("A sweep begins with what its healthy samples cannot determine, also on its page") {
     const Folder folder;
     const std::string sweep = "sweep " + kSmall +
                               " --set detection.false_alarm_rate=0.001 --quiet --out " +
                               folder.file("s") + " --vary sensor.noise_m_s2=[1,2]";
     REQUIRE(program(sweep).code == 0);
-    // Finished ones are not computed again, and say it all the same; once, not twice.
+    // Finished points are not computed again; the warning appears again, once.
     const Outcome again = program(sweep + " --html " + folder.file("s.html"));
     REQUIRE(again.code == 0);
     const std::size_t said = again.output.find("Too few healthy gearboxes");
@@ -61,16 +63,16 @@ TEST_CASE("A sweep begins with what its healthy samples do not carry, on its pag
     CHECK(page.find("none in any") == std::string::npos);
 }
 
-TEST_CASE("A sample that does not fix its rate is told, one that does is not") {
+TEST_CASE("A sample that does not determine its rate is reported, one that does is not") {
     const Outcome few = program("describe " + kSmall);
-    CHECK(few.mentions("Few healthy gearboxes for a false-alarm rate of 0.05: 30 fix it"));
+    CHECK(few.mentions("Few healthy gearboxes for a false-alarm rate of 0.05: 30 determine it"));
     const Outcome enough =
         program("describe " + kSmall + " --set ensemble.threshold_instances=100");
     CHECK(!enough.mentions("ew healthy"));
-    CHECK(enough.mentions("100 healthy gearboxes fix it to between"));
+    CHECK(enough.mentions("with 100 healthy gearboxes the true rate is between"));
 }
 
-TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none") {
+TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are required") {
     const Folder folder;
     const std::string results = folder.file("r.h5");
     REQUIRE(program("run " + kSmall + " --quiet --out " + results).code == 0);
@@ -81,7 +83,7 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none")
     const Outcome all = program("report " + results + costs + " --fault-share 0.01");
     CHECK(all.code == 0);
     CHECK(all.mentions("least expected cost by"));
-    CHECK(all.mentions("without any alarm 5"));  // a hundredth of 500
+    CHECK(all.mentions("without any alarm 5"));  // one percent of 500
     CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
     const Outcome bad =
         program("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
@@ -95,7 +97,7 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none")
     CHECK(json.mentions("\"by_false_alarm_rate\""));
 }
 
-TEST_CASE("What a calibration left open is a band of its own, in text, data and page") {
+TEST_CASE("Uncertainty left by a calibration is a separate band in text, data and page") {
     const Folder folder;
     const std::string results = folder.file("r.h5");
     const std::string uncertain =
@@ -107,21 +109,22 @@ TEST_CASE("What a calibration left open is a band of its own, in text, data and 
     REQUIRE(program("run " + uncertain + " --quiet --out " + results).code == 0);
     const Outcome report = program("report " + results);
     INFO(report.output);
-    CHECK(report.mentions("NOT KNOWN of the machine, which more gearboxes do not tell: noise"));
+    CHECK(states(report,
+                 "UNKNOWN properties of the machine, which more gearboxes do not resolve: noise"));
     const auto level =
         nlohmann::json::parse(program("report " + results + " --json -")
                                   .output)["reliability"]["features"][0]["levels"][0];
     const auto band = level["uncertain"];
     CHECK(band["inputs"][0] == "noise_m_s2");
     REQUIRE(band["a90_low"]["where"] == "reached");
-    // The louder machine hides the larger crack.
+    // Higher background noise hides larger cracks.
     CHECK(band["a90_low"]["size"].get<double>() < 0.9 * band["a90_high"]["size"].get<double>());
     CHECK(band["band"]["lower"].size() == level["hit_miss"]["band"]["size"].size());
     REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
     const std::string page = test::bytes_of(folder.file("r.html"));
-    CHECK(page.find("Not known of the machine") != std::string::npos);
+    CHECK(page.find("Unknown for this machine") != std::string::npos);
     const Outcome unknown = program("describe " + study("planet-crack-ideal.toml") +
                                     " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'");
     CHECK(unknown.code == 2);
-    CHECK(unknown.mentions("\"sensor.gain\" is no random input of the gearboxes"));
+    CHECK(unknown.mentions("\"sensor.gain\" is not a random input of the gearboxes"));
 }

@@ -1,4 +1,4 @@
-// gearpod features: a measured signal's features.
+// Checks gearpod features: the features of a measured signal.
 #include <matio.h>
 
 #include <catch2/catch.hpp>
@@ -78,8 +78,8 @@ std::vector<double> simulated_feature(const std::string& path, const std::string
     return mc::read_numbers(group.get(), name, 100).values;
 }
 
-// tests/features/reference/README.md: definitions in numpy on stored signals.
-TEST_CASE("Every feature equals what numpy makes of the same signals") {
+// Definitions in numpy on stored signals: tests/features/reference/README.md.
+TEST_CASE("Every feature equals the numpy result for the same signals") {
     const auto result = features_of(kReference + "faulty.csv", kSmall + " --healthy " + kReference +
                                                                    "healthy-1.csv --healthy " +
                                                                    kReference + "healthy-2.csv");
@@ -95,7 +95,7 @@ TEST_CASE("Every feature equals what numpy makes of the same signals") {
     }
 }
 
-TEST_CASE("A simulated signal that is read back has the features that the simulation had") {
+TEST_CASE("A simulated signal read from a file has the features of the simulation") {
     const Folder folder;
     const std::string options =
         kSmall + " --set fault.reduction=0.5 --set 'sensor.noise_levels=[0, 1]'";
@@ -120,7 +120,7 @@ TEST_CASE("A simulated signal that is read back has the features that the simula
         for (const features::Feature& feature : features::record_features()) {
             const std::string name(feature.name);
             INFO(name);
-            // The exported transmission error is the one without noise.
+            // The exported transmission error is the noise-free one.
             const std::size_t level = feature.from_sensor ? 1 : 0;
             const double was = simulated_feature(folder.file("s.h5"), name)[level];
             CHECK(std::abs(result["features"][name].get<double>() - was) <= 1e-9 * std::abs(was));
@@ -145,11 +145,11 @@ TEST_CASE("All features have the same bits for any lanes, threads, ranks and ins
     CHECK(bits(folder.file("c.h5")) == reference);
 }
 
-TEST_CASE("A recording at changing speed is followed by its speed column") {
-    // Mesh harmonics only, while the speed rises by a fifth; sampled ten times finer than the
-    // band needs, so that interpolation does not matter.
+TEST_CASE("A recording at changing speed is resampled with its speed column") {
+    // Mesh harmonics only, while the speed rises by a fifth. The sampling rate is ten times higher
+    // than the band requires, so that interpolation errors are negligible.
     const Folder folder;
-    constexpr double kRate_Hz = 2800.0, kMesh_Hz = 35.0;  // at 60 rpm of the carrier
+    constexpr double kRate_Hz = 2800.0, kMesh_Hz = 35.0;  // at a carrier speed of 60 rpm
     std::vector<double> speed_rpm, sensor;
     const double seconds = 12.5;
     for (int i = 0; i < static_cast<int>(seconds * kRate_Hz); ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("A recording at changing speed is followed by its speed column") {
     CHECK(features_of(folder.file("blind.csv"), study)["features"]["energy_ratio"] > 0.3);
 }
 
-TEST_CASE("What is wrong with a signal is said in one message, with exit code 2") {
+TEST_CASE("Every problem of a signal is reported in one message, with exit code 2") {
     const Folder folder;
     const auto refused = [&](const std::string& arguments, const std::string& message) {
         const Outcome outcome = program("features " + arguments + " --study " + kSmall);
@@ -191,7 +191,7 @@ TEST_CASE("What is wrong with a signal is said in one message, with exit code 2"
     refused(folder.file("a.xls"), "must end in .csv, .h5, .hdf5, .mat, .wav, .uff or .unv");
     for (const char* name : {"a.h5", "a.mat"}) {
         write_bytes(folder.file(name), "not what the name says");
-        refused(folder.file(name), "or damaged");
+        refused(folder.file(name), "or is damaged");
     }
     write_bytes(folder.file("empty.csv"), "# nothing\n\n");
     refused(folder.file("empty.csv"), "is empty");
@@ -200,11 +200,11 @@ TEST_CASE("What is wrong with a signal is said in one message, with exit code 2"
     write_bytes(folder.file("ragged.csv"), "time,sensor\n0,1\n1\n");
     refused(folder.file("ragged.csv"), ":3: 1 values, but the header names 2 columns");
     write_bytes(folder.file("word.csv"), "time,sensor\n0,1\n1,one\n");
-    refused(folder.file("word.csv"), ":3: column sensor: \"one\" is no number");
+    refused(folder.file("word.csv"), ":3: column sensor: \"one\" is not a number");
 
     write_csv(folder.file("other.csv"), {{"mesh_phase", phase}, {"accel", good}});
     refused(folder.file("other.csv"),
-            "no column sensor and none te; its columns are mesh_phase, accel");
+            "neither a column sensor nor a column te; its columns are mesh_phase, accel");
     refused(folder.file("other.csv") + " --sensor sensr --te angle",
             "no column sensr; its columns are mesh_phase, accel");
     refused(folder.file("other.csv") + " --sensor sensr --te angle", "no column angle");
@@ -215,24 +215,24 @@ TEST_CASE("What is wrong with a signal is said in one message, with exit code 2"
     refused(folder.file("te.csv"), "at least 11 are needed");
     write_csv(folder.file("nan.csv"), {{"mesh_phase", phase}, {"sensor", bad}});
     refused(folder.file("nan.csv"),
-            "column sensor: 2 of 80 samples are no finite numbers, the first is sample 18");
+            "column sensor: 2 of 80 samples are not finite, the first is sample 18");
     write_csv(folder.file("rate.csv"), {{"sensor", good}});
     refused(folder.file("rate.csv"), "no sampling rate");
     refused(folder.file("rate.csv") + " --sampling-Hz 5000",
-            "set sensor.sampling_Hz to the recording's, about 5000 Hz");
+            "set sensor.sampling_Hz to that of the recording, about 5000 Hz");
     refused(folder.file("rate.csv") + " --sampling-Hz 100", "lower sensor.low_pass_Hz");
     time[50] += 1e-3;
     write_csv(folder.file("uneven.csv"), {{"time", time}, {"sensor", good}});
     refused(folder.file("uneven.csv"), "the samples must be evenly spaced");
     phase[30] = phase[29];
     write_csv(folder.file("back.csv"), {{"mesh_phase", phase}, {"sensor", good}});
-    refused(folder.file("back.csv"), "the mesh phase does not rise from sample 30 to the next");
+    refused(folder.file("back.csv"), "the mesh phase does not increase from sample 30 to the next");
     write_mat(folder.file("long.mat"), {{"sensor", good}, {"te", eight}}, true);
     refused(folder.file("long.mat") + " --sampling-Hz 280",
             "column te has 8 samples, but sensor has 80");
 }
 
-// A turn of the planet and more, 60 samples a mesh period.
+// More than a turn of the planet, with 60 samples per mesh period.
 Columns hostile(const std::function<double(double)>& te) {
     Columns columns{{"mesh_phase", {}}, {"te", {}}};
     for (int i = 0; i < 60 * 30; ++i) {
@@ -242,7 +242,7 @@ Columns hostile(const std::function<double(double)>& te) {
     return columns;
 }
 
-TEST_CASE("A feature without a number is named with its reason, and no number is infinite") {
+TEST_CASE("A feature without a value is reported with its reason, and no number is infinite") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
     for (const double level : {0.0, 1e-5, -3.0, 1e15}) {
@@ -262,9 +262,9 @@ TEST_CASE("A feature without a number is named with its reason, and no number is
         const Outcome outcome = program("features " + file + " --study " + kSmall);
         CHECK(outcome.code == 2);
         CHECK(outcome.mentions("column te: sample"));
-        CHECK(outcome.mentions("cannot be computed with"));
+        CHECK(outcome.mentions("are not supported"));
     }
-    // Encoders that see a mesh twice see none of its harmonics.
+    // Two samples per mesh from the encoders resolve none of its harmonics.
     write_csv(file, hostile([](double at) { return 1e-5 * std::sin(0.1 * at); }));
     const auto slow = features_of(file, kSmall +
                                             " --set sensor.encoder_sampling_Hz=50 --set "
@@ -274,7 +274,7 @@ TEST_CASE("A feature without a number is named with its reason, and no number is
     CHECK(std::string(slow["unavailable"]["te_fm0"]).find("no mesh harmonic") == 0);
 }
 
-TEST_CASE("A recording's speed is believed only where it can be true") {
+TEST_CASE("A recording's speed is accepted only where it is plausible") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
     const auto recorded = [&](const std::function<double(int)>& rpm) {
@@ -293,7 +293,7 @@ TEST_CASE("A recording's speed is believed only where it can be true") {
     CHECK(forwards.code == 0);
     const Outcome backwards = recorded([](int) { return -20.0; });
     CHECK(backwards.code == 0);
-    CHECK(backwards.mentions("turning backwards"));
+    CHECK(backwards.mentions("backward rotation"));
     const Outcome flipping = recorded([](int i) { return i < 1000 ? 20.0 : -20.0; });
     CHECK(flipping.code == 2);
     CHECK(flipping.mentions("column speed_rpm: changes its sign at sample 1001"));
@@ -301,11 +301,11 @@ TEST_CASE("A recording's speed is believed only where it can be true") {
         const Outcome raced = recorded([&](int) { return rpm; });
         INFO(raced.output);
         CHECK(raced.code == 2);
-        CHECK(raced.mentions("do not show the mesh frequency"));
+        CHECK(raced.mentions("do not resolve the mesh frequency"));
     }
 }
 
-TEST_CASE("Recordings of a few samples are too short, of which kind they ever are") {
+TEST_CASE("Recordings of a few samples are too short, whatever their format") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
     for (const char* column : {"sensor", "te"}) {
@@ -324,8 +324,8 @@ TEST_CASE("Recordings of a few samples are too short, of which kind they ever ar
     }
 }
 
-// A name of two gigabytes in a file of MATLAB 4; found by libFuzzer.
-TEST_CASE("A MAT file that asks for gigabytes is damaged, and gets none") {
+// Regression: a name of two gigabytes in a MATLAB 4 file, found by libFuzzer.
+TEST_CASE("A MAT file that declares gigabytes is reported as damaged, without allocating them") {
     const Folder folder;
     const std::string file = folder.file("x.mat");
     write_bytes(file, std::string(19, '\0') + "\x7e\xe4");
@@ -334,10 +334,10 @@ TEST_CASE("A MAT file that asks for gigabytes is damaged, and gets none") {
     CHECK(mc::peak_memory_bytes() - before < 500e6);
     const Outcome outcome = program("features " + file + " --study " + kSmall);
     CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("x.mat: is no MAT file, or damaged"));
+    CHECK(outcome.mentions("x.mat: is not a MAT file, or is damaged"));
 }
 
-TEST_CASE("A table of two hundred thousand columns is answered at once, and in a few words") {
+TEST_CASE("A table of two hundred thousand columns is refused immediately with a short message") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
     {
@@ -358,7 +358,7 @@ TEST_CASE("A table of two hundred thousand columns is answered at once, and in a
     CHECK(outcome.output.size() < 1000);
 }
 
-TEST_CASE("What files are named and titled tells a terminal nothing") {
+TEST_CASE("Control characters in file names and titles do not reach the terminal") {
     const Folder folder;
     const std::string file = folder.file("x.csv"), study = folder.file("s.toml");
     write_bytes(file, "mesh_phase,\x1b[31mred\n0,1\n0.1,2\n");

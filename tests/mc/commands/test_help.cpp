@@ -1,4 +1,4 @@
-// The man page and the completion say what --help says, of every command.
+// Checks that the man page and the completion agree with --help for every command.
 #include <sstream>
 
 #include "tests/mc/program.hpp"
@@ -11,7 +11,12 @@ using test::write_bytes;
 
 namespace {
 
-// Options of a command by its own help: "  --json TEXT ..." begins with two spaces.
+const char* const kCommands[] = {"run",   "report",   "compare",  "describe", "stiffness",
+                                 "modes", "accuracy", "simulate", "features", "pod",
+                                 "lives", "merge",    "misses",   "rare",     "calibrate",
+                                 "sweep", "new"};
+
+// Options of a command from its own help: "  --json TEXT ..." begins with two spaces.
 std::vector<std::string> options(const std::string& command) {
     std::istringstream help(program(command + " --help").output);
     std::vector<std::string> names;
@@ -38,9 +43,7 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     REQUIRE(man.code == 0);
     REQUIRE(completion.code == 0);
     const std::string page = replaced(man.output);
-    for (const char* command :
-         {"run", "report", "compare", "describe", "stiffness", "modes", "accuracy", "simulate",
-          "features", "pod", "lives", "merge", "misses", "rare", "calibrate", "sweep", "new"}) {
+    for (const char* command : kCommands) {
         INFO(command);
         const auto names = options(command);
         CHECK(names.size() >= 2);
@@ -59,6 +62,19 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     }
 }
 
+TEST_CASE("Every line of the help fits 80 columns") {
+    std::string all = program("--help").output;
+    for (const char* command : kCommands) {
+        all += program(std::string(command) + " --help").output;
+    }
+    std::istringstream lines(all);
+    for (std::string line; std::getline(lines, line);) {
+        INFO(line);
+        // A usage line names the program by its path.
+        CHECK((line.size() <= 80 || line.starts_with("Usage: ")));
+    }
+}
+
 TEST_CASE("bash completes commands, options and the values of options") {
     const Folder folder;
     const std::string script = folder.file("ask.sh");
@@ -72,7 +88,7 @@ ask gearpod pod t.csv --alarm h
     CHECK(said.output == "compare\n--help --html\nhigh\n");
 }
 
-TEST_CASE("The version says from what and with what the program was built") {
+TEST_CASE("The version states source revision and build") {
     const auto said = program("--version");
     CHECK(said.code == 0);
     for (const char* word : {"gearpod ", "git ", "compiler: ", "kernels: ", "HDF5: "}) {

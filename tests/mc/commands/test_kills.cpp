@@ -1,5 +1,5 @@
-// Two hundred kills at random moments, of one to three ranks, while another starter wants the same
-// output. An hour's test: ctest -C long -R kills.
+// Kills runs of one to three ranks two hundred times at random moments, while another process
+// attempts to write the same output. An hour's test: ctest -C long -R kills.
 #include <csignal>
 #include <random>
 #include <thread>
@@ -14,7 +14,7 @@ using test::Outcome;
 
 namespace {
 
-// A process group of its own, so that a launcher's ranks end with it.
+// Starts a separate process group, so that a launcher's ranks end with it.
 pid_t start(const std::string& command) {
     const pid_t child = fork();
     if (child == 0) {
@@ -28,7 +28,7 @@ pid_t start(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("Killed two hundred times, beside a rival, a run loses nothing", "[.kills]") {
+TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing", "[.kills]") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const auto command = [&](const std::string& file) {
@@ -51,7 +51,7 @@ TEST_CASE("Killed two hundred times, beside a rival, a run loses nothing", "[.ki
         CHECK((rival.code == 0 || rival.code == 2 || rival.code == 137));
         if (rival.code == 2) {
             INFO(rival.output);
-            CHECK(rival.mentions("is working on it"));
+            CHECK(rival.mentions("is using it"));
         }
         kill(-child, SIGKILL);
         int status = 0;
@@ -64,8 +64,8 @@ TEST_CASE("Killed two hundred times, beside a rival, a run loses nothing", "[.ki
         }
     }
     Outcome last = test::shell(command(out));
-    for (int i = 0; i < 50 && last.mentions("is working on it"); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // ranks that outlive mpirun
+    for (int i = 0; i < 50 && last.mentions("is using it"); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // ranks may outlive mpirun
         last = test::shell(command(out));
     }
     INFO(last.output << whole << " times whole in between");

@@ -1,4 +1,4 @@
-// features --baseline: what a recording is against an earlier one of the same gearbox.
+// Checks features --baseline: a recording compared with an earlier one of the same gearbox.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace gearpod::test;
 
 namespace {
 
-// Planets and ring with tooth errors: all repeats after 385 mesh periods of eight samples.
+// Planets and ring have tooth errors: the signal repeats after 385 mesh periods of eight samples.
 const std::string kStudy =
     std::string(GEARPOD_SOURCE_DIR) +
     "/tests/features/reference/small.toml --set gearbox.planet_quality=7 --set "
@@ -23,7 +23,7 @@ const std::string kStudy =
 constexpr std::size_t kSpan = 385 * 8;
 const std::string kFaulty = "--set fault.reduction=0.3 ";
 
-// Without noise, one span.
+// Recording without noise over one span.
 std::vector<double> recorded(const Folder& folder, const std::string& options) {
     const std::string path = folder.file("s.h5");
     REQUIRE(
@@ -58,7 +58,7 @@ nlohmann::json json_of(const std::string& path, const std::string& options) {
     return nlohmann::json::parse(outcome.output);
 }
 
-TEST_CASE("A measured baseline gives what the simulated one gives, wherever it begins") {
+TEST_CASE("A measured baseline gives the result of the simulated one, for any start") {
     const Folder folder;
     const std::string healthy = written(folder, "healthy.csv", recorded(folder, ""));
     const std::string faulty = written(folder, "faulty.csv", recorded(folder, kFaulty));
@@ -75,7 +75,7 @@ TEST_CASE("A measured baseline gives what the simulated one gives, wherever it b
         INFO(name);
         CHECK(json["features"][name].get<double>() == Approx(of_run(name)).epsilon(1e-6));
     }
-    // The fault itself moves the best shift by some thousandths of a sample.
+    // The fault itself changes the best shift by some thousandths of a sample.
     CHECK(json["features"]["change_sensor_rms"].get<double>() ==
           Approx(of_run("change_sensor_rms")).epsilon(1e-3));
     CHECK(json["features"]["change_window_ratio"].get<double>() > 50.0);
@@ -91,7 +91,7 @@ TEST_CASE("A measured baseline gives what the simulated one gives, wherever it b
     }
 }
 
-TEST_CASE("What is no baseline of a recording is said") {
+TEST_CASE("A file that is no baseline of a recording is reported") {
     const Folder folder;
     const auto healthy = recorded(folder, "");
     const std::string path = written(folder, "healthy.csv", healthy);
@@ -102,7 +102,7 @@ TEST_CASE("What is no baseline of a recording is said") {
     const auto json = json_of(path, "--baseline " + written(folder, "other.csv", other));
     CHECK_FALSE(json["features"].contains("change_window_ratio"));
     CHECK_THAT(json["unavailable"]["change_window_ratio"].get<std::string>(),
-               Catch::Contains("other.csv") && Catch::Contains("not like this baseline"));
+               Catch::Contains("other.csv") && Catch::Contains("does not resemble this baseline"));
     CHECK(json["features"].contains("window_ratio"));
 
     const Outcome none = features(path, "--baseline " + folder.file("none.csv"));
@@ -110,7 +110,7 @@ TEST_CASE("What is no baseline of a recording is said") {
     CHECK(none.mentions("none.csv"));
     CHECK(features(path, "--baseline " + path + " --json " + path).code == 2);
 
-    // A part of the span cannot be turned: it must begin where the baseline does.
+    // A part of the span has no circular shift: it must begin where the baseline does.
     const std::vector<double> part(healthy.begin() + 88, healthy.begin() + 88 + 33 * 8);
     const auto elsewhere = json_of(written(folder, "part.csv", part), "--baseline " + path);
     CHECK(elsewhere["unavailable"]["change_sensor_rms"].get<std::string>().find("begin") !=

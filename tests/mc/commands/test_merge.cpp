@@ -1,4 +1,5 @@
-// Parts of a study by runs of their own, merged: the same as one run, or refused by name.
+// Checks parts of a study from separate runs: merged they equal one run, or they are refused by
+// name.
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -11,7 +12,7 @@ using test::study;
 
 namespace {
 
-// Three tiles of the threshold group and four graded ones, the last of each not full.
+// Three tiles of the threshold group and four graded ones; the last tile of each group is not full.
 const std::string kRun = "run " + study("planet-crack-ideal.toml") +
                          " --instances 50 --set ensemble.threshold_instances=35"
                          " --set sensor.noise_levels=[0,1] --quiet";
@@ -26,17 +27,17 @@ std::string part(const Folder& folder, const std::string& which, const std::stri
     return folder.file(name);
 }
 
-// Their names, where h5dump is installed.
+// Dataset names, where h5dump is installed.
 std::string datasets(const std::string& file) {
     return test::shell("h5dump -n " + file + " | tail -n +2").output;
 }
 
 }  // namespace
 
-TEST_CASE("Four parts merged are one run, bit by bit", "[merge]") {
+TEST_CASE("Four merged parts equal one run, bit by bit", "[merge]") {
     const Folder folder;
     std::string parts;
-    for (const char* which : {"3/4", "1/4", "4/4", "2/4"}) {  // in any order
+    for (const char* which : {"3/4", "1/4", "4/4", "2/4"}) {  // an arbitrary order
         parts += " " + part(folder, which);
     }
     const std::string merged = folder.file("merged.h5"), whole = folder.file("whole.h5");
@@ -47,17 +48,17 @@ TEST_CASE("Four parts merged are one run, bit by bit", "[merge]") {
     REQUIRE(program(kRun + " --out " + whole).code == 0);
     CHECK(bits(merged) == bits(whole));
     CHECK(datasets(merged) == datasets(whole));
-    // What is said of them is the same as well.
+    // The report is the same as well.
     CHECK(program("report " + merged).output == program("report " + whole).output);
     CHECK(!std::filesystem::exists(merged + ".part"));
-    // One part more than needed is too much.
+    // A repeated part is refused.
     const Outcome twice =
         program("merge " + merged + " " + whole + " --out " + folder.file("t.h5"));
     CHECK(twice.code == 2);
-    CHECK(twice.mentions("whole.h5: cannot be merged: rows 0 to 15 and others are in "));
+    CHECK(twice.mentions("whole.h5: cannot be merged: rows 0 to 15 and more are also in "));
 }
 
-TEST_CASE("Parts have their own gearboxes and say what they are", "[merge]") {
+TEST_CASE("Parts have their own gearboxes and are labelled as parts", "[merge]") {
     const Folder folder;
     const std::string first = part(folder, "1/2"), second = part(folder, "2/2");
     const std::string whole = folder.file("whole.h5");
@@ -65,7 +66,7 @@ TEST_CASE("Parts have their own gearboxes and say what they are", "[merge]") {
     const mc::Results one = mc::read_results(first), two = mc::read_results(second),
                       all = mc::read_results(whole);
     CHECK(one.status.size() + two.status.size() == all.status.size());
-    // Tiles 0, 2, 4, 6 and 1, 3, 5: rows 0, 32, 51, 83 and 16, 35, 67 on.
+    // Tiles 0, 2, 4, 6 and 1, 3, 5: rows from 0, 32, 51, 83 and 16, 35, 67.
     const auto depth = [](const mc::Results& r, std::size_t row) {
         return r.features.back().values[2 * row + 1];
     };
@@ -73,22 +74,22 @@ TEST_CASE("Parts have their own gearboxes and say what they are", "[merge]") {
     CHECK(depth(one, 16) == depth(all, 32));
     CHECK(depth(one, 16 + 3) == depth(all, 35 + 16));
     const Outcome report = program("report " + first);
-    CHECK(report.output.starts_with("Part 1/2 of the study alone"));
-    // The page's examples are the part's own gearboxes.
+    CHECK(report.output.starts_with("Part 1/2 of the study only"));
+    // Examples on the page are gearboxes of the part.
     CHECK(program("report " + second + " --json -").mentions("\"same_bits\": true"));
-    // Another part is no continuation.
+    // Another part cannot resume this one.
     const Outcome other = program(kRun + " --part 2/2 --resume --out " + first);
     CHECK(other.code == 2);
     CHECK(other.mentions("has part 1/2, this is part 2/2"));
 }
 
-TEST_CASE("What does not belong together is refused by name, all at once", "[merge]") {
+TEST_CASE("Parts that do not match are refused by name, all at once", "[merge]") {
     const Folder folder;
     const std::string first = part(folder, "1/3"), second = part(folder, "2/3");
     const std::string out = " --out " + folder.file("m.h5");
     const Outcome gap = program("merge " + first + " " + second + out);
     CHECK(gap.code == 2);
-    CHECK(gap.mentions("rows 32 to 34 the first, are in none of the files"));
+    CHECK(gap.mentions("are in none of the files, first rows 32 to 34; compute them"));
     CHECK(gap.mentions("run --part 3/3"));
     const std::string seed = part(folder, "3/3", "--seed 77");
     const Outcome other = program("merge " + first + " " + second + " " + seed + out);
@@ -106,12 +107,12 @@ TEST_CASE("What does not belong together is refused by name, all at once", "[mer
     for (const char* bad : {"0/4", "5/4", "2", "a/b", "2/4x", "1/0"}) {
         const Outcome refused = program(kRun + " --part " + bad + out);
         CHECK(refused.code == 2);
-        CHECK(refused.mentions("is no part"));
+        CHECK(refused.mentions("is not a part"));
     }
     CHECK(program(kRun + " --part 9/9" + out).mentions("this part has none"));
 }
 
-TEST_CASE("Parts by another version of the program are refused", "[merge]") {
+TEST_CASE("Parts from another version of the program are refused", "[merge]") {
     const Folder folder;
     const std::string first = part(folder, "1/2"), second = part(folder, "2/2");
     mc::Results older = mc::read_results(second);
@@ -126,7 +127,7 @@ TEST_CASE("Parts by another version of the program are refused", "[merge]") {
     CHECK(refused.mentions("git 0123456789ab"));
 }
 
-TEST_CASE("An interrupted part is continued before it is merged; progress is JSON for programs",
+TEST_CASE("An interrupted part is resumed before it is merged; progress is available as JSON",
           "[merge]") {
     const Folder folder;
     const std::string first = part(folder, "1/2", "--progress json");
@@ -143,7 +144,7 @@ TEST_CASE("An interrupted part is continued before it is merged; progress is JSO
     CHECK(records.mentions("\"counted\":\"records\""));
     CHECK(program("report " + folder.file("records.h5")).mentions("alarms/records"));
     CHECK(program(kRun + " --progress xml --out " + folder.file("c.h5")).code == 2);
-    // The first rows of a part, as a snapshot has them.
+    // The first rows of a part, as in a snapshot.
     mc::Results some = mc::read_results(first);
     for (auto& parameter : some.parameters) {
         parameter.values.resize(16);
@@ -157,5 +158,5 @@ TEST_CASE("An interrupted part is continued before it is merged; progress is JSO
     const Outcome refused =
         program("merge " + first + " " + folder.file("b.h5") + " --out " + folder.file("m.h5"));
     CHECK(refused.code == 2);
-    CHECK(refused.mentions("1-2.h5: holds 16 of its 37 gearboxes"));
+    CHECK(refused.mentions("1-2.h5: contains 16 of its 37 gearboxes"));
 }

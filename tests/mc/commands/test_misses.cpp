@@ -1,4 +1,4 @@
-// misses: rates of misses against counted ones, the same bits by any threads and ranks.
+// Checks misses: rates of misses against counted ones, and the same bits for any threads and ranks.
 #include <nlohmann/json.hpp>
 
 #include "mc/results/results_file.hpp"
@@ -10,7 +10,7 @@ using test::shell;
 
 namespace {
 
-// 100 healthy gearboxes set thresholds.
+// Thresholds are set by 100 healthy gearboxes.
 std::string run_small(const test::Folder& folder, const std::string& more = "") {
     const std::string results = folder.file("ideal.h5");
     const test::Outcome run =
@@ -26,7 +26,7 @@ const std::string kAsked = " --feature window_ratio --size 1 --quiet --json -";
 
 }  // namespace
 
-TEST_CASE("Rates of misses are those of counted ones") {
+TEST_CASE("Rates of misses agree with counted ones") {
     const test::Folder folder;
     const std::string results = run_small(folder);
     const test::Outcome tilted =
@@ -36,7 +36,7 @@ TEST_CASE("Rates of misses are those of counted ones") {
     const auto answer = nlohmann::json::parse(tilted.output);
     CHECK(answer["noise_level"] == 2.0);
     REQUIRE(answer["miss_rate"].is_number());
-    // Other gearboxes of the same study, a plain record of each, against the same threshold.
+    // Other gearboxes of the same study, with one plain record each, against the same threshold.
     const double threshold = answer["threshold"];
     const std::string counted = folder.file("counted.h5");
     REQUIRE(program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + counted +
@@ -58,7 +58,7 @@ TEST_CASE("Rates of misses are those of counted ones") {
     CHECK(answer["upper"].get<double>() > rate - 3.0 * error);
 }
 
-TEST_CASE("Faults that are nearly always missed are missed at most always") {
+TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") {
     const test::Folder folder;
     const std::string asked = "misses " + run_small(folder) +
                               " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
@@ -66,7 +66,7 @@ TEST_CASE("Faults that are nearly always missed are missed at most always") {
     const test::Outcome text = program(asked);
     INFO(text.output);
     REQUIRE(text.code == 0);
-    CHECK(text.mentions("not so rare that tilting pays"));
+    CHECK(text.mentions("misses are not rare enough for this method"));
     const auto answer = nlohmann::json::parse(program(asked + " --json -").output);
     CHECK(answer["miss_rate"] <= 1.0);
     CHECK(answer["miss_rate"] > 0.9);
@@ -74,7 +74,7 @@ TEST_CASE("Faults that are nearly always missed are missed at most always") {
     CHECK((answer["counted_records"].is_null() || answer["counted_records"] > 0.0));
 }
 
-TEST_CASE("Rates of misses have the same bits by any threads") {
+TEST_CASE("Rates of misses have the same bits for any number of threads") {
     const test::Folder folder;
     const std::string asked =
         "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kAsked;
@@ -85,7 +85,7 @@ TEST_CASE("Rates of misses have the same bits by any threads") {
           one.output);
 }
 
-TEST_CASE("Rates of misses have the same bits by any ranks", "[mpi]") {
+TEST_CASE("Rates of misses have the same bits for any number of ranks", "[mpi]") {
     const test::Folder folder;
     const std::string asked =
         "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kAsked;
@@ -94,26 +94,26 @@ TEST_CASE("Rates of misses have the same bits by any ranks", "[mpi]") {
     CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + asked).output == one.output);
 }
 
-TEST_CASE("What misses cannot be asked of is refused, every problem at once") {
+TEST_CASE("Invalid requests to misses are refused, every problem at once") {
     const test::Folder folder;
     const std::string results = run_small(folder);
     const test::Outcome wrong =
         program("misses " + results + " --feature te_rms --size 0 --noise-level 3 --records 6");
     CHECK(wrong.code == 2);
-    CHECK(wrong.mentions("--feature: \"te_rms\" does not look at the accelerometer"));
-    CHECK(wrong.mentions("--size: 0 is no fault"));
-    CHECK(wrong.mentions("--noise-level: 3 is none of the file's levels: 0, 2"));
-    CHECK(wrong.mentions("--records: 6 is no multiple of 4"));
+    CHECK(wrong.mentions("--feature: \"te_rms\" does not use the acceleration signal"));
+    CHECK(wrong.mentions("--size: must be > 0 and finite, but is 0"));
+    CHECK(wrong.mentions("--noise-level: 3 is not a noise level of the file; choose from 0, 2"));
+    CHECK(wrong.mentions("--records: must be a multiple of 4 up to 10000, but is 6"));
     const test::Outcome many = program("misses " + results +
                                        " --feature window_ratio --size 1 --records 40000 "
                                        "--gearboxes 1");
     CHECK(many.code == 2);
     CHECK(many.output ==
-          "--records: 40000 is no multiple of 4 up to 10000\n"
-          "--gearboxes: 1 is not between 2 and 10000\n");
+          "--records: must be a multiple of 4 up to 10000, but is 40000\n"
+          "--gearboxes: must be between 2 and 10000, but is 1\n");
     const test::Outcome unknown = program("misses " + results + " --feature nothing --size 1");
     CHECK(unknown.code == 2);
-    CHECK(unknown.mentions("which has te_rms, window_ratio"));
+    CHECK(unknown.mentions("its features are te_rms, window_ratio"));
     const test::Outcome deep = program("misses " + results + " --feature window_ratio --size 900");
     CHECK(deep.code == 2);
     CHECK(deep.output.starts_with("--size: "));

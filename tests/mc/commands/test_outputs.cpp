@@ -1,4 +1,4 @@
-// No command writes over what it reads, nor a run over what another study's run has computed.
+// Checks that no command overwrites its inputs, and no run the results of another study.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ struct Workplace {
 
 }  // namespace
 
-TEST_CASE("A command refuses to write over a file that it reads, whatever its name") {
+TEST_CASE("A command refuses to overwrite a file that it reads, under any name") {
     const Workplace place;
     const std::string study = bytes_of(place.study), results = bytes_of(place.results),
                       signal = bytes_of(place.signal);
@@ -76,7 +76,7 @@ TEST_CASE("A command refuses to write over a file that it reads, whatever its na
         CHECK(bytes_of(place.signal) == signal);
         CHECK(place.folder.files() == files);
     }
-    // A study of the names that a run needs beside its results.
+    // A study with the names of a run's auxiliary files.
     for (const char* ending : {".new", ".part"}) {
         const std::string out = at("z.h5");
         fs::copy_file(place.study, out + ending);
@@ -88,7 +88,7 @@ TEST_CASE("A command refuses to write over a file that it reads, whatever its na
     }
 }
 
-TEST_CASE("An output without a name is bad input") {
+TEST_CASE("An empty output name is bad input") {
     const Workplace place;
     for (const std::string& command :
          {"run " + place.study + kSmall + " --out ''", "report " + place.results + " --json ''",
@@ -102,7 +102,7 @@ TEST_CASE("An output without a name is bad input") {
     }
 }
 
-TEST_CASE("Results of another study, and what is none, are overwritten with --force only") {
+TEST_CASE("Results of another study and other files are overwritten with --force only") {
     const Workplace place;
     const std::string run = "run " + place.study + kSmall + " --quiet --out " + place.results;
     const std::string before = bytes_of(place.results);
@@ -124,7 +124,7 @@ TEST_CASE("Results of another study, and what is none, are overwritten with --fo
     CHECK(program(over + " --force").code == 0);
 }
 
-TEST_CASE("What stands where the results are written first is refused and not opened") {
+TEST_CASE("An existing file under the temporary output name is refused and not opened") {
     const Workplace place;
     const std::string out = place.folder.file("n.h5"), pending = out + ".new",
                       precious = place.folder.file("precious");

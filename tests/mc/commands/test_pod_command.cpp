@@ -1,5 +1,5 @@
-// gearpod pod: what the program makes of tables of inspections. The statistics are held against
-// other programs in tests/analysis/pod/test_inspection.cpp.
+// Checks gearpod pod on tables of inspections. The statistics are compared with other programs in
+// tests/analysis/pod/test_inspection.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -27,7 +27,7 @@ nlohmann::json pod_of(const std::string& arguments) {
     return nlohmann::json::parse(outcome.output);
 }
 
-TEST_CASE("pod reads hits and misses with units, and says which bound it gives") {
+TEST_CASE("pod reads hits and misses with units, and states the kind of bound") {
     const std::string table = kTables + "inspections_hits.csv --link logit --size-scale linear";
     const auto json = pod_of(table);
     CHECK(json["size"]["unit"] == "mm");
@@ -56,7 +56,7 @@ TEST_CASE("pod takes several columns as repeats, a byte order mark and decimal c
     CHECK(foreign["signal_response"]["a90"] == plain["signal_response"]["a90"]);
 }
 
-TEST_CASE("pod refuses by name what it cannot use, all at once") {
+TEST_CASE("pod refuses unusable input by name, all at once") {
     const Folder folder;
     const auto refused = [](const std::string& arguments) {
         const Outcome outcome = program("pod " + arguments);
@@ -67,26 +67,26 @@ TEST_CASE("pod refuses by name what it cannot use, all at once") {
         refused(written(folder, "bad.csv", "size,hit\n1,2\n-3,1\nx,0\n4,nan\n"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:2: column hit: 2 is neither 1 (hit) nor 0 (miss)"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:3: column size: -3 is negative"));
-    CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is no finite number"));
-    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is no finite number"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is not a finite number"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is not a finite number"));
     CHECK_THAT(refused(written(folder, "names.csv", "length,seen\n1,1\n")),
                Catch::Contains("no column size; its columns are length, seen"));
     CHECK_THAT(refused(written(folder, "row.csv", "size,hit\n1\n")),
                Catch::Contains("row.csv:2: 1 values, but the header names 2 columns"));
     CHECK_THAT(refused(written(folder, "empty.csv", "")), Catch::Contains("is empty"));
     CHECK_THAT(refused(written(folder, "none.csv", "size,hit\n")),
-               Catch::Contains("no line with a value"));
+               Catch::Contains("no line has a value"));
     CHECK_THAT(refused(written(folder, "binary.csv", std::string("size,hit\n\0\0", 11))),
-               Catch::Contains("no line of text"));
+               Catch::Contains("is not a line of text"));
     CHECK_THAT(refused(kTables + "inspections_hits.csv --threshold 3"),
-               Catch::Contains("--threshold is for responses"));
+               Catch::Contains("--threshold is only for responses"));
     CHECK_THAT(refused(kTables + "inspections_responses.csv --response A"),
                Catch::Contains("no threshold"));
     CHECK_THAT(refused(kTables + "inspections_hits.csv --fit-ceiling --firth"),
                Catch::Contains("exclude each other"));
 }
 
-TEST_CASE("pod says what no curve can be drawn from") {
+TEST_CASE("pod reports data that determine no curve") {
     const Folder folder;
     std::string text = "size,hit\n";
     for (int i = 1; i <= 12; ++i) {

@@ -1,5 +1,5 @@
-// rare: thresholds and misses that gearboxes make, against counted ones; the same bits by any
-// threads and ranks.
+// Checks rare: thresholds and misses at rates determined by gearbox-to-gearbox variation, against
+// counted ones, and the same bits for any threads and ranks.
 #include <nlohmann/json.hpp>
 
 #include "mc/results/results_file.hpp"
@@ -11,7 +11,7 @@ using test::shell;
 
 namespace {
 
-// Seven milliseconds a gearbox.
+// Seven milliseconds per gearbox.
 std::string study() {
     return std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
 }
@@ -27,7 +27,8 @@ std::string run_few(const test::Folder& folder) {
     return run_some(folder, "few.h5", "--instances 16 --set ensemble.threshold_instances=40");
 }
 
-// Rows of a group beyond a threshold of its first feature at the last of two noise levels, and all.
+// Number of rows of a group beyond a threshold of its first feature at the last of two noise
+// levels, and number of all rows.
 std::pair<double, double> count_above(const std::string& results, int group, double threshold,
                                       const std::string& feature) {
     const mc::Results rows = mc::read_results(results);
@@ -47,7 +48,7 @@ std::pair<double, double> count_above(const std::string& results, int group, dou
 
 }  // namespace
 
-TEST_CASE("Thresholds of rare false alarms are those of counted ones") {
+TEST_CASE("Thresholds of rare false alarms agree with counted ones") {
     const test::Folder folder;
     const test::Outcome asked =
         program("rare " + run_few(folder) +
@@ -62,7 +63,7 @@ TEST_CASE("Thresholds of rare false alarms are those of counted ones") {
     CHECK(answer["threshold_lower"] < answer["threshold"]);
     CHECK(answer["threshold_upper"] > answer["threshold"]);
     CHECK(answer["least_kept"] > 0.05);
-    // Of other healthy gearboxes.
+    // Results of other healthy gearboxes.
     const std::string counted = run_some(
         folder, "counted.h5", "--instances 16 --seed 77 --set ensemble.threshold_instances=1000");
     const auto [above, all] = count_above(counted, 0, answer["threshold"], "window_ratio");
@@ -71,7 +72,7 @@ TEST_CASE("Thresholds of rare false alarms are those of counted ones") {
     CHECK(answer["upper"].get<double>() * all > above - 3.0 * std::sqrt(above));
 }
 
-TEST_CASE("Misses that gearboxes make are those of counted ones") {
+TEST_CASE("Misses due to gearbox variation agree with counted ones") {
     const test::Folder folder;
     const std::string results =
         run_some(folder, "found.h5",
@@ -94,7 +95,7 @@ TEST_CASE("Misses that gearboxes make are those of counted ones") {
     CHECK(answer["upper"].get<double>() * all > misses - 3.0 * std::sqrt(misses));
 }
 
-TEST_CASE("Rare false alarms have the same bits by any threads") {
+TEST_CASE("Rare false alarms have the same bits for any number of threads") {
     const test::Folder folder;
     const std::string asked = "rare " + run_few(folder) +
                               " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
@@ -105,7 +106,7 @@ TEST_CASE("Rare false alarms have the same bits by any threads") {
           one.output);
 }
 
-TEST_CASE("Rare false alarms have the same bits by any ranks", "[mpi]") {
+TEST_CASE("Rare false alarms have the same bits for any number of ranks", "[mpi]") {
     const test::Folder folder;
     const std::string asked = "rare " + run_few(folder) +
                               " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
@@ -114,7 +115,7 @@ TEST_CASE("Rare false alarms have the same bits by any ranks", "[mpi]") {
     CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + asked).output == one.output);
 }
 
-TEST_CASE("What rare says tells how many gearboxes it took, and what it does not know") {
+TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown") {
     const test::Folder folder;
     const std::string results = run_few(folder);
     const test::Outcome known = program("rare " + results +
@@ -122,17 +123,17 @@ TEST_CASE("What rare says tells how many gearboxes it took, and what it does not
                                         "--quiet");
     INFO(known.output);
     CHECK(known.code == 0);
-    CHECK(known.mentions("false alarms of window_ratio at noise x 1, 0.05 of healthy gearboxes"));
-    CHECK(known.mentions("gearboxes computed, 60 a level"));
+    CHECK(known.mentions("false-alarm rate 0.05 of window_ratio at noise x 1"));
+    CHECK(known.mentions("gearboxes computed, 60 per level"));
     const test::Outcome few = program("rare " + results +
                                       " --feature window_ratio --rate 1e-3 --gearboxes 20 "
                                       "--quiet");
     INFO(few.output);
     CHECK(few.code == 0);
-    CHECK(few.mentions("not known from 20 gearboxes a level"));
+    CHECK(few.mentions("unknown from 20 gearboxes per level"));
 }
 
-TEST_CASE("What rare cannot be asked is refused, every problem at once") {
+TEST_CASE("Invalid requests to rare are refused, every problem at once") {
     const test::Folder folder;
     const std::string results = run_few(folder);
     const auto refused = [&](const std::string& options) {
@@ -141,15 +142,16 @@ TEST_CASE("What rare cannot be asked is refused, every problem at once") {
         return outcome.output;
     };
     CHECK(refused("--feature nothing --rate 0.5 --gearboxes 3") ==
-          "--rate: 0.5 is not between 1e-09 and 0.1\n"
-          "--gearboxes: 3 is not between 20 and 1000000\n"
+          "--rate: must be between 1e-09 and 0.1, but is 0.5\n"
+          "--gearboxes: must be between 20 and 1000000, but is 3\n"
           "--feature: \"nothing\" is not in " +
-              results + ", which has te_kurtosis, te_fm0, window_ratio, window_z\n");
+              results + "; its features are te_kurtosis, te_fm0, window_ratio, window_z\n");
     CHECK(refused("--feature window_ratio --noise-level 3")
-              .find("--rate: or --size says what is asked for") == 0);
+              .find("--rate: missing; give a false-alarm rate") == 0);
     CHECK(refused("--feature window_ratio --size 0 --noise-level 3") ==
-          "--noise-level: 3 is none of the file's levels: 0, 1\n");
-    CHECK(refused("--feature window_ratio --size 0") == "--size: 0 is no fault\n");
+          "--noise-level: 3 is not a noise level of the file; choose from 0, 1\n");
+    CHECK(refused("--feature window_ratio --size 0") ==
+          "--size: must be > 0 and finite, but is 0\n");
     CHECK(refused("--feature window_ratio --size 900").starts_with("--size: "));
     CHECK(program("rare " + results + " --feature window_ratio --size 1 --rate 0.01").code != 0);
     CHECK(program("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01").code == 2);

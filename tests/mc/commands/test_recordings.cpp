@@ -1,4 +1,4 @@
-// gearpod features of many recordings, and the report on them.
+// Checks gearpod features of many recordings, and the report on them.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -23,7 +23,7 @@ const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) +
                            "detection.false_alarm_rate=0.1";
 constexpr int kTeeth = 11, kPerMesh = 8;
 
-// A turn of the planet, teeth alike but for one that is `worse` times as loud.
+// One turn of the planet; all teeth are equal except one that is `worse` times as loud.
 std::vector<double> turn(double worse, unsigned seed) {
     std::mt19937 engine(seed);
     std::normal_distribution<double> noise;
@@ -54,7 +54,7 @@ nlohmann::json single(const std::string& path) {
     return nlohmann::json::parse(outcome.output);
 }
 
-TEST_CASE("A turn of the planet gives the features of its teeth, as many turns of it do") {
+TEST_CASE("One turn of the planet gives the features of its teeth, as many turns do") {
     const Folder folder;
     std::vector<double> once = turn(3.0, 1), many;
     for (int i = 0; i < 35; ++i) {
@@ -73,7 +73,7 @@ TEST_CASE("A turn of the planet gives the features of its teeth, as many turns o
         CHECK(one["features"][name].get<double>() ==
               Approx(all["features"][name].get<double>()).epsilon(1e-9));
     }
-    CHECK(one["unavailable"].contains("frms"));  // takes carrier turns
+    CHECK(one["unavailable"].contains("frms"));  // requires carrier turns
     CHECK(one["unavailable"].contains("sun_window_ratio"));
 }
 
@@ -104,7 +104,7 @@ struct Recorded {
     }
 };
 
-TEST_CASE("One bad recording stops no other, is named, and the exit code is 3") {
+TEST_CASE("A bad recording is reported and does not stop the others; the exit code is 3") {
     const Recorded recorded;
     const Outcome outcome = recorded.features("--out " + recorded.folder.file("f.h5") + " --csv " +
                                               recorded.folder.file("f.csv"));
@@ -112,14 +112,14 @@ TEST_CASE("One bad recording stops no other, is named, and the exit code is 3") 
     CHECK(outcome.code == 3);
     CHECK(outcome.mentions("61 of 63 have features"));
     CHECK(outcome.mentions("missing.csv: no such file"));
-    CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is no number"));
+    CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is not a number"));
     const auto results = mc::read_results(recorded.folder.file("f.h5"));
     REQUIRE(results.group.size() == 61);
     CHECK(results.group[0] == 0);
     CHECK(results.group[59] == 1);
     CHECK(results.group[60] == mc::kUngraded);
     CHECK(results.request.size.unit == "m");
-    // The table has the numbers of one recording alone.
+    // The table has the same numbers as one recording alone.
     const auto alone = single(recorded.folder.file("r50.csv"));
     for (const auto& feature : results.features) {
         CHECK(feature.values[50] == alone["features"][feature.name].get<double>());
@@ -133,7 +133,7 @@ TEST_CASE("One bad recording stops no other, is named, and the exit code is 3") 
     CHECK(lines == 64);
 }
 
-TEST_CASE("Many recordings have the same results for any threads") {
+TEST_CASE("Many recordings have the same results for any number of threads") {
     const Recorded recorded;
     recorded.features("--out " + recorded.folder.file("1.h5"), "OMP_NUM_THREADS=1");
     recorded.features("--out " + recorded.folder.file("3.h5"), "OMP_NUM_THREADS=3");
@@ -160,13 +160,13 @@ TEST_CASE("The report on recordings has thresholds, POD where sizes are known, a
     CHECK(level["hit_miss"]["refusal"].is_null());
     CHECK(level["hit_miss"]["a90"]["estimate"]["size"].get<double>() < 1.5e-3);
     REQUIRE(json["over_time"].size() == 7);
-    CHECK(json["over_time"][6]["recordings"] == 1);  // of unknown state, and loud
+    CHECK(json["over_time"][6]["recordings"] == 1);  // loud, of unknown condition
     CHECK(json["over_time"][6]["alarms"]["window_ratio"] == 1);
     CHECK(json["over_time"][0]["alarms"]["window_ratio"].get<int>() <= 2);
     CHECK(program("report " + results).mentions("Alarms over time, day"));
 }
 
-TEST_CASE("The report watches a gearbox's recordings one after another") {
+TEST_CASE("The report monitors a gearbox's recordings in sequence") {
     const Recorded recorded;
     const std::string results = recorded.folder.file("f.h5");
     recorded.features("--out " + results);
@@ -179,7 +179,7 @@ TEST_CASE("The report watches a gearbox's recordings one after another") {
     std::set<std::string> detectors;
     bool found = false;
     for (const auto& one : monitoring["watched"]) {
-        // Ten healthy recordings behind the baseline: at a rate of 0.1 the largest sets the
+        // Ten healthy recordings after the baseline: at a rate of 0.1 the largest sets the
         // threshold.
         CHECK(one["healthy"]["alarms"].get<int>() <= 1);
         CHECK(one["healthy"]["recordings"] == 10);
@@ -198,21 +198,21 @@ TEST_CASE("The report watches a gearbox's recordings one after another") {
     CHECK(detectors ==
           std::set<std::string>{"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"});
     const Outcome text = program("report " + results);
-    CHECK(text.mentions("Watched over time"));
+    CHECK(text.mentions("Monitoring over time"));
     CHECK(text.mentions("fused"));
 
     recorded.features("--set monitoring.baseline_records=25 --out " + results);
-    CHECK(program("report " + results).mentions("5 healthy recordings behind the first 25"));
+    CHECK(program("report " + results).mentions("5 healthy recordings after the first 25"));
     recorded.features("--set monitoring.torque_regression=true --out " + results);
     CHECK(program("report " + results).mentions("no column torque"));
     const Outcome wrong =
         recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -");
     CHECK(wrong.code == 2);
-    CHECK(wrong.mentions("\"cusum\" is no detector"));
+    CHECK(wrong.mentions("\"cusum\" is not a detector"));
     CHECK(wrong.mentions("names \"single\" twice"));
 }
 
-TEST_CASE("Alarms over time count what has a value, and nothing without a threshold") {
+TEST_CASE("Alarms over time count recordings with a value, and none without a threshold") {
     const Folder folder;
     std::string table = "file,gearbox,time,label\n";
     for (int i = 0; i < 30; ++i) {
@@ -233,14 +233,16 @@ TEST_CASE("Alarms over time count what has a value, and nothing without a thresh
     CHECK(last["alarms"]["sensor_rms"] == 5);
     CHECK(last["values"]["te_rms"] == 5);
     CHECK(last["alarms"]["te_rms"].is_null());  // no healthy recording has it
-    // Without names they are watched as one machine's, and that is said.
-    CHECK(json["monitoring"]["note"].get<std::string>().find("one machine's") != std::string::npos);
+    // Recordings without gearbox names are monitored as one machine, and this is reported.
+    CHECK(json["monitoring"]["note"].get<std::string>().find("of one machine") !=
+          std::string::npos);
     const Outcome text = program("report " + results);
-    CHECK(text.mentions("are taken for one machine's"));
+    CHECK(text.mentions("are assumed to be of one machine"));
     CHECK(text.mentions("100 %"));
 }
 
-TEST_CASE("On the terminal recordings are recordings, and have a size only where one is known") {
+TEST_CASE(
+    "On the terminal, recordings are called recordings and have a size only where it is known") {
     const Recorded recorded;
     const std::string results = recorded.folder.file("f.h5");
     recorded.features("--out " + results);
@@ -252,7 +254,8 @@ TEST_CASE("On the terminal recordings are recordings, and have a size only where
     CHECK(sized.mentions("a90/95"));
     CHECK(!sized.mentions(" boxes"));
     CHECK(!sized.mentions("Noise x"));
-    CHECK(sized.output.starts_with("Recordings of few gearboxes for a false-alarm rate of 0.1"));
+    CHECK(
+        sized.output.starts_with("Recordings of too few gearboxes for a false-alarm rate of 0.1"));
 
     std::string table = "file,label\n";
     for (int i = 0; i < 60; ++i) {
@@ -293,7 +296,7 @@ TEST_CASE("A row of an HDF5 file is a record, with the dataset's scale") {
                                     kSmall + " --samples-per-mesh 8 --csv -");
     INFO(outcome.output);
     CHECK(outcome.code == 3);
-    CHECK(outcome.mentions("sensor has 2 rows, but row 2 is asked for"));
+    CHECK(outcome.mentions("sensor has 2 rows, but row 2 is requested"));
     std::istringstream lines(outcome.output);
     std::string header, row, alone;
     std::getline(lines, header);
@@ -305,7 +308,7 @@ TEST_CASE("A row of an HDF5 file is a record, with the dataset's scale") {
     CHECK(row.substr(row.find(",,") + 2) == alone.substr(alone.find(",,,") + 3));
 }
 
-TEST_CASE("What a manifest cannot mean is said with its line, all at once") {
+TEST_CASE("Invalid manifest entries are reported with their line, all at once") {
     const Folder folder;
     const std::string manifest = folder.file("m.csv");
     const auto refused = [&](const std::string& text) {
@@ -319,16 +322,16 @@ TEST_CASE("What a manifest cannot mean is said with its line, all at once") {
         "file,row,label,size,torque\na.csv,x,,,1\nb.csv,,broken,,1\nc.csv,,healthy,2,1\n"
         "d.csv,,,-1,one\n");
     INFO(outcome.output);
-    CHECK(outcome.mentions("m.csv:2: row: \"x\" is no row"));
+    CHECK(outcome.mentions("m.csv:2: row: \"x\" is not a row number"));
     CHECK(outcome.mentions("m.csv:3: label: \"broken\" is neither healthy nor faulty"));
-    CHECK(outcome.mentions("m.csv:4: label: healthy does not fit the size"));
+    CHECK(outcome.mentions("m.csv:4: label: healthy contradicts the size"));
     CHECK(outcome.mentions("m.csv:5: size: is negative"));
-    CHECK(outcome.mentions("m.csv:5: torque: \"one\" is no finite number"));
+    CHECK(outcome.mentions("m.csv:5: torque: \"one\" is not a finite number"));
     CHECK(refused("name\na\n").mentions("has no column file"));
-    CHECK(refused("file\n").mentions("names no recording"));
+    CHECK(refused("file\n").mentions("lists no recording"));
 }
 
-// The HUMS 2023 challenge's recordings, where they are (studies/README.md).
+// Data: the recordings of the HUMS 2023 challenge, if present (studies/README.md).
 TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
     const char* file = std::getenv("GEARPOD_HUMS_DATA");
     if (file == nullptr || !std::filesystem::exists(file)) {
@@ -367,8 +370,8 @@ TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
         best = day_27 == 1.0 ? std::max(best, day_26) : best;
     }
     CHECK(best >= 0.6);
-    // Watched one after another, with the alarm set up to day 20: both later days alarm. The
-    // windowed teeth say so from the first half of day 26 on.
+    // Monitored in sequence, with the alarm set up to day 20: both later days alarm. The windowed
+    // teeth do so from the first half of day 26 on.
     REQUIRE(json["monitoring"]["refusal"] == "");
     for (const auto& one : json["monitoring"]["watched"]) {
         CHECK(one["healthy"]["alarms"].get<long>() * 100 <=

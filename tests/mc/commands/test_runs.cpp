@@ -1,4 +1,5 @@
-// Runs that are split, killed, stopped, continued and grown: always the same gearboxes, bit by bit.
+// Checks runs that are split, killed, stopped, resumed and extended: always the same gearboxes, bit
+// by bit.
 #include <sys/resource.h>
 
 #include <chrono>
@@ -21,15 +22,15 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Three batches of the threshold group and four graded ones, the last of each not full; results
-// written all the time.
+// Command for three batches of the threshold group and four graded ones; the last batch of each
+// group is not full. Snapshots are written continuously.
 std::string run_of(const std::string& out, int instances = 50, int healthy = 35) {
     return "run " + study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
            " --set ensemble.threshold_instances=" + std::to_string(healthy) +
            " --set ensemble.checkpoint_s=0 --out " + out;
 }
 
-// One undisturbed run of that, made once.
+// Bits of one uninterrupted run, computed once.
 const std::vector<std::uint64_t>& reference() {
     static const std::vector<std::uint64_t> all = [] {
         const Folder folder;
@@ -63,7 +64,7 @@ std::uintmax_t size_of(const std::string& path) {
     return none ? 0 : size;
 }
 
-// Waits until the checkpoint has grown by a batch or more.
+// Waits until the checkpoint has grown by at least one batch.
 void await_batches(const std::string& part, std::uintmax_t before) {
     for (int i = 0; i < 4000 && size_of(part) < before + 8192; ++i) {
         std::this_thread::sleep_for(5ms);
@@ -96,7 +97,7 @@ TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the s
     CHECK(folder.empty());
 }
 
-TEST_CASE("Killed twenty times at random moments and continued, a run loses nothing") {
+TEST_CASE("Killed twenty times at random moments and resumed, a run loses nothing") {
     const Folder folder;
     const std::string out = folder.file("r.h5"), part = out + ".part";
     const auto before = std::chrono::steady_clock::now();
@@ -114,11 +115,11 @@ TEST_CASE("Killed twenty times at random moments and continued, a run loses noth
         killed += WIFSIGNALED(status) ? 1 : 0;
         REQUIRE((WIFSIGNALED(status) || WEXITSTATUS(status) == 0));
         if (fs::exists(out)) {
-            // What a reader sees while the run goes on is whole.
+            // Snapshots during the run are complete.
             CHECK_NOTHROW(mc::read_results(out));
         }
         if (!WIFSIGNALED(status)) {
-            fs::remove(out);  // done before it could be killed: all over again
+            fs::remove(out);  // finished before it could be killed: start again
         }
     }
     CHECK(killed > 5);
@@ -131,7 +132,7 @@ TEST_CASE("Killed twenty times at random moments and continued, a run loses noth
     CHECK(folder.files() == 2);
 }
 
-TEST_CASE("Signals and the time limit finish, save and exit with 4") {
+TEST_CASE("Signals and the time limit end a run cleanly, save its state and exit with 4") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
@@ -158,7 +159,7 @@ TEST_CASE("Signals and the time limit finish, save and exit with 4") {
 }
 
 // Every batch of this study takes a minute.
-TEST_CASE("Signals and the time limit end a batch that is in work, and nothing of it is kept") {
+TEST_CASE("Signals and the time limit stop an unfinished batch, which is discarded") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const std::string slow = "run " + study("published/yang-pitch-errors.toml") +
@@ -182,7 +183,7 @@ TEST_CASE("Signals and the time limit end a batch that is in work, and nothing o
     fs::remove(out + ".part");
 }
 
-TEST_CASE("Ended by signals inside of batches and continued, a run keeps its bits", "[mpi]") {
+TEST_CASE("Stopped by signals inside of batches and resumed, a run keeps its bits", "[mpi]") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const auto command = [&](const std::string& file) {
@@ -198,8 +199,8 @@ TEST_CASE("Ended by signals inside of batches and continued, a run keeps its bit
         const Outcome part = test::shell(stop + (i % 2 == 0 ? "" : mpirun(2)) + GEARPOD_PROGRAM +
                                          " " + command(out) + " --resume");
         INFO(part.output);
-        if (part.mentions("is working on it")) {
-            std::this_thread::sleep_for(200ms);  // mpirun is gone before its ranks are
+        if (part.mentions("is using it")) {
+            std::this_thread::sleep_for(200ms);  // mpirun ends before its ranks do
             continue;
         }
         REQUIRE(part.code != 2);
@@ -213,7 +214,7 @@ TEST_CASE("Ended by signals inside of batches and continued, a run keeps its bit
     CHECK(bits(out) == bits(folder.file("whole.h5")));
 }
 
-TEST_CASE("Rows named twice have their signals once") {
+TEST_CASE("Rows named twice are computed once") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const Outcome run = test::program(run_of(out, 2) + " --quiet --signals 1,1,0 --signals 1");
@@ -222,17 +223,17 @@ TEST_CASE("Rows named twice have their signals once") {
     CHECK_FALSE(fs::exists(out + ".part"));
 }
 
-TEST_CASE("A grown ensemble computes only what is new, and has the bits of one computed at once") {
+TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a single run") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     REQUIRE(test::program(run_of(out, 20) + " --quiet").code == 0);
     const Outcome grown = test::program(run_of(out) + " --resume");
     INFO(grown.output);
     CHECK(grown.code == 0);
-    CHECK(grown.mentions("r.h5: 4 of 7 tiles"));
+    CHECK(grown.mentions("r.h5: 4 of 7 batches"));
     CHECK(bits(out) == reference());
     const Outcome again = test::program(run_of(out) + " --resume");
-    CHECK(again.mentions("r.h5: 7 of 7 tiles"));
+    CHECK(again.mentions("r.h5: 7 of 7 batches"));
     CHECK(bits(out) == reference());
     CHECK(folder.files() == 1);
 
@@ -252,8 +253,7 @@ TEST_CASE("A grown ensemble computes only what is new, and has the bits of one c
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE(
-    "A grown threshold sample computes only what is new, with the graded gearboxes or without") {
+TEST_CASE("An extended threshold sample computes only new gearboxes, with or without graded ones") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     for (const int graded : {50, 20}) {
@@ -261,14 +261,14 @@ TEST_CASE(
         const Outcome grown = test::program(run_of(out) + " --resume");
         INFO(grown.output);
         CHECK(grown.code == 0);
-        // One of the old sample's two tiles is full, and of the graded ones' four all or one.
-        CHECK(grown.mentions(graded == 50 ? "r.h5: 5 of 7 tiles" : "r.h5: 2 of 7 tiles"));
+        // One of the old sample's two batches is full, and all or one of the four graded ones.
+        CHECK(grown.mentions(graded == 50 ? "r.h5: 5 of 7 batches" : "r.h5: 2 of 7 batches"));
         CHECK(bits(out) == reference());
     }
     const Outcome fewer = test::program(run_of(out, 50, 20) + " --resume");
     CHECK(fewer.code == 2);
     CHECK(fewer.mentions("threshold_instances = 35"));
-    // The first eight of the sample are what features that trend compare with.
+    // Trend features refer to the first eight of the sample.
     REQUIRE(test::program(run_of(out, 20, 7) + " --quiet --force").code == 0);
     CHECK(test::program(run_of(out) + " --resume").code == 2);
     CHECK(folder.files() == 1);
@@ -291,16 +291,16 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
         CHECK(results.provenance_value("state") == "ended by ensemble.until");
         first = first.empty() ? bits(results) : first;
         CHECK(bits(results) == first);
-        // The rate in the file is the one that was asked for.
+        // The rate in the file is the requested one.
         const auto& cell = results.detection[5].levels[2].cells.back();
         CHECK(results.detection[5].feature == "window_ratio");
         CHECK(cell.size.high == Approx(4.28e-3));
         CHECK((cell.upper - cell.lower) / 2 <= 0.25);
     }
     for (const auto& [wrong, words] :
-         {std::pair{"size=4", "4 is no fault size"}, std::pair{"noise_level=3", "3 is not among"},
-          std::pair{"feature=\"te_rsm\"", "te_rms"}, std::pair{"half_width=0.7", "< 0.5"},
-          std::pair{"width=0.7", "unknown key"}}) {
+         {std::pair{"size=4", "4 is not a fault size"},
+          std::pair{"noise_level=3", "3 is not among"}, std::pair{"feature=\"te_rsm\"", "te_rms"},
+          std::pair{"half_width=0.7", "< 0.5"}, std::pair{"width=0.7", "unknown key"}}) {
         const std::string key = std::string(wrong).substr(0, std::string(wrong).find('='));
         const Outcome run = test::program(run_of(folder.file("x.h5")) + until +
                                           " --set 'ensemble.until." + wrong + "'");
@@ -330,7 +330,7 @@ TEST_CASE("Ranks with another study, or without it, end the run with one line", 
     CHECK(missing.code == 2);
     CHECK(missing.mentions("rank 1 on "));
     CHECK(missing.mentions("none.toml"));
-    // The same program but for one byte behind its end.
+    // Same program with one byte appended.
     test::write_bytes(folder.file("gearpod"), bytes_of(binary) + "x");
     fs::permissions(folder.file("gearpod"), fs::perms::owner_all);
     const Outcome mixed = with_second(folder.file("gearpod") + " " + run_of(out));
@@ -359,10 +359,10 @@ TEST_CASE("A rank that dies ends the run, and finished batches are kept", "[mpi]
     CHECK_FALSE(resumed.mentions(": 0 of"));
 }
 
-TEST_CASE("A full disk while results are written leaves a checkpoint to go on from") {
+TEST_CASE("A full disk while results are written leaves a checkpoint from which to resume") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    // In blocks of 512 bytes; the checkpoint fits, the results do not.
+    // Limit in blocks of 512 bytes; the checkpoint fits, the results do not.
     const std::size_t blocks = 90;
     const Outcome full = test::shell("ulimit -f " + std::to_string(blocks) + "; " +
                                      GEARPOD_PROGRAM + " " + run_of(out) + " --quiet");
@@ -376,12 +376,12 @@ TEST_CASE("A full disk while results are written leaves a checkpoint to go on fr
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("A folder that cannot be written is known before the run") {
+TEST_CASE("A folder without write permission is reported before the run") {
     const Folder folder;
     fs::create_directory(folder.file("locked"));
     fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec |
                                                fs::perms::others_read | fs::perms::others_exec);
-    // Permissions do not hold root.
+    // The user root ignores permissions.
     const std::string nobody =
         geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
     const Outcome run =

@@ -1,4 +1,4 @@
-// Contact of the teeth in the text of describe.
+// Checks tooth contact in the text of describe.
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -10,10 +10,10 @@ const std::string kFew = " --set ensemble.instances=8 --set ensemble.threshold_i
 
 }  // namespace
 
-TEST_CASE("describe shows no share of time out of contact where teeth cannot part") {
+TEST_CASE("describe shows no share of time out of contact where teeth cannot separate") {
     const auto said = program("describe " + test::study("planet-crack-ideal.toml") + kFew);
     INFO(said.output);
     REQUIRE(said.code == 0);
     CHECK(!said.mentions("out of contact"));
-    CHECK(!said.mentions("error of the steps"));
+    CHECK(!said.mentions("time step error"));
 }

@@ -1,4 +1,4 @@
-// What `describe` says that lives take.
+// Checks the cost forecast of `describe` for lives.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -20,12 +20,12 @@ TEST_CASE("The forecast of lives counts the records that they will have") {
     CHECK(forecast.gearbox_s > 0.0);
     CHECK(forecast.record_s > 0.0);
     CHECK(forecast.total_s() > 0.0);
-    // 11 rows of three features and what a record has of its own, five columns, in 40 records.
+    // Eleven rows of three features and five more columns per record, in 40 records.
     CHECK(forecast.file_bytes > 11 * 8 * 40 * 8.0);
     CHECK(forecast.file_bytes < 1.2 * 11 * 8 * 40 * 8.0);
 }
 
-TEST_CASE("What is forecast of lives grows with their loads, depths and lives") {
+TEST_CASE("The forecast for lives grows with their loads, depths and number") {
     const auto of = [](const std::vector<std::string>& more) {
         const mc::Scene scene(life_study(more));
         return mc::forecast_lives(mc::LifeTiles(scene), 1, 0.0);

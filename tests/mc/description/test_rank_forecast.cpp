@@ -1,4 +1,5 @@
-// What `describe --ranks` says: arithmetic on given measurements, and sizes of files against files.
+// Checks `describe --ranks`: arithmetic on given measurements, and forecast file sizes against
+// files.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -13,7 +14,7 @@ using namespace gearpod::mc;
 
 namespace {
 
-// Every gearbox takes as long: a batch of sixteen `batch_s`.
+// Equal cost of all gearboxes: a batch of sixteen takes `batch_s`.
 RunCalibration given_cost(int threads, double batch_s) {
     RunCalibration calibration;
     calibration.threads = threads;
@@ -37,7 +38,7 @@ RankForecast forecast_of(const BatchPlan& plan, double batch_s, int threads, int
 
 }  // namespace
 
-TEST_CASE("Ranks share the batches out, and no more threads compute than there are batches") {
+TEST_CASE("Ranks share the batches, and at most as many threads compute as there are batches") {
     const BatchPlan plan(160, 160 * 9);  // a hundred batches
     CHECK(forecast_of(plan, 1.0, 2, 1).gearboxes_s == Approx(50.0));
     CHECK(forecast_of(plan, 1.0, 2, 5).gearboxes_s == Approx(10.0));
@@ -48,7 +49,7 @@ TEST_CASE("Ranks share the batches out, and no more threads compute than there a
     CHECK(many.busy_threads == 100.0);
 }
 
-TEST_CASE("Rank 0 holds the others up where batches come faster than it takes them") {
+TEST_CASE("Rank 0 limits the speed where batches arrive faster than it processes them") {
     const BatchPlan plan(16, 16 * 99'999);
     const double batches = 100'000.0;
     const double each_s = leader_s(
@@ -64,7 +65,7 @@ TEST_CASE("Rank 0 holds the others up where batches come faster than it takes th
     CHECK(more.batches_per_s == Approx(1.0 / each_s));
 }
 
-TEST_CASE("A checkpoint and results have the size that was forecast") {
+TEST_CASE("A checkpoint and results have the forecast sizes") {
     const test::Folder folder;
     const BatchPlan plan(40, 1000, {}, 3);
     const RowShape shape{9, 7, 5};
@@ -77,7 +78,7 @@ TEST_CASE("A checkpoint and results have the size that was forecast") {
                 b, {std::vector<int>(rows, 0), std::vector<double>(rows * shape.values(), 1.5)});
         }
     }
-    // The header, rounded up to a block, comes on top.
+    // The header, rounded up to a block, is added.
     const auto written = static_cast<double>(std::filesystem::file_size(path));
     CHECK(written - checkpoint_bytes(plan, shape) == Approx(4096.0));
 }

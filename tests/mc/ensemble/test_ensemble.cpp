@@ -1,5 +1,5 @@
-// Ensembles: the same bits however they are computed, reuse against the full march, and detection
-// rates that behave as rates must.
+// Checks ensembles: the same bits for any way of computation, reuse against full integration, and
+// plausible detection rates.
 #include <cmath>
 
 #include "machine/dispatch.hpp"
@@ -55,8 +55,8 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
     REQUIRE(exact.features.size() == reference.features.size());
     for (std::size_t f = 0; f < exact.features.size(); ++f) {
         INFO(exact.features[f].name);
-        // window_z divides by the teeth's scatter: with little noise a few thousandths of their
-        // RMS, without noise rounding.
+        // Feature window_z divides by the teeth's scatter: with little noise a few thousandths of
+        // their RMS, without noise rounding.
         const bool rounding = exact.features[f].name == "window_z";
         const double tolerance = rounding ? 5e-3 : 1e-3;
         for (std::size_t i = 0; i < exact.features[f].values.size(); ++i) {
@@ -68,7 +68,7 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
     }
 }
 
-TEST_CASE("By central differences the features are Runge-Kutta's within their steps' error") {
+TEST_CASE("Features by central differences and Runge-Kutta agree within the error of the steps") {
     const auto exact = test::run(shipped_study("planet-crack-ideal.toml", kSmall));
     const auto central = test::run(shipped_study(
         "planet-crack-ideal.toml", with(kSmall, "numerics.integrator=central-difference")));
@@ -77,7 +77,7 @@ TEST_CASE("By central differences the features are Runge-Kutta's within their st
         INFO(exact.features[f].name);
         double deviation = 0.0, own = 0.0;
         for (std::size_t i = 0; i < exact.features[f].values.size(); ++i) {
-            // window_z without noise divides by the scatter of teeth that are alike.
+            // Feature window_z without noise divides by the scatter of equal teeth.
             if (i % levels != 0) {
                 const double value = exact.features[f].values[i];
                 deviation += std::pow(central.features[f].values[i] - value, 2);
@@ -85,7 +85,7 @@ TEST_CASE("By central differences the features are Runge-Kutta's within their st
             }
         }
         CHECK(std::sqrt(deviation / own) < 2e-3);
-        CHECK(deviation > 0.0);  // it is another method
+        CHECK(deviation > 0.0);  // the methods differ
     }
 }
 
@@ -101,9 +101,9 @@ TEST_CASE("A larger ensemble begins with the gearboxes of the smaller one") {
     }
 }
 
-TEST_CASE("Reused mesh periods and the full march agree to 1e-6 in every noise-free feature") {
-    // window_z is left out: it divides by the scatter of teeth that are alike but for rounding. The
-    // carrier turns fast: fewer steps a mesh.
+TEST_CASE("Reused mesh periods and full integration agree to 1e-6 in every noise-free feature") {
+    // Feature window_z is left out: it divides by the scatter of teeth that are equal except for
+    // rounding. A fast carrier needs fewer steps per mesh.
     const mc::Study planet = shipped_study(
         "published/liang-fig-5-8.toml",
         {R"(features.use=["te_rms","te_kurtosis","te_fc","te_fm0","sensor_rms","window_ratio"])",
@@ -138,7 +138,7 @@ TEST_CASE("Detection rates: false alarms at size 0, more with size, never more w
         for (std::size_t level = 0; level < feature.levels.size(); ++level) {
             const auto& cells = feature.levels[level].cells;
             INFO(feature.feature << ", noise level " << feature.levels[level].noise_level);
-            // Both the rate's sample and the threshold's scatter; 4.5 standard deviations.
+            // Scatter of the rate's sample and of the threshold; 4.5 standard deviations.
             const double n = static_cast<double>(cells[0].tested);
             const double sd = std::sqrt(alpha * (1 - alpha) * (1 / n + 1.0 / 600));
             CHECK(std::abs(cells[0].pd - alpha) < 4.5 * sd);
@@ -150,7 +150,7 @@ TEST_CASE("Detection rates: false alarms at size 0, more with size, never more w
             }
         }
     }
-    // The windowing detector: monotone in size and noise up to the scatter of 150 gearboxes.
+    // The windowing detector is monotone in size and noise up to the scatter of 150 gearboxes.
     const auto& window = detection[test::feature_index(results, "window_ratio")];
     for (std::size_t level = 0; level < window.levels.size(); ++level) {
         const auto& cells = window.levels[level].cells;

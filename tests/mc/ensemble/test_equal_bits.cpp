@@ -1,6 +1,6 @@
-// Every shipped study by another number of lanes: the same bits. Small ensembles, whose first
-// gearboxes are healthy and whose tiles are full and not: a lane's neighbours change with their
-// number.
+// Checks that every shipped study gives the same bits for another number of lanes. The ensembles
+// are small; their first gearboxes are healthy and their tiles both full and not, so that a lane's
+// neighbours change with the number of lanes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using test::shipped_study;
 
 namespace {
 
-// Those without teeth have modes only.
+// Studies without teeth have modes only and are excluded.
 std::vector<std::string> studies_with_teeth() {
     std::vector<std::string> names = test::shipped_studies();
     std::erase_if(names, [](const std::string& name) {
@@ -29,12 +29,13 @@ std::vector<std::string> studies_with_teeth() {
 
 constexpr double kFastCarrier_rpm = 300.0;
 
-// Every mesh of the span is marched, for a second and more a tile.
+// True if every mesh of the span is integrated, for a second or more per tile.
 bool marches_all(const mc::Study& study) {
     return study.numerics.horizon == mc::Horizon::march || !mc::why_no_mesh_repeats(study).empty();
 }
 
-// Those that march all have few gearboxes, and slow carriers turn faster, with fewer steps a mesh.
+// Overrides for a small ensemble: few gearboxes where all meshes are integrated, and a faster
+// carrier with fewer steps per mesh where it is slow.
 std::vector<std::string> small(const std::string& name) {
     const mc::Study study = shipped_study(name);
     const bool marched = marches_all(study);
@@ -49,15 +50,15 @@ std::vector<std::string> small(const std::string& name) {
 
 }  // namespace
 
-// One other width suffices: tests/lockstep marches each mesh law by all. It is one lane, or four
-// where every mesh is marched.
+// One other width suffices: tests/lockstep checks each mesh law with all. It is one lane, or four
+// where every mesh is integrated.
 TEST_CASE("Every shipped study gives the same bits by eight lanes and by one or four") {
     const auto names = studies_with_teeth();
     REQUIRE(names.size() > 30);
     for (const std::string& name : names) {
         INFO(name);
         const auto changes = small(name);
-        // Uneven drives have kernels of four lanes in a portable build only.
+        // Variable excitation has kernels of four lanes in a portable build only.
         const mc::Study study = shipped_study(name);
         const bool any_width = GEARPOD_PORTABLE || !mc::driven_unevenly(study);
         const auto of_lanes = [&](int lanes) {

@@ -1,4 +1,4 @@
-// Signals and the time limit as the run sees them.
+// Checks signals and the time limit from the run's view.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 using namespace gearpod::mc;
 using namespace std::chrono_literals;
 
-TEST_CASE("Times are hours, minutes and seconds") {
+TEST_CASE("Time limits are parsed as hours, minutes and seconds") {
     CHECK(parse_time_limit("00:00:01") == 1s);
     CHECK(parse_time_limit("01:30:07") == 5407s);
     CHECK(parse_time_limit("120:00:00") == 120h);
@@ -23,7 +23,7 @@ TEST_CASE("Times are hours, minutes and seconds") {
     }
 }
 
-TEST_CASE("A signal is a reason to stop, for as long as somebody watches") {
+TEST_CASE("A signal requests a stop during the lifetime of a watcher") {
     for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
         const Interruption interruption(std::nullopt);
         CHECK(interruption.reason(1h).empty());
@@ -32,7 +32,7 @@ TEST_CASE("A signal is a reason to stop, for as long as somebody watches") {
     }
 }
 
-TEST_CASE("Signals that come together ask once, a later one ends the program") {
+TEST_CASE("Simultaneous signals count as one request, a later one ends the program") {
     const pid_t child = fork();
     REQUIRE(child >= 0);
     if (child == 0) {
@@ -50,7 +50,7 @@ TEST_CASE("Signals that come together ask once, a later one ends the program") {
     CHECK(WTERMSIG(status) == SIGINT);
 }
 
-TEST_CASE("The time limit counts what finishing will take") {
+TEST_CASE("The time limit includes the time to finish") {
     const Interruption interruption(2s);
     CHECK(interruption.reason(0s).empty());
     CHECK(interruption.reason(1.5s).empty());
@@ -59,12 +59,12 @@ TEST_CASE("The time limit counts what finishing will take") {
     CHECK(interruption.reason(1.5s) == "the time limit");
 }
 
-TEST_CASE("Computing leaves off a second after a signal, at the limit, or when it is told to") {
+TEST_CASE("Computing stops a second after a signal, at the limit, or on request") {
     {
         const Interruption interruption(1h);
         CHECK_FALSE(interruption.stop());
         std::raise(SIGTERM);
-        CHECK_FALSE(interruption.stop());  // what is nearly finished may be
+        CHECK_FALSE(interruption.stop());  // work that is nearly finished may be completed
         std::this_thread::sleep_for(Interruption::kGrace + 50ms);
         CHECK(interruption.stop());
         CHECK_THROWS_AS(gearpod::machine::leave_if_stopped(), gearpod::machine::Stopped);
@@ -79,7 +79,7 @@ TEST_CASE("Computing leaves off a second after a signal, at the limit, or when i
     CHECK(limited.stop());
 }
 
-TEST_CASE("Who is told to leave off does so then") {
+TEST_CASE("A request to stop takes effect at the requested time") {
     const Interruption interruption(std::nullopt);
     interruption.leave_off_in(200ms);
     CHECK_FALSE(interruption.stop());

@@ -1,4 +1,5 @@
-// ensemble.until against the closed form of the Wilson interval where every gearbox is detected.
+// Checks ensemble.until against the closed form of the Wilson interval where every gearbox is
+// detected.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -32,16 +33,16 @@ BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& ba
 
 }  // namespace
 
-TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in any order") {
+TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in any order") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
     const BatchPlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
-    // All of n detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
+    // All of n are detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
     const double z2 = 1.959963984540054 * 1.959963984540054;
     const auto needed = static_cast<std::size_t>(std::ceil(z2 * (1.0 / 0.2 - 1.0)));
     REQUIRE(needed == 16);
-    // Seven sizes in turn, the largest last: the n-th of them is graded gearbox 7 n - 1.
+    // Seven interleaved sizes, the largest last: its n-th gearbox is graded gearbox 7 n - 1.
     const std::size_t batches = 3 + (7 * needed - 1) / kBatchRows + 1;
 
     std::vector<std::size_t> order(plan.batches());
@@ -63,7 +64,8 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in
     }
 }
 
-TEST_CASE("What is left until the wanted interval is predicted from the rate so far") {
+TEST_CASE(
+    "The number of gearboxes until the requested interval is predicted from the rate so far") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
     const BatchPlan plan(48, 700);
     const Sampler sampler(study);
@@ -72,7 +74,7 @@ TEST_CASE("What is left until the wanted interval is predicted from the rate so 
     PdWatch watch(study, plan, "");
     CHECK_FALSE(watch.rows_left().has_value());
     CHECK(watch.text().empty());
-    // The threshold group and 64 graded gearboxes: nine of the largest size, 16 wanted.
+    // The threshold group and 64 graded gearboxes: nine of the largest size, 16 required.
     for (std::size_t batch = 0; batch < 7; ++batch) {
         store.write(batch, rows_of(sampler, shape, plan.batch(batch)));
     }

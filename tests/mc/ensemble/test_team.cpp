@@ -1,5 +1,5 @@
-// OpenMP teams: what is asked for is done once, by as many threads as OpenMP grants, and nothing
-// that is thrown gets lost.
+// Checks OpenMP teams: every task runs once on as many threads as OpenMP grants, and exceptions are
+// not lost.
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 using namespace gearpod;
 
-TEST_CASE("Every index is worked on once, whatever the team") {
+TEST_CASE("Every index is processed once, for any team size") {
     for (const int threads : {1, 2, 3, 7}) {
         for (const std::size_t count : {0, 1, 2, 100}) {
             std::vector<std::atomic<int>> times(count);
@@ -21,7 +21,7 @@ TEST_CASE("Every index is worked on once, whatever the team") {
     }
 }
 
-TEST_CASE("Every thread of a team learns the team's size") {
+TEST_CASE("Every thread of a team receives the team's size") {
     for (const int threads : {1, 2, 5}) {
         std::atomic<int> calls{0};
         std::atomic<bool> same{true};
@@ -34,7 +34,7 @@ TEST_CASE("Every thread of a team learns the team's size") {
     }
 }
 
-TEST_CASE("An exception in a team comes out of it after the others have done their work") {
+TEST_CASE("An exception in a team is rethrown after the others have finished") {
     std::atomic<int> calls{0};
     const auto work = [&](std::size_t i) {
         ++calls;

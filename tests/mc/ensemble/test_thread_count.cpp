@@ -1,5 +1,5 @@
-// How many threads a run takes, and where they run: OMP_NUM_THREADS, OMP_THREAD_LIMIT and
-// numerics.threads, the ranks beside it, OMP_PROC_BIND and OMP_PLACES.
+// Checks the number of a run's threads and their placement: OMP_NUM_THREADS, OMP_THREAD_LIMIT and
+// numerics.threads, ranks on the same machine, OMP_PROC_BIND and OMP_PLACES.
 #include <algorithm>
 
 #include "machine/team.hpp"
@@ -21,24 +21,26 @@ std::string run_of(const Folder& folder) {
 
 const std::string kProgram = std::string(GEARPOD_PROGRAM) + " ";
 
-// A command's beginning, whatever the environment of the tests.
+// Beginning of a command, independent of the environment of the tests.
 std::string with(const std::string& environment) {
     return "unset OMP_NUM_THREADS OMP_THREAD_LIMIT OMP_PROC_BIND OMP_PLACES; " + environment + " ";
 }
 
-// What the run says of its threads.
+// Checks the run's message about its threads.
 void check_threads(const std::string& environment, const std::string& more, int threads) {
     const Folder folder;
     const test::Outcome run = test::shell(with(environment) + kProgram + run_of(folder) + more);
     INFO(environment << more << "\n" << run.output);
     CHECK(run.code == 0);
     CHECK(run.mentions("(1 rank, " + std::to_string(threads) + " thread" +
-                       (threads == 1 ? "" : "s") + " in all"));
+                       (threads == 1 ? "" : "s") + " in total"));
 }
 
 }  // namespace
 
-TEST_CASE("OMP_NUM_THREADS says how many threads, numerics.threads overrules, the limit holds") {
+TEST_CASE(
+    "OMP_NUM_THREADS sets the number of threads, numerics.threads overrides it, the limit "
+    "applies") {
     const std::string own = " --set numerics.threads=";
     check_threads("OMP_NUM_THREADS=3", "", 3);
     check_threads("OMP_NUM_THREADS=2,4", "", 2);
@@ -46,11 +48,11 @@ TEST_CASE("OMP_NUM_THREADS says how many threads, numerics.threads overrules, th
     check_threads("OMP_NUM_THREADS=1", own + "3", 3);
     check_threads("OMP_NUM_THREADS=3 OMP_THREAD_LIMIT=2", "", 2);
     check_threads("OMP_THREAD_LIMIT=2", own + "3", 2);
-    // More than there are batches have nothing to do.
+    // Threads in excess of the number of batches are not started.
     check_threads("OMP_NUM_THREADS=64", "", 5);
 }
 
-TEST_CASE("What OMP_NUM_THREADS does not say well counts as not said, and OpenMP tells so") {
+TEST_CASE("A malformed OMP_NUM_THREADS is ignored, and OpenMP reports it") {
     const int processors = std::min(5, machine::processors());
     check_threads("", "", processors);
     check_threads("OMP_NUM_THREADS=many", "", processors);
@@ -60,8 +62,7 @@ TEST_CASE("What OMP_NUM_THREADS does not say well counts as not said, and OpenMP
               .mentions("OMP_NUM_THREADS"));
 }
 
-TEST_CASE("Ranks share a machine's processors, but not what OMP_NUM_THREADS gives to each",
-          "[mpi]") {
+TEST_CASE("Ranks share a machine's processors, but not the OMP_NUM_THREADS of each", "[mpi]") {
     const auto in_all = [](const std::string& environment) {
         const Folder folder;
         const test::Outcome run = test::shell(with(environment) + test::mpirun(2) +
@@ -72,12 +73,12 @@ TEST_CASE("Ranks share a machine's processors, but not what OMP_NUM_THREADS give
         return std::stoi(run.output.substr(at + 10));
     };
     CHECK(in_all("OMP_NUM_THREADS=2") == 4);
-    if (machine::processors() <= 4) {  // more would be more threads than batches
+    if (machine::processors() <= 4) {  // more threads would exceed the number of batches
         CHECK(in_all("") == 2 * std::max(1, machine::processors() / 2));
     }
 }
 
-TEST_CASE("A forecast is one of the run's threads") {
+TEST_CASE("A forecast uses the run's number of threads") {
     for (const int threads : {1, 3}) {
         const auto forecast = test::shell(
             with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
@@ -91,7 +92,7 @@ TEST_CASE("A forecast is one of the run's threads") {
     }
 }
 
-TEST_CASE("The team alone has the places: each thread one, the main thread none of its own") {
+TEST_CASE("Only the team is bound to places: one per thread, none for the main thread") {
     if (machine::processors() < 2) {
         WARN("one processor: there is nothing to bind to");
         return;

@@ -1,4 +1,4 @@
-// Several records of each gearbox that sets thresholds: the same motion, other noise.
+// Checks several records of each gearbox in the threshold group: same vibration, other noise.
 #include "mc/gearbox/simulation.hpp"
 #include "mc/results/batch_rows.hpp"
 #include "tests/mc/program.hpp"
@@ -24,7 +24,7 @@ mc::Study study_of(int records, const std::string& lanes = "8",
 
 const std::vector<std::string> kTilt{"ensemble.threshold_tilt=true"};
 
-// Of a parameter or a feature's level.
+// Values of a parameter or of a feature's level.
 const std::vector<double>& parameter(const mc::Results& results, const std::string& name) {
     return std::find_if(results.parameters.begin(), results.parameters.end(),
                         [&](const auto& p) { return p.name == name; })
@@ -39,7 +39,8 @@ double value_of(const mc::Results& results, const std::string& feature, std::siz
 
 }  // namespace
 
-TEST_CASE("Records of a gearbox differ in their noise alone, and the first is as without others") {
+TEST_CASE(
+    "Records of a gearbox differ in their noise alone, and the first equals a single record") {
     const mc::Results single = test::run(study_of(1)), several = test::run(study_of(kRecords));
     REQUIRE(several.status.size() == kGearboxes * kRecords + kGraded);
     for (std::size_t row = 0; row < several.status.size(); ++row) {
@@ -55,7 +56,8 @@ TEST_CASE("Records of a gearbox differ in their noise alone, and the first is as
                 return results.features[f].values[2 * at + level];
             };
             INFO(single.features[f].name << " " << row);
-            // Without noise but for rounding: spectra of both are had at once.
+            // Values without noise agree except for rounding: spectra of both are computed
+            // together.
             CHECK(value(several, row, 0) == Approx(value(single, alone, 0)).epsilon(1e-11));
             CHECK((value(several, row, 0) == value(single, alone, 0) || !first));
             CHECK((value(several, row, 1) == value(single, alone, 1)) == first);
@@ -66,7 +68,7 @@ TEST_CASE("Records of a gearbox differ in their noise alone, and the first is as
     }
 }
 
-TEST_CASE("Every record of a gearbox has a baseline with noise of its own, of the same motion") {
+TEST_CASE("Every record of a gearbox has a baseline of the same vibration with independent noise") {
     const mc::Results results = test::run(
         study_of(kRecords, "8",
                  {"features.use=[\"te_rms\",\"own_te_rms\",\"sensor_rms\",\"own_sensor_rms\"]"}));
@@ -84,7 +86,7 @@ TEST_CASE("Every record of a gearbox has a baseline with noise of its own, of th
     }
 }
 
-TEST_CASE("Records of a gearbox are the same bits by any lanes, and when simulated alone") {
+TEST_CASE("Records of a gearbox have the same bits for any lanes, and when simulated alone") {
     const mc::Results results = test::run(study_of(kRecords));
     CHECK(bits(test::run(study_of(kRecords, "1"))) == bits(results));
     const mc::Study study = study_of(kRecords);
@@ -103,7 +105,9 @@ TEST_CASE("Records of a gearbox are the same bits by any lanes, and when simulat
     }
 }
 
-TEST_CASE("Tilted records are plain ones but for stretches of their noise, with weights") {
+TEST_CASE(
+    "Exponentially tilted records are plain ones with stretches of shifted noise, and have "
+    "weights") {
     constexpr int kTilted = 8;
     const mc::Results plain = test::run(study_of(kTilted)),
                       tilted = test::run(study_of(kTilted, "8", kTilt));
@@ -116,7 +120,7 @@ TEST_CASE("Tilted records are plain ones but for stretches of their noise, with 
         INFO(row << " " << weight[row]);
         CHECK((value_of(tilted, "sensor_rms", row) == value_of(plain, "sensor_rms", row)) ==
               untilted);
-        // A stretch that is not the loudest leaves the ratio as it is.
+        // A stretch that is not the loudest does not change the ratio.
         CHECK((value_of(tilted, "window_ratio", row) == value_of(plain, "window_ratio", row) ||
                !untilted));
         CHECK(value_of(tilted, "te_rms", row) == value_of(plain, "te_rms", row));
@@ -127,7 +131,8 @@ TEST_CASE("Tilted records are plain ones but for stretches of their noise, with 
     CHECK(tilted.request.threshold_tilt);
 }
 
-TEST_CASE("Tilted records are the same bits by any lanes, and when simulated alone") {
+TEST_CASE(
+    "Exponentially tilted records have the same bits for any lanes, and when simulated alone") {
     const mc::Results results = test::run(study_of(4, "8", kTilt));
     CHECK(bits(test::run(study_of(4, "1", kTilt))) == bits(results));
     const mc::Study study = study_of(4, "8", kTilt);
@@ -138,7 +143,9 @@ TEST_CASE("Tilted records are the same bits by any lanes, and when simulated alo
     }
 }
 
-TEST_CASE("Few gearboxes of tilted records have a threshold for 1e-3 where noise makes alarms") {
+TEST_CASE(
+    "Few gearboxes of exponentially tilted records give a threshold for 1e-3 where noise causes "
+    "alarms") {
     const mc::Results results =
         test::run(study_of(16, "8",
                            {"ensemble.threshold_tilt=true", "ensemble.threshold_instances=200",
@@ -154,18 +161,18 @@ TEST_CASE("Few gearboxes of tilted records have a threshold for 1e-3 where noise
     CHECK(level.threshold_rate.upper / level.threshold_rate.lower < 3.0);
 }
 
-TEST_CASE("Tilt without records, of other numbers or of coloured noise is refused") {
+TEST_CASE("Tilting without records, with other counts or with coloured noise is refused") {
     const auto problem = [](const std::vector<std::string>& keys) {
         return mc::format(mc::read_study(test::study("planet-crack-ideal.toml"), keys).problems);
     };
-    CHECK_THAT(
-        problem({"ensemble.threshold_tilt=true"}),
-        Catch::Contains("only with ensemble.threshold_records") && !Catch::Contains("no multiple"));
+    CHECK_THAT(problem({"ensemble.threshold_tilt=true"}),
+               Catch::Contains("only with ensemble.threshold_records") &&
+                   !Catch::Contains("not a multiple"));
     CHECK_THAT(problem({"ensemble.threshold_tilt=true", "ensemble.threshold_records=6"}),
-               Catch::Contains("6 are no multiple of 4") && Catch::Contains("take 8"));
+               Catch::Contains("6 is not a multiple of 4") && Catch::Contains("use 8"));
     const auto coloured =
         mc::format(mc::read_study(test::study("noise-density.toml"),
                                   {"ensemble.threshold_tilt=true", "ensemble.threshold_records=8"})
                        .problems);
-    CHECK_THAT(coloured, Catch::Contains("colours the noise"));
+    CHECK_THAT(coloured, Catch::Contains("tilting needs white noise"));
 }

@@ -1,4 +1,4 @@
-// What goes wrong in the process that reads a file stays there.
+// Checks that failures in the child process that reads a file do not affect the program.
 #include <sys/wait.h>
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using namespace gearpod::test;
 
 namespace {
 
-// A file that does what it is told to when it is read.
+// A file whose reader performs a given action.
 class MadeUp : public mc::SignalFile {
   public:
     std::vector<std::string> names() const override { return {"sensor", "bad", "loud", "te"}; }
@@ -41,7 +41,7 @@ std::unique_ptr<mc::SignalFile> made_up(const Folder& folder) {
     return mc::isolated_signal(folder.file("x.h5"), [] { return std::make_unique<MadeUp>(); });
 }
 
-TEST_CASE("Columns, units and rate come through as they are") {
+TEST_CASE("Columns, units and rate are transferred unchanged") {
     const Folder folder;
     const auto file = made_up(folder);
     CHECK(file->names() == std::vector<std::string>{"sensor", "bad", "loud", "te"});
@@ -52,10 +52,11 @@ TEST_CASE("Columns, units and rate come through as they are") {
     CHECK(file->read("sensor").size() == 3);
 }
 
-TEST_CASE("A reader that ends by a signal, or asks for all memory, is an error here and no more") {
+TEST_CASE(
+    "A reader that ends by a signal, or requests all memory, causes an error and nothing else") {
     const Folder folder;
-#ifndef __SANITIZE_ADDRESS__  // which ends a program that asks for so much
-    CHECK_THROWS_WITH(made_up(folder)->read("loud"), Catch::Contains("x.h5: asks for more memory"));
+#ifndef __SANITIZE_ADDRESS__  // which ends a program that requests so much
+    CHECK_THROWS_WITH(made_up(folder)->read("loud"), Catch::Contains("x.h5: needs more memory"));
 #endif
     const auto file = made_up(folder);
     CHECK_THROWS_WITH(file->read("bad"), Catch::Contains("x.h5: is damaged"));
@@ -71,7 +72,7 @@ TEST_CASE("A reader that ends by a signal, or asks for all memory, is an error h
         Catch::Contains("is damaged"));
 }
 
-TEST_CASE("No process is left behind") {
+TEST_CASE("No child process remains") {
     {
         const Folder folder;
         const auto file = made_up(folder);

@@ -1,4 +1,4 @@
-// Recordings as other programs save them: what is read is what was written.
+// Checks recordings in the formats of other programs: values read equal values written.
 #include <matio.h>
 #include <sys/stat.h>
 
@@ -52,7 +52,7 @@ std::string refusal(const std::string& path) {
     return "";
 }
 
-TEST_CASE("a WAV file gives its samples as shares of the full scale, and its rate") {
+TEST_CASE("a WAV file gives its samples as fractions of the full scale, and its rate") {
     const Folder folder;
     const std::vector<double> values = sines(1001, 0.9);
     const std::pair<WavForm, double> forms[] = {
@@ -68,7 +68,7 @@ TEST_CASE("a WAV file gives its samples as shares of the full scale, and its rat
     }
 }
 
-TEST_CASE("the channels of a WAV file are told apart") {
+TEST_CASE("the channels of a WAV file are separated") {
     const Folder folder;
     std::vector<double> both;
     const std::vector<double> first = sines(300, 0.5), second = sines(300, -0.25);
@@ -99,7 +99,7 @@ TEST_CASE("a universal file gives its function, its step and its unit, as text a
     }
 }
 
-TEST_CASE("recordings that are cut off or compressed are refused by name") {
+TEST_CASE("recordings that are truncated or compressed are refused by name") {
     const Folder folder;
     const std::vector<double> values = sines(100, 0.5);
     std::string wav = wav_bytes(values, 1, 5000, WavForm::whole_16);
@@ -116,7 +116,7 @@ TEST_CASE("recordings that are cut off or compressed are refused by name") {
     CHECK(refusal(written(folder, "a.uff", uneven)).find("step") != std::string::npos);
 }
 
-// A struct with the vectors of a signal, as MATLAB keeps what a logger gives.
+// A struct with the vectors of a signal, as in MATLAB files from data loggers.
 std::string mat_struct(const Folder& folder, mat_ft version, const std::vector<double>& sensor) {
     const std::string path = folder.file("s.mat");
     mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
@@ -151,7 +151,7 @@ TEST_CASE("the numeric fields of a MATLAB struct are columns") {
     }
 }
 
-TEST_CASE("a MATLAB file that is cut off is refused, compressed or not") {
+TEST_CASE("a truncated MATLAB file is refused, compressed or not") {
     const Folder folder;
     std::vector<double> values = sines(4000, 2.0);
     std::size_t size[2] = {values.size(), 1};
@@ -170,19 +170,19 @@ TEST_CASE("a MATLAB file that is cut off is refused, compressed or not") {
         for (const double share : {0.3, 0.6, 0.9, 0.999}) {
             const auto kept = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
             INFO(form << " " << share);
-            CHECK(refusal(written(folder, "cut.mat", bytes.substr(0, kept))).find("is cut off") !=
+            CHECK(refusal(written(folder, "cut.mat", bytes.substr(0, kept))).find("is truncated") !=
                   std::string::npos);
         }
     }
 }
 
-TEST_CASE("a MATLAB table is refused with what to do") {
+TEST_CASE("a MATLAB table is refused with a remedy") {
     const Folder folder;
     const std::string path = folder.file("t.mat");
     Mat_Close(Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT73));
     {
         const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path);
-        // As MATLAB writes one: a word that says so, and where its parts are.
+        // Layout as MATLAB writes it: an identifying word and the positions of its parts.
         const hsize_t size[2] = {1, 6};
         const std::uint32_t words[] = {0xDD000000, 2, 1, 1, 1, 1};
         const mc::Hdf5Handle space(H5Screate_simple(2, size, nullptr), H5Sclose, "T");
@@ -204,7 +204,7 @@ TEST_CASE("a MATLAB table is refused with what to do") {
     CHECK(why.find("table2struct") != std::string::npos);
 }
 
-TEST_CASE("what lies outside of an HDF5 file is refused by name and not opened") {
+TEST_CASE("links out of an HDF5 file are refused by name and not opened") {
     const Folder folder;
     const auto make = [&](const std::string& name, auto add) {
         const std::string path = folder.file(name);
@@ -214,17 +214,17 @@ TEST_CASE("what lies outside of an HDF5 file is refused by name and not opened")
         add(file.get());
         return path;
     };
-    // Whoever opened it would wait for a writer.
+    // Opening the pipe would block until a writer appears.
     const std::string pipe = folder.file("pipe.h5");
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
     const std::string link = make("link.h5", [&](hid_t file) {
         H5Lcreate_external(pipe.c_str(), "/sensor", file, "sensor", H5P_DEFAULT, H5P_DEFAULT);
     });
-    CHECK(refusal(link).find("sensor lies in another file") != std::string::npos);
+    CHECK(refusal(link).find("sensor is stored in another file") != std::string::npos);
     const std::string group = make("group.h5", [&](hid_t file) {
         H5Lcreate_external(pipe.c_str(), "/", file, "signals", H5P_DEFAULT, H5P_DEFAULT);
     });
-    CHECK(refusal(group).find("signals lies in another file") != std::string::npos);
+    CHECK(refusal(group).find("signals is stored in another file") != std::string::npos);
     const std::string raw = make("raw.h5", [&](hid_t file) {
         const hsize_t count = 3;
         const mc::Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "raw");
@@ -234,8 +234,8 @@ TEST_CASE("what lies outside of an HDF5 file is refused by name and not opened")
                                                 H5P_DEFAULT, made.get(), H5P_DEFAULT),
                                      H5Dclose, "raw");
     });
-    CHECK(refusal(raw).find("sensor lies in another file") != std::string::npos);
-    // A link within the file is as good as the dataset.
+    CHECK(refusal(raw).find("sensor is stored in another file") != std::string::npos);
+    // A link within the file is equivalent to the dataset.
     const std::string soft = make("soft.h5", [&](hid_t file) {
         H5Lcreate_soft("/time", file, "sensor", H5P_DEFAULT, H5P_DEFAULT);
     });
@@ -243,7 +243,7 @@ TEST_CASE("what lies outside of an HDF5 file is refused by name and not opened")
     CHECK(mc::open_signal_file(soft)->read("sensor") == std::vector<double>{0.0, 1.0, 2.0});
 }
 
-TEST_CASE("rate and scale of an HDF5 file may be whole numbers") {
+TEST_CASE("rate and scale of an HDF5 file may be integers") {
     const Folder folder;
     const std::string path = folder.file("whole.h5");
     {

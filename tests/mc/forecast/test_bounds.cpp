@@ -1,5 +1,5 @@
-// What an accepted study may cost: describe ends soon and stays small, run says beforehand what
-// cannot fit, and whatever is counted has a ceiling.
+// Checks the cost of accepted studies: describe ends soon and stays small, run reports in advance
+// what exceeds the memory, and every count has an upper limit.
 #include <ctime>
 
 #include "tests/mc/program.hpp"
@@ -18,7 +18,7 @@ std::string levels(int count) {
     return "[" + list + "]";
 }
 
-// In 2 GB; no exit code of a shell or of a signal.
+// Runs the program in 2 GB; fails on an exit code of a shell or of a signal.
 Outcome bounded(const std::string& arguments, int kilobytes = 2000000) {
     return test::shell(test::within_memory(kilobytes) + "timeout 60 " + GEARPOD_PROGRAM + " " +
                        arguments);
@@ -26,7 +26,7 @@ Outcome bounded(const std::string& arguments, int kilobytes = 2000000) {
 
 }  // namespace
 
-TEST_CASE("Whatever a study counts, describe ends within its time and memory") {
+TEST_CASE("describe ends within its time and memory for any counts in a study") {
     const std::string study = test::study("crack-in-sun.toml");
     for (const std::string& set :
          {"sensor.noise_levels=" + levels(1000),
@@ -45,7 +45,7 @@ TEST_CASE("Whatever a study counts, describe ends within its time and memory") {
     }
 }
 
-TEST_CASE("Counts beyond their ceilings are refused with the ceiling") {
+TEST_CASE("Counts beyond their limits are refused with the limit") {
     const std::string study = test::study("crack-in-sun.toml");
     for (const auto& [set, words] :
          {std::pair{"sensor.noise_levels=" + levels(1001), "at most 1000"},
@@ -54,7 +54,7 @@ TEST_CASE("Counts beyond their ceilings are refused with the ceiling") {
           std::pair{std::string("sensor.sampling_Hz=1e7"), "at most 20000"},
           std::pair{std::string("ensemble.instances=1000000001"), "ensemble.instances"},
           std::pair{std::string("sensor.encoder_sampling_Hz=1\" --set \"features.use=['te_fm4']"),
-                    "do not part the transmission error"},
+                    "too few for te_fm4, te_m6a and te_m8a"},
           std::pair{std::string("features.te_harmonics=100000"), "features.te_harmonics"}}) {
         const Outcome outcome = bounded("describe " + study + " --set \"" + set + "\"");
         INFO(outcome.output.substr(0, 400));
@@ -64,7 +64,7 @@ TEST_CASE("Counts beyond their ceilings are refused with the ceiling") {
 }
 
 #ifndef __SANITIZE_ADDRESS__
-TEST_CASE("A run that cannot fit the memory says so before it begins") {
+TEST_CASE("A run that exceeds the memory reports this before it begins") {
     const Folder folder;
     const std::string run = "run " + test::study("crack-in-sun.toml") +
                             " --set numerics.horizon=march --set sensor.sampling_Hz=60000 --set "
@@ -73,10 +73,10 @@ TEST_CASE("A run that cannot fit the memory says so before it begins") {
     const Outcome refused = bounded(run, 1500000);
     INFO(refused.output);
     CHECK(refused.code == 2);
-    CHECK(refused.mentions("GB of memory at least"));
+    CHECK(refused.mentions("the run needs at least"));
     CHECK(refused.mentions("--force"));
     CHECK(folder.empty());
-    // Tried all the same, it ends with a message and what it has.
+    // A forced run ends with a message and keeps its results.
     const Outcome forced = bounded(run + " --force --quiet --time-limit 00:00:05", 1500000);
     INFO(forced.output);
     CHECK(forced.code == 4);

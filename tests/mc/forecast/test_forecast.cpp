@@ -1,5 +1,5 @@
-// What `describe` says a run will take: arithmetic on given measurements, and that measuring is
-// bounded.
+// Checks the cost forecast of `describe`: arithmetic on given measurements, and a bounded measuring
+// time.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-// A march of a second, or what a reused one costs; every gearbox another sixteenth.
+// Integration of a tile takes a second unless it is reused; the features of every gearbox take
+// another sixteenth.
 RunCalibration given_costs(int threads) {
     RunCalibration calibration;
     calibration.threads = threads;
@@ -58,13 +59,14 @@ BatchRows first_tile(const Scene& scene) {
 const std::vector<std::string> kFast{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
                                      "sensor.encoder_sampling_Hz=20000"};
 
-// Enough time for a tile a thread.
+// Limit with enough time for one tile per thread.
 constexpr double kNoBudget_s = 1e-9;
 
 }  // namespace
 
-TEST_CASE("A run takes as many rounds of batches as the threads need, the last perhaps not full") {
-    // A batch of sixteen gearboxes: two marches and a second for the features.
+TEST_CASE(
+    "A run takes the rounds of batches that its threads need; the last round may be partial") {
+    // Cost of a batch of sixteen gearboxes: two integrations, and a second for the features.
     const double batch_s = 3.0;
     const RunCalibration two = given_costs(2);
     CHECK(forecast_s(two, {16, 16}) == Approx(batch_s));
@@ -73,12 +75,12 @@ TEST_CASE("A run takes as many rounds of batches as the threads need, the last p
     CHECK(forecast_s(two, {1600, 1600}) == Approx(100 * batch_s));
     CHECK(forecast_s(given_costs(1), {16, 48}) == Approx(4 * batch_s));
     CHECK(forecast_s(given_costs(3), {16, 48}) == Approx(2 * batch_s));
-    // A tile costs its march however few gearboxes it has.
+    // A tile costs one integration, however few gearboxes it has.
     CHECK(forecast_s(given_costs(1), {16, 1}) == Approx(batch_s + 1.0 + 1.0 / 16.0));
     CHECK(forecast_s(given_costs(1), {16, 9}) == Approx(batch_s + 2.0 + 9.0 / 16.0));
 }
 
-TEST_CASE("Groups cost what each of them does, and a thread starts once") {
+TEST_CASE("Each group has its own cost, and a thread starts once") {
     RunCalibration calibration = given_costs(1);
     calibration.cost[static_cast<std::size_t>(Group::graded)].fresh.whole.march = 5.0;
     calibration.start_s = 0.25;
@@ -86,11 +88,11 @@ TEST_CASE("Groups cost what each of them does, and a thread starts once") {
     calibration.threads = 2;
     CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 11.0));
     calibration.cost[0].fresh.rest = 0.5;
-    // Ten batches for two threads, and a gearbox for one of them.
+    // Ten batches for two threads, and one gearbox for one of them.
     CHECK(forecast_s(calibration, {160, 1}) == Approx(0.25 + 5 * 4.0 + 5.0 + 1.0 / 16.0));
 }
 
-TEST_CASE("Motions that are there already are not marched again") {
+TEST_CASE("Cached responses are not integrated again") {
     RunCalibration calibration = given_costs(1);
     for (GroupCost& group : calibration.cost) {
         group.reused.whole.march = 0.01;
@@ -101,13 +103,13 @@ TEST_CASE("Motions that are there already are not marched again") {
           Approx(4 * 1.0 + 36 * 0.01 + 320 / 16.0));
 }
 
-TEST_CASE("Marches are counted as the cache keeps them") {
+TEST_CASE("Integrations are counted as the cache keeps them") {
     Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     std::erase_if(study.random, [](const RandomInput& input) {
         return !input.key.starts_with("sensor.") && !input.key.starts_with("fault.");
     });
     const Scene scene(study);
-    // Full tiles at each of seven sizes, and one that is not full in either group.
+    // Full tiles at each of seven sizes, and a partial one in each group.
     const BatchPlan plan(20, 180);
     const BatchTask task(scene);
     BatchWorker worker(task);
@@ -118,7 +120,7 @@ TEST_CASE("Marches are counted as the cache keeps them") {
     const MarchCounts counts = count_marches(scene, plan, 1.0);
     CHECK(counts.kept == task.marches.kept());
     CHECK(counts.marched[0] + counts.marched[1] == counts.kept);
-    // With room for half of them, the others are marched whenever they come.
+    // With capacity for half of them, the others are integrated each time.
     const MarchCounts half =
         count_marches(scene, plan, 256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
     CHECK(half.kept == counts.kept / 2);
@@ -130,7 +132,7 @@ TEST_CASE("Marches are counted as the cache keeps them") {
     CHECK(count_marches(scattered, plan, 1.0).kept == 0);
 }
 
-TEST_CASE("The most memory is that of the gearboxes, or of the analysis after them") {
+TEST_CASE("Peak memory is that of the gearboxes, or of the analysis after them") {
     MemoryUse memory{20e6, 50e6, 30e6, -8e6};
     MarchCounts counts;
     CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6);
@@ -140,7 +142,7 @@ TEST_CASE("The most memory is that of the gearboxes, or of the analysis after th
     CHECK(memory_bytes(memory, counts, 4e6, 500e6) < 530e6);
 }
 
-TEST_CASE("Every shipped study is measured on no more than a tile a thread, if it must be quick") {
+TEST_CASE("Every shipped study is measured with at most one tile per thread if time is short") {
     int studies = 0, trials = 0;
     for (const std::string& name : test::shipped_studies()) {
         const Study study = test::shipped_study(name);
@@ -151,8 +153,7 @@ TEST_CASE("Every shipped study is measured on no more than a tile a thread, if i
         const Scene scene(study);
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCalibration calibration = calibrate_run(scene, plan, 1, kNoBudget_s);
-        // The analysis of thousands of gearboxes takes seconds, whichever study made them: one will
-        // do.
+        // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
         const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
         const AnalysisTrial trial =
             tried ? try_analysis(study, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
@@ -180,7 +181,8 @@ TEST_CASE("Every shipped study is measured on no more than a tile a thread, if i
     CHECK(trials > 20);
 }
 
-TEST_CASE("A march that is cut short to be measured counts in full, and leaves no trace") {
+TEST_CASE(
+    "An integration that is truncated for the measurement counts in full, without side effects") {
     std::vector<std::string> overrides = kFast;
     overrides.push_back("numerics.horizon=march");
     const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
@@ -189,18 +191,18 @@ TEST_CASE("A march that is cut short to be measured counts in full, and leaves n
     const RunCalibration cut = calibrate_run(scene, plan, 1, kNoBudget_s);
     CHECK(cut.recorded == kFewestMeshes);
     CHECK(cut.to_record == 2511);
-    // The approach to the orbit, and eight.
+    // Run-in to the periodic orbit, and eight mesh periods.
     CHECK(cut.meshes >= kFewestMeshes + 2);
     CHECK(cut.meshes < kFewestMeshes + scene.max_meshes());
     const Seconds& whole = cut.cost[0].fresh.whole;
     CHECK(whole.march > 20.0 * whole.signals);
-    // Meshes that are heard as they come leave no records, in a run or here.
+    // Sensor signals recorded during integration need no stored records, in a run or here.
     CHECK(cut.memory.records == 0.0);
     CHECK(motion_bytes(scene) < 0.01 * record_bytes(scene));
     CHECK(bits_of(first_tile(scene)) == before);
 }
 
-TEST_CASE("Made-up results have the run's gearboxes and values like those of computed ones") {
+TEST_CASE("Synthetic results have the run's gearboxes and values similar to computed ones") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     const Scene scene(study);
     const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
@@ -240,7 +242,7 @@ TEST_CASE("Made-up results have the run's gearboxes and values like those of com
         CHECK(sum / n == Approx(computed / m).epsilon(0.25));
         means.push_back(sum / n);
     }
-    CHECK(means[1] > 1.2 * means[0]);  // the largest crack shows
+    CHECK(means[1] > 1.2 * means[0]);  // the largest crack has an effect
     CHECK(distinct.size() == rows);
 }
 
@@ -251,7 +253,7 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
         const test::Outcome described = test::shell(
             "cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " + test::study(name));
         CHECK(described.code == 0);
-        for (const char* entry : {"measured on", "set-up", "gearboxes", "detection and results",
+        for (const char* entry : {"based on", "set-up", "gearboxes", "detection and results",
                                   "estimated time", "estimated memory"}) {
             CHECK(described.mentions(std::string("\n  ") + entry));
         }
@@ -261,7 +263,7 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
                              " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
                              " --set sensor.encoder_sampling_Hz=20000"
                              " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";
-    CHECK(test::program("describe " + sure).mentions("less if ensemble.until ends it"));
+    CHECK(test::program("describe " + sure).mentions("less if ensemble.until stops the run"));
     const std::string stiff =
         test::study("published/tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
     const test::Outcome described = test::program("describe " + stiff);

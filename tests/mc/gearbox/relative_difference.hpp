@@ -1,4 +1,4 @@
-// How far two signals lie apart.
+// Relative difference of two signals.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -6,7 +6,7 @@
 
 namespace gearpod::test {
 
-// Rms of the difference over that of the second.
+// Root mean square of the difference over that of the second signal.
 template <class Signal>
 double relative_difference(const Signal& a, const Signal& b) {
     REQUIRE(a.size() == b.size());

@@ -1,5 +1,5 @@
-// A gearbox against its own record from before the fault: ratios, changes, and what the two records
-// share.
+// Checks features relative to the gearbox's record before the fault: ratios, changes, and inputs
+// that both records share.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -23,7 +23,7 @@ const std::string kCompared =
     "\"own_window_ratio\",\"own_te_rms\",\"change_sensor_rms\",\"change_window_ratio\"]";
 enum : std::size_t { kRms, kRatio, kTe, kOwnRms, kOwnRatio, kOwnTe, kChangeRms, kChangeRatio };
 
-// A study's gearboxes and their features.
+// Simulated gearboxes of a study and their features.
 class Computed {
   public:
     Computed(const Study& study, const std::vector<GearboxId>& ids)
@@ -67,16 +67,16 @@ double rms(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("Without noise and at the same torque a healthy gearbox is as its baseline") {
+TEST_CASE("Without noise and at the same torque a healthy gearbox equals its baseline") {
     const Computed own(study_with({kCompared, "sensor.noise_levels=[0]"}), {kHealthy});
     CHECK(own.value(kOwnRms) == 1.0);
     CHECK(own.value(kOwnRatio) == 1.0);
     CHECK(own.value(kOwnTe) == 1.0);
     CHECK(own.value(kChangeRms) == 0.0);
-    CHECK(std::isnan(own.value(kChangeRatio)));  // no tooth stands out of nothing
+    CHECK(std::isnan(own.value(kChangeRatio)));  // no tooth differs from a zero change
 }
 
-TEST_CASE("Over its baseline a feature is that of the gearbox before its fault") {
+TEST_CASE("Relative features compare the gearbox with its state before the fault") {
     const Study study = study_with(
         {kCompared, "sensor.noise_levels=[0, 1]", "features.baseline_torque_scatter=0.03"});
     const Computed faulty(study, {kFaulty});
@@ -91,7 +91,7 @@ TEST_CASE("Over its baseline a feature is that of the gearbox before its fault")
         }
     }
     CHECK(healthy.value(kRatio) == Approx(1.0).margin(1e-6));
-    // What changed is the crack's and the torque's; the crack's stands out at its tooth.
+    // The difference is due to crack and torque; the crack's part is localized at its tooth.
     const LaneSignals now = faulty.signals(0), then = healthy.signals(0);
     std::vector<double> change(now.sensor.size());
     for (std::size_t i = 0; i < change.size(); ++i) {
@@ -101,7 +101,7 @@ TEST_CASE("Over its baseline a feature is that of the gearbox before its fault")
     CHECK(faulty.value(kChangeRatio) > 2.0 * faulty.value(kRatio));
 }
 
-TEST_CASE("The two records have noise of their own") {
+TEST_CASE("The two records have independent noise") {
     const Computed own(study_with({kCompared, "sensor.noise_levels=[0, 100]"}), {kHealthy});
     const double noise = 100.0 * own.noise_m_s2();
     // About a million samples: 1e-3 of the mean square is one standard deviation.
@@ -110,7 +110,7 @@ TEST_CASE("The two records have noise of their own") {
     CHECK(own.value(kOwnRms, 1) != 1.0);
 }
 
-TEST_CASE("A baseline's values do not depend on the gearboxes beside it") {
+TEST_CASE("A baseline's values do not depend on the other gearboxes of its tile") {
     const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
     const std::vector<GearboxId> ids{kHealthy, kFaulty, {Group::graded, 5}};
     const Computed together(study, ids);
@@ -119,11 +119,11 @@ TEST_CASE("A baseline's values do not depend on the gearboxes beside it") {
     }
 }
 
-TEST_CASE("A baseline is the same beside its record as before it") {
+TEST_CASE("A baseline is the same in the tile of its record as in an earlier tile") {
     const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
     const std::vector<GearboxId> ids{
         kHealthy, kFaulty, {Group::graded, 5}, {Group::graded, 6}, {Group::threshold, 7}};
-    // Of eight lanes, five gearboxes leave no room for their baselines, four do.
+    // With five of eight lanes taken there is no room for the baselines, with four there is.
     const Computed before(study, ids), beside(study, {ids.begin(), ids.end() - 1});
     REQUIRE(beside.values().size() == 4);
     for (std::size_t i = 0; i < beside.values().size(); ++i) {
@@ -134,7 +134,7 @@ TEST_CASE("A baseline is the same beside its record as before it") {
     CHECK(beside.marched_meshes() < before.marched_meshes());
 }
 
-TEST_CASE("The torque of baseline records is scattered as asked for, on both shafts") {
+TEST_CASE("The torque of baseline records has the requested scatter on both shafts") {
     const Study study = test::shipped_study(
         "published/tian-fig-4-9.toml",
         {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
@@ -155,7 +155,7 @@ TEST_CASE("The torque of baseline records is scattered as asked for, on both sha
     CHECK(std::sqrt(squares / kGearboxes) == Approx(0.05).epsilon(0.05));
 }
 
-TEST_CASE("A torque for baselines that nothing compares with is refused") {
+TEST_CASE("A baseline torque is refused where no feature uses it") {
     const auto reading = read_study(test::study_path("planet-crack-ideal.toml"),
                                     {"features.baseline_torque_scatter=0.05"});
     REQUIRE_FALSE(reading.study);

@@ -1,4 +1,4 @@
-// Share of time out of contact, from the tile to the results, the report and its JSON.
+// Checks the share of time out of contact, from the tile to the results, the report and its JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,11 +21,12 @@ Study light_study(const std::vector<std::string>& more = {}) {
     std::vector<std::string> all{
         "operation.carrier_speed_rpm=20",
         "numerics.horizon=march",
+        "effects.contact_onset=abrupt",
         "sensor.noise_levels=[1]",
         "ensemble.threshold_records=1",
         "detection.false_alarm_rate=0.05",
         "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=600}"};
-    all.insert(all.end(), more.begin(), more.end());  // later ones count
+    all.insert(all.end(), more.begin(), more.end());  // later ones take precedence
     Study study = test::shipped_study("fleet-alarms.toml", all);
     study.ensemble.threshold_instances = 8;
     study.ensemble.instances = 8;
@@ -34,7 +35,7 @@ Study light_study(const std::vector<std::string>& more = {}) {
 
 }  // namespace
 
-TEST_CASE("Rows hold the share of time out of contact of each mesh, whatever the lanes") {
+TEST_CASE("Rows hold the share of time out of contact of each mesh, for any lanes") {
     const Results wide = test::run(light_study({"numerics.lanes=16"}));
     REQUIRE(wide.contact_loss.size() == 2);
     CHECK(wide.contact_loss[0].name == "sun-planet");
@@ -75,7 +76,7 @@ TEST_CASE("Heavier loads keep teeth in contact longer") {
     CHECK(heavy == 0.0);
 }
 
-TEST_CASE("Where teeth cannot part there is no share of time out of contact, not zero") {
+TEST_CASE("The share of time out of contact has no value where teeth cannot separate") {
     const Study study = test::shipped_study(
         "planet-crack-ideal.toml", {"ensemble.instances=4", "ensemble.threshold_instances=4"});
     CHECK_FALSE(teeth_can_part(study));
@@ -87,7 +88,7 @@ TEST_CASE("Where teeth cannot part there is no share of time out of contact, not
     CHECK_FALSE(find_step_error(Scene(study), 1e9));
 }
 
-TEST_CASE("The report's text and JSON tell the share of time out of contact") {
+TEST_CASE("The report's text and JSON contain the share of time out of contact") {
     Results results;
     results.group = {0, 1, 1, 1};
     results.status = {0, 0, 0, 1};
@@ -109,7 +110,7 @@ TEST_CASE("The report's text and JSON tell the share of time out of contact") {
     CHECK(json["contact_loss"][1]["upper"] == 0.0);
 }
 
-TEST_CASE("The error of the steps shrinks with them and is that of finer ones") {
+TEST_CASE("The numerical error decreases with the steps and matches that of finer ones") {
     const auto error = [](int steps) {
         const Study study = light_study({"numerics.precision=double", "numerics.integrator=rk4",
                                          fmt::format("numerics.steps_per_mesh={}", steps)});

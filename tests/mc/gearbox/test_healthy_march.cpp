@@ -1,4 +1,5 @@
-// A fault's size marched from the healthy gearbox's states, against all meshes marched with it.
+// Checks a fault of another size integrated from the healthy gearbox's states against integration
+// of all meshes with it.
 #include <catch2/catch.hpp>
 
 #include "mc/gearbox/healthy_march.hpp"
@@ -18,7 +19,7 @@ Study real_teeth(const std::string& settle_tolerance) {
 
 }  // namespace
 
-TEST_CASE("A fault changes the meshes behind it, and the rest is as without") {
+TEST_CASE("A fault changes the meshes after its passage begins, and no others") {
     const Scene scene(real_teeth("1e-8"));
     const auto path = path_grid(scene);
     const GearboxId id{Group::graded, 3};
@@ -34,12 +35,12 @@ TEST_CASE("A fault changes the meshes behind it, and the rest is as without") {
     REQUIRE(changed.status.front() == Status::ok);
     CHECK(test::relative_difference(changed.lane.front().sensor, expected.sensor) < 1e-6);
     CHECK(test::relative_difference(changed.lane.front().te_turn, expected.te_turn) < 1e-6);
-    // The fault shows in what the two agree on.
+    // The fault has an effect in the range where the two agree.
     CHECK(test::relative_difference(march.healthy().lane.front().sensor, expected.sensor) > 0.01);
     CHECK(test::relative_difference(march.healthy().lane.front().te_turn, expected.te_turn) > 1e-3);
 }
 
-TEST_CASE("Few meshes are marched for a further size of a fault") {
+TEST_CASE("Few meshes are integrated for a further size of a fault") {
     const Scene scene(real_teeth("1e-4"));
     const auto path = path_grid(scene);
     const GearboxId id{Group::graded, 5};
@@ -47,7 +48,7 @@ TEST_CASE("Few meshes are marched for a further size of a fault") {
     inputs.fault_size = 0.0;
     const GearboxTile healthy =
         run_given(scene, path, std::span(&id, 1), {inputs}, 1, {.keep_states = true});
-    // A healthy tooth changes nothing.
+    // A fault of size zero causes no change.
     const GearboxTile none = run_changes(scene, std::span(&id, 1), {inputs}, healthy.march.states);
     CHECK(none.march.records.size() <= static_cast<std::size_t>(scene.span_meshes()) / 5);
     CHECK(none.status.front() == Status::ok);

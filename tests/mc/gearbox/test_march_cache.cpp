@@ -1,4 +1,4 @@
-// Studies that vary only path, noise and a few sizes march their gearboxes once.
+// Checks that studies that vary only path, noise and a few sizes integrate their gearboxes once.
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ using namespace gearpod::mc;
 
 namespace {
 
-// Liang's train turning fast; of its random inputs only those in `kept` stay.
+// Liang's train at high speed, with only the random inputs in `kept`.
 Study study_with(const std::vector<std::string>& kept, const std::vector<std::string>& more = {}) {
     std::vector<std::string> overrides{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
                                        "sensor.encoder_sampling_Hz=20000", "numerics.threads=1"};
@@ -44,9 +44,9 @@ std::vector<Batch> graded_tiles(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("What was marched before is not marched again, and gives the same bits") {
+TEST_CASE("Cached responses are not integrated again, and give the same bits") {
     const Scene scene(study_with(kSensorOnly));
-    CHECK(distinct_marches(scene) == 7);  // the sizes; 0 is among them
+    CHECK(distinct_marches(scene) == 7);  // the sizes, including 0
     const BatchTask shared(scene);
     BatchWorker worker(shared);
     Seconds seconds;
@@ -57,14 +57,14 @@ TEST_CASE("What was marched before is not marched again, and gives the same bits
         CHECK(bits(again) == bits(BatchWorker(fresh).compute(tile, seconds)));
         CHECK(fresh.marches.kept() == 1);
     }
-    // Eight gearboxes in a row begin at any of seven sizes.
+    // Eight consecutive gearboxes begin at any of seven sizes.
     CHECK(shared.marches.kept() == 7);
     worker.compute({Group::threshold, 0, 0, 8}, seconds);
     worker.compute({Group::threshold, 8, 0, 8}, seconds);
     CHECK(shared.marches.kept() == 8);
 }
 
-TEST_CASE("Where every gearbox moves differently nothing is kept") {
+TEST_CASE("Nothing is cached where every gearbox has a different response") {
     const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet_bearing_stiffness_N_m"}));
     CHECK_FALSE(distinct_marches(scene).has_value());
     const BatchTask task(scene);

@@ -1,4 +1,4 @@
-// Noise of the accelerometer given by its density before the low-pass.
+// Checks accelerometer noise given by its density before the low-pass.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,7 +20,7 @@ namespace {
 
 const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
-// The small study with the noise by density instead.
+// The small study with noise by density instead.
 std::string by_density(const Folder& folder, const std::string& density) {
     std::string text = test::bytes_of(kSmall);
     const std::size_t at = text.find("noise_m_s2 =");
@@ -52,7 +52,7 @@ std::map<std::string, std::vector<double>> read_columns(const std::string& path)
     return columns;
 }
 
-// Noise of a record: its rms, and the share of its power below twice the low-pass.
+// Noise of a record: its rms, and the share of its power above twice the low-pass frequency.
 struct Noise {
     double rms = 0.0, below = 0.0;
 };
@@ -87,10 +87,10 @@ Noise noise_of(const std::string& study, const std::string& options, const std::
 
 }  // namespace
 
-// Of white noise behind a Butterworth filter of order 4 lies 1.1e-3 of the power beyond twice the
-// corner: the integral of 1/(1 + x^8) from 2 on over that from 0 on. What folds back lies there
-// too.
-TEST_CASE("Noise by density is limited by the low-pass, and a faster sensor has as much of it") {
+// White noise after a Butterworth filter of order 4 has 1.1e-3 of its power above twice the corner
+// frequency: the integral of 1/(1 + x^8) from 2 on over that from 0 on. Aliased components are
+// included.
+TEST_CASE("The low-pass limits noise by density; a higher sampling rate leaves it unchanged") {
     const Folder folder;
     const auto study = mc::read_study(kSmall).study;
     REQUIRE(study);
@@ -103,13 +103,13 @@ TEST_CASE("Noise by density is limited by the low-pass, and a faster sensor has 
         CHECK(noise.rms == Approx(expected).epsilon(0.05));
         CHECK(noise.below > 0.997);
     }
-    // White whatever the low-pass: the same rms over four times the band.
+    // White noise independent of the low-pass: the same rms over four times the band.
     const Noise white = noise_of(kSmall, fast, folder.file("w.csv"), low_pass);
     CHECK(white.rms == Approx(study->sensor.noise_m_s2).epsilon(0.05));
     CHECK(white.below == Approx(240.0 / 560.0).epsilon(0.05));
 }
 
-TEST_CASE("Features of noise by density are those of the signal that is written") {
+TEST_CASE("Features of noise by density are those of the exported signal") {
     const Folder folder;
     const std::string study = by_density(folder, "0.02") + " --set fault.reduction=0.5";
     const std::string signal = folder.file("s.h5");
@@ -150,7 +150,7 @@ TEST_CASE("A run with noise by density has the same bits for any lanes and threa
     CHECK(bits(folder.file("a.h5")) == bits(folder.file("b.h5")));
 }
 
-TEST_CASE("A study gives its noise by rms or by density, not both") {
+TEST_CASE("A study gives its noise either by rms or by density") {
     using tests::example_with;
     const auto read = [](const std::string& text) { return mc::read_study_text(text, "s.toml"); };
     const std::string rms = "noise_m_s2 = 0.3", density = "noise_density_m_s2_per_sqrt_Hz = 0.01";
@@ -165,7 +165,7 @@ TEST_CASE("A study gives its noise by rms or by density, not both") {
     REQUIRE(again.study);
     CHECK(*again.study == *one.study);
 
-    // Random only: its median is the nominal value.
+    // The random key alone: its median is the nominal value.
     std::string text = example_with(rms + "\n", "");
     text.insert(text.find("[random]\n") + 9,
                 "sensor.noise_density_m_s2_per_sqrt_Hz = { distribution = \"lognormal\", median = "
@@ -185,7 +185,7 @@ TEST_CASE("A study gives its noise by rms or by density, not both") {
     CHECK(coarse.problems[0].key == "sensor.sampling_Hz");
 }
 
-// What a background of 2 m/s^2 rms is at most, in the key's unit, behind 800 Hz.
+// Upper limit of a background of 2 m/s^2 rms in the key's unit after 800 Hz.
 TEST_CASE("A study with noise by density is calibrated by its density") {
     const auto study =
         mc::read_study_text(

@@ -1,4 +1,4 @@
-// What is marched before the first recorded mesh, against a far longer run-in.
+// Checks the run-in before the first recorded mesh against a much longer run-in.
 #include <catch2/catch.hpp>
 
 #include "lockstep/tile/tile.hpp"
@@ -12,7 +12,7 @@ using namespace gearpod::mc;
 
 namespace {
 
-// The first recorded mesh of a gearbox with real teeth behind so many others.
+// The first recorded mesh of a gearbox with real teeth after so many others.
 lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
     const GearboxId id{Group::graded, 3};
     InstanceInputs instance = Sampler(scene.study()).sample(id.group, id.index);
@@ -35,7 +35,7 @@ lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
 
 }  // namespace
 
-TEST_CASE("What sets in with real teeth has decayed when recording begins") {
+TEST_CASE("The initial transient with real teeth has decayed when recording begins") {
     const Scene scene(test::shipped_study("planet-life.toml",
                                           {"numerics.precision=\"double\"", "numerics.lanes=1"}));
     const int run_in = run_in_meshes(scene);
@@ -44,18 +44,19 @@ TEST_CASE("What sets in with real teeth has decayed when recording begins") {
     CHECK(test::relative_difference(own.acceleration, late.acceleration) <
           settle_tolerance(scene.study()));
     CHECK(test::relative_difference(own.te, late.te) < settle_tolerance(scene.study()));
-    // Not so at once.
+    // The transient is large without a run-in.
     CHECK(test::relative_difference(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
 }
 
-TEST_CASE("The run-in is as long as the slower of gearbox and sensor, and as the tolerance asks") {
+TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from the tolerance") {
     const auto run_in = [](const std::vector<std::string>& keys) {
         return run_in_meshes(Scene(test::shipped_study("planet-life.toml", keys)));
     };
-    // The low-pass' slower section decays at 0.3827 2 pi 0.5 Hz = 1.2 1/s, a mesh is 1/11.97 s: to
-    // 1e-4 in 91.7 of them, and twice that is cut to half the meshes in which it must settle.
+    // Decay of the low-pass' slower section is 0.3827 2 pi 0.5 Hz = 1.2 1/s, and a mesh takes
+    // 1/11.97 s: 91.7 meshes to 1e-4. Twice that is limited to half of the allowed meshes until
+    // convergence.
     CHECK(run_in({"sensor.low_pass_Hz=0.5"}) == 100);
-    // To 1e-2, twice: 45.9 / 2 at 1 Hz.
+    // Twice the meshes to 1e-2: 45.9 / 2 at 1 Hz.
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-2"}) == 46);
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-4"}) == 92);
 }

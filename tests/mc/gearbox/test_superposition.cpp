@@ -14,22 +14,22 @@ using namespace gearpod::mc;
 
 namespace {
 
-// 24/20/64 teeth of grade 6, pins 20 um off; cracked ones and their baselines. At 6 kN m no tooth
-// pair loses contact, at 3 kN m and less some do.
+// Teeth 24/20/64 of grade 6, with pin errors of 20 um; cracked gearboxes and their baselines. No
+// tooth pair loses contact at 6 kN m; some do at 3 kN m and less.
 Study study_with(const std::string& horizon, const std::vector<std::string>& more = {}) {
     std::vector<std::string> all{
-        "numerics.horizon=" + horizon,    "operation.carrier_speed_rpm=20",
-        "numerics.precision=double",      "numerics.settle_tolerance=1e-10",
-        "sensor.noise_levels=[0]",        "ensemble.threshold_records=1",
-        "detection.false_alarm_rate=0.05"};
-    all.insert(all.end(), more.begin(), more.end());  // later ones count
+        "numerics.horizon=" + horizon,     "operation.carrier_speed_rpm=20",
+        "numerics.precision=double",       "numerics.settle_tolerance=1e-10",
+        "sensor.noise_levels=[0]",         "ensemble.threshold_records=1",
+        "detection.false_alarm_rate=0.05", "effects.contact_onset=abrupt"};
+    all.insert(all.end(), more.begin(), more.end());  // later ones take precedence
     Study study = test::shipped_study("fleet-alarms.toml", all);
     study.ensemble.threshold_instances = 2;
     study.ensemble.instances = 6;
     return study;
 }
 
-// The graded gearboxes 0 to 7.
+// Graded gearboxes 0 to 7.
 class Tile {
   public:
     explicit Tile(const Study& study) : scene_(study), path_(path_grid(scene_)) {
@@ -66,15 +66,15 @@ const std::string kLight =
 
 }  // namespace
 
-TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, are those of the march") {
+TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full integration") {
     const std::vector<std::string> heavy{
         "random.operation.torque_N_m={distribution=\"uniform\",low=6000,high=6500}"};
     const Tile superposed(study_with("superpose", heavy)), marched(study_with("march", heavy));
-    CHECK(superposed->superposed == 16);  // their baselines too
+    CHECK(superposed->superposed == 16);  // including their baselines
     CHECK(superposed->marched_instead == 0);
     CHECK(marched->superposed + marched->marched_instead == 0);
     CHECK(2 * superposed->meshes < marched->meshes);
-    // Of a record with the fault: baselines march less.
+    // Cost per record with the fault: baselines need fewer meshes.
     CHECK(superposed.forecast_meshes() < marched.forecast_meshes());
     CHECK(superposed->meshes < 2.0 * superposed.forecast_meshes());
     for (int lane = 0; lane < 8; ++lane) {
@@ -91,7 +91,7 @@ TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, are those 
     }
 }
 
-TEST_CASE("Gearboxes whose tooth pairs lose contact are marched whole, to the bit") {
+TEST_CASE("Gearboxes whose tooth pairs lose contact are integrated in full, to the bit") {
     const Tile superposed(study_with("superpose", {kLight})),
         marched(study_with("march", {kLight}));
     CHECK(superposed->superposed > 0);
@@ -159,9 +159,11 @@ double relative_rms(const lockstep::TileResult& a, const lockstep::TileResult& b
 
 }  // namespace
 
-// Where contact was looked for at samples alone, gearboxes of grade 4 near the limit of contact
+// Regression: with contact checked at samples only, gearboxes of grade 4 near the limit of contact
 // were superposed with errors of up to 1e-3 in the sensor signal.
-TEST_CASE("At 200 random torques around the limit of contact, superposed motion is the marched") {
+TEST_CASE(
+    "At 200 random torques around the limit of contact, superposed and integrated responses "
+    "agree") {
     const ContactLimit tiles(study_with(
         "superpose", {"gearbox.tooth_quality=4", "sensor.sampling_Hz=2730",
                       "sensor.low_pass_Hz=1000", "operation.carrier_speed_rpm=150",
@@ -198,8 +200,8 @@ TEST_CASE("Superposed gearboxes have the same bits for any lanes") {
     CHECK(bits(1) == eight);
 }
 
-// A fault of any size from the states of the superposed march without one.
-TEST_CASE("Lives' marches start from superposed states as from marched ones") {
+// A fault of any size is integrated from the states of the superposed healthy solution.
+TEST_CASE("Integrations of lives start from superposed states as from integrated ones") {
     const auto cracked = [](const std::string& horizon) {
         const Study study = study_with(horizon);
         const Scene scene(study);

@@ -1,4 +1,4 @@
-// How loud the rest of the machine is: one level on the amplitudes of all tones.
+// Checks the level of other machine noise: one factor on the amplitudes of all tones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ mc::StudyScene scene_with(const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Twice the level is every tone twice as loud") {
+TEST_CASE("Twice the level doubles the amplitude of every tone") {
     const Folder folder;
     const auto simulate = [&](const std::string& options, const std::string& name) {
         const auto outcome = program("simulate " + kStudy + " --instance 2 " + options + " --out " +
@@ -47,15 +47,15 @@ TEST_CASE("Twice the level is every tone twice as loud") {
     CHECK(quiet != loud);
 }
 
-TEST_CASE("A level needs tones") {
+TEST_CASE("A level requires tones") {
     const auto outcome = program("describe " + kStudy + " --set sensor.tone_level=2");
     CHECK(outcome.code == 2);
     CHECK(outcome.mentions("sensor.tone_level"));
-    CHECK(outcome.mentions("there are none: sensor.tones"));
+    CHECK(outcome.mentions("no tones are given: sensor.tones"));
 }
 
-// Each background that a march serves has its own level.
-TEST_CASE("Calibration hears the level that is given") {
+// Each background that shares an integration has its own level.
+TEST_CASE("Calibration uses the given level") {
     const mc::StudyScene quiet = scene_with(
         {tones(2.0), "random.sensor.tone_level={distribution='uniform',low=0.1,high=10}"});
     const mc::StudyScene loud = scene_with({tones(6.0)});

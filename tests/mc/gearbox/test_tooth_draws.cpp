@@ -1,4 +1,5 @@
-// The errors of a gearbox's teeth: whose they are, that they turn with their gears, and how large.
+// Checks the random errors of a gearbox's teeth: their assignment, their rotation with the gears,
+// and their size.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Liang's train with teeth of their own.
+// Liang's train with individual tooth errors.
 Study study_with(std::vector<std::string> overrides) {
     overrides.push_back("numerics.horizon=march");
     return test::shipped_study("planet-crack-ideal.toml", overrides);
@@ -26,8 +27,8 @@ lockstep::ToothErrors errors_of(const Scene& scene, std::uint64_t index) {
     return *draw_tooth_errors(scene, ids, inputs);
 }
 
-// The gaps of a pair at the phases k + 1/2 of many meshes, mean of the tooth pairs that touch; the
-// largest difference between two that touch together.
+// Gaps of a pair at the phases k + 1/2 of many meshes: mean over the tooth pairs in contact, and
+// largest difference between two of them.
 struct Gaps {
     std::vector<double> mean;
     double apart = 0.0;
@@ -59,7 +60,7 @@ Gaps gaps_of(const Scene& scene, const lockstep::ToothErrors& errors, int pair, 
     return gaps;
 }
 
-// The first harmonic of `period` meshes: amplitude and phase of cos(2 pi k / period + phase).
+// First harmonic of `period` meshes: amplitude and phase of cos(2 pi k / period + phase).
 std::pair<double, double> harmonic(const std::vector<double>& values, int period) {
     double c = 0.0, s = 0.0;
     for (int k = 0; k < period; ++k) {
@@ -76,8 +77,9 @@ void clear_gear(lockstep::GearErrors& gear) {
 
 }  // namespace
 
-TEST_CASE("A gear off its axis moves all tooth pairs that touch, as if its planet moved") {
-    // The sun drives, or the carrier stands and the ring drives: the contact runs backwards.
+TEST_CASE("An eccentric gear displaces all tooth pairs in contact, as a displaced planet would") {
+    // Either the sun drives, or the carrier is fixed and the ring drives: then contact runs
+    // backwards.
     const std::vector<std::string> forward{"gearbox.eccentricity_um=10"};
     auto backward = forward;
     backward.insert(backward.end(), {"operation.fixed=sun", "operation.input=ring"});
@@ -95,11 +97,11 @@ TEST_CASE("A gear off its axis moves all tooth pairs that touch, as if its plane
             const auto [ring_size, ring_phase] = harmonic(ring.mean, teeth);
             INFO("reversed " << scene.pairs().reversed << ", planet " << n + 1);
             CHECK(sun_size == Approx(ring_size).epsilon(0.02));
-            // What is left is the curvature of a sine over a tooth.
+            // The remainder is the curvature of a sine over a tooth.
             CHECK(sun.apart < 0.05 * sun_size);
             CHECK(ring.apart < 0.05 * ring_size);
-            // The displacement a of the teeth is gap a cos(phi - p_s) at the sun and cos(phi - p_r)
-            // at the ring, p_r - p_s = 2 alpha; driven by the sun, phi falls.
+            // For a displacement a of the teeth the gap is a cos(phi - p_s) at the sun and a
+            // cos(phi - p_r) at the ring, p_r - p_s = 2 alpha; phi decreases when the sun drives.
             const double lead = std::remainder(ring_phase - sun_phase, 2.0 * kPi);
             const double expected = 2.0 * scene.study().gearbox.pressure_angle_rad;
             CHECK(lead == Approx(scene.pairs().reversed ? -expected : expected).margin(0.02));
@@ -107,7 +109,7 @@ TEST_CASE("A gear off its axis moves all tooth pairs that touch, as if its plane
     }
 }
 
-TEST_CASE("A grade's teeth deviate as its gears do, and more with each grade") {
+TEST_CASE("Tooth deviations follow the tolerances of their grade and grow with it") {
     const auto rms = [](const std::vector<std::string>& overrides, std::size_t gear) {
         const Scene scene(study_with(overrides));
         double squares = 0.0;
@@ -135,7 +137,7 @@ TEST_CASE("A grade's teeth deviate as its gears do, and more with each grade") {
           Approx(rms({"gearbox.tooth_quality=6"}, 0)).epsilon(1e-9));
 }
 
-TEST_CASE("Teeth belong to the gearbox: the same in any lane, for any noise and path") {
+TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noise and path") {
     const auto of = [](std::vector<std::string> overrides, const std::vector<GearboxId>& ids) {
         overrides.push_back("gearbox.tooth_quality=6");
         const Scene scene(study_with(overrides));

@@ -1,8 +1,10 @@
-// Lives of gearboxes: records against what is marched, growth against Paris' integral, one record
-// against the run, and the same bits for any threads and lanes.
+// Checks lives of gearboxes: records against integration, crack growth against Paris' integral, one
+// record against the run, and the same bits for any threads and lanes.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/lives/life_monitor.hpp"
@@ -17,7 +19,7 @@ using namespace gearpod::test;
 
 namespace {
 
-TEST_CASE("A record is what its gearbox gives when it is marched at that depth and torque") {
+TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
     const mc::Scene scene(life_study({"life.torque_scatter=0.05", "life.gain_scatter=0.1",
                                       "sensor.noise_m_s2=0", "sensor.encoder_noise_arcsec=0"}));
     const mc::LifeTiles tiles(scene);
@@ -27,7 +29,7 @@ TEST_CASE("A record is what its gearbox gives when it is marched at that depth a
     REQUIRE(life.status == mc::Status::ok);
     const mc::HealthyReference none;
     mc::InstanceFeatures features(scene, &none);
-    // Without a crack, and where it is just as deep as is marched.
+    // Records without a crack, and at a depth that is integrated.
     for (const std::size_t r : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
         const mc::LifeRecord& record = life.history.records[r];
         mc::InstanceInputs inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
@@ -47,16 +49,16 @@ TEST_CASE("A record is what its gearbox gives when it is marched at that depth a
     CHECK(life.history.records[5].depth_m == 0.0);
 }
 
-TEST_CASE("A tooth goes when Paris' integral says so") {
+TEST_CASE("A tooth breaks at the time given by Paris' integral") {
     const mc::Scene scene(life_study({"life.records=400"}));
     const mc::CrackLife crack(scene);
     const mc::GearboxId id{mc::Group::graded, 0};
     const auto inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
-    // The carrier's 8.87 turns a minute, 81 ring teeth, 31 planet teeth.
+    // Carrier speed 8.87 rpm, 81 ring teeth, 31 planet teeth.
     CHECK(crack.cycles_per_hour(inputs) == Approx(60.0 * 8.87 * 81.0 / 31.0));
     const auto history = crack.history(id, inputs, true);
     REQUIRE(history.end_hours);
-    // 19 sun teeth of 3.175 mm, four planets: the force along the line of action.
+    // Force along the line of action for 19 sun teeth of 3.175 mm and four planets.
     const double base_radius = 0.5 * 19 * 3.175e-3 * std::cos(20.0 * std::numbers::pi / 180.0);
     const double force = inputs.torque_N_m / (4.0 * base_radius);
     double cycles = 0.0;
@@ -75,7 +77,7 @@ TEST_CASE("A tooth goes when Paris' integral says so") {
     for (std::size_t r = 1; r < history.records.size(); ++r) {
         CHECK(history.records[r].depth_m >= history.records[r - 1].depth_m);
     }
-    // A brittle tooth goes sooner, at the record whose stress intensity is that large.
+    // A brittle tooth breaks earlier, at the record whose stress intensity is that large.
     const double toughness = 1e-6 * force * crack.range_per_force(2e-3);
     const mc::Scene brittle_scene(life_study(
         {"life.records=400", "life.fracture_toughness_MPa_m05=" + std::to_string(toughness)}));
@@ -87,7 +89,7 @@ TEST_CASE("A tooth goes when Paris' integral says so") {
     CHECK(history.records[next].depth_m >= 2e-3 * (1.0 - 1e-6));
 }
 
-TEST_CASE("A life of one record with a population threshold is the snapshot study") {
+TEST_CASE("A life of one record with a population threshold equals the snapshot study") {
     const std::vector<std::string> both{
         "sensor.noise_levels=[1]", "features.use=[\"sensor_rms\",\"window_ratio\"]",
         "ensemble.instances=16",   "ensemble.threshold_instances=40",
@@ -96,7 +98,7 @@ TEST_CASE("A life of one record with a population threshold is the snapshot stud
     const auto detection = mc::detect_all(snapshot, mc::ColumnRows(snapshot));
     auto one = kLife;
     one.insert(one.end(), both.begin(), both.end());
-    // So rarely measured that every tooth goes before the next record.
+    // The interval is so long that every tooth breaks before the next record.
     for (const char* more :
          {"life.records=1", "monitoring.baseline_records=0", "life.first_depth_mm=2",
           "life.interval_h=1e9", "monitoring.false_alarms_per_1000_h=5e-8",
@@ -119,7 +121,7 @@ TEST_CASE("A life of one record with a population threshold is the snapshot stud
                   Approx(snapshot.features[f].values[40 + g]).epsilon(1e-9));
         }
     }
-    // Some, not all, of either: the comparison says something.
+    // Some but not all are found in both, so that the comparison is meaningful.
     CHECK(monitored[1].answers.found > 0);
 }
 
@@ -151,7 +153,7 @@ TEST_CASE("Lives have the same bits for any lanes") {
     CHECK(eight.setting[0].values == one.setting[0].values);
 }
 
-// Without what a run took.
+// JSON results without run times.
 nlohmann::json told(const Outcome& outcome) {
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
@@ -160,7 +162,7 @@ nlohmann::json told(const Outcome& outcome) {
     return json;
 }
 
-TEST_CASE("Lives have the same bits for any threads, and the command says what it must") {
+TEST_CASE("Lives have the same bits for any threads, and the command prints all required parts") {
     const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set monitoring.false_alarms_per_1000_h=10 --out " +
@@ -186,25 +188,29 @@ TEST_CASE("Lives have the same bits for any threads, and the command says what i
     CHECK(reference["fans"][2]["lives"].size() == 3);
 }
 
-TEST_CASE("A report on lives says what the run said, and other commands refuse them") {
+TEST_CASE("A report on lives repeats the run's text, and other commands refuse them") {
     const Folder folder;
     const std::string file = folder.file("l.h5");
     const std::string command =
         "lives " + study("planet-crack-ideal.toml") + life_options() + " --out " + file;
     const auto whole = told(program(command));
     CHECK(told(program("report " + file + " --json -")) == whole);
+    std::istringstream text(program("report " + file).output);
+    for (std::string line; std::getline(text, line);) {
+        CHECK(line.size() <= 80);
+    }
     const mc::Results read = mc::read_results(file);
     REQUIRE(read.status.size() == 11);
     CHECK(read.noise_levels.size() == 40);  // hours
     CHECK(read.noise_levels[7] == 35.0);
     CHECK(read.features.back().name == "record_noise");
-    // Lives of another study are not overwritten, those of the same one are.
+    // Lives of another study are not overwritten; those of the same study are.
     const Outcome other = program(command + " --set life.interval_h=6");
     CHECK(other.code == 2);
     CHECK(other.mentions("interval_h = 6"));
     CHECK(other.mentions("--force"));
     CHECK(told(program(command)) == whole);
-    // More gearboxes that crack are added to those that are there.
+    // Additional gearboxes with cracks are appended to the existing ones.
     const auto more = told(program(command + " --resume --instances 5"));
     CHECK(more["lives"].size() == 5);
     CHECK(more == told(program(command + " --force --instances 5")));
@@ -217,7 +223,7 @@ TEST_CASE("A report on lives says what the run said, and other commands refuse t
     }
 }
 
-TEST_CASE("Lives that were stopped go on to the same bits") {
+TEST_CASE("Stopped lives resume to the same bits") {
     const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set ensemble.threshold_instances=20 --out ";
@@ -225,13 +231,13 @@ TEST_CASE("Lives that were stopped go on to the same bits") {
     const Outcome stopped =
         shell("timeout --preserve-status -s TERM 0.7 " + std::string(GEARPOD_PROGRAM) + " " +
               command + folder.file("s.h5"));
-    CHECK((stopped.code == 4 || stopped.code == 0));  // of a fast machine: all were done
+    CHECK((stopped.code == 4 || stopped.code == 0));  // all were done on a fast machine
     CHECK(std::filesystem::exists(folder.file("s.h5.part")) == (stopped.code == 4));
     CHECK(told(program(command + folder.file("s.h5") + " --resume")) == whole);
     CHECK(bits(folder.file("s.h5")) == bits(folder.file("w.h5")));
 }
 
-TEST_CASE("Two ranks make the same lives", "[mpi]") {
+TEST_CASE("Two ranks compute the same lives", "[mpi]") {
     const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set numerics.threads=1 --out ";
@@ -241,7 +247,7 @@ TEST_CASE("Two ranks make the same lives", "[mpi]") {
     CHECK(bits(folder.file("2.h5")) == bits(folder.file("1.h5")));
 }
 
-TEST_CASE("What cannot live on is refused with the key") {
+TEST_CASE("Studies without possible lives are refused with the key") {
     const auto refused = [&](const std::string& more) {
         const Outcome outcome =
             program("lives " + study("planet-crack-ideal.toml") + life_options() + more);
@@ -250,14 +256,14 @@ TEST_CASE("What cannot live on is refused with the key") {
     };
     CHECK(
         program("lives " + study("planet-crack-ideal.toml")).mentions("life.interval_h: missing"));
-    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" looks at samples"));
+    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" needs samples"));
     CHECK(refused(" --set life.first_depth_mm=4").mentions("is not below last_depth_mm"));
-    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts the tooth"));
-    CHECK(refused(" --set life.records=6").mentions("no more than monitoring.baseline_records"));
+    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts through the tooth"));
+    CHECK(refused(" --set life.records=6").mentions("is not above monitoring.baseline_records"));
     CHECK(refused(" --set fault.kind=reduction --set fault.reduction=0").code == 2);
     CHECK(refused(" --set 'sensor.noise_levels=[1,2]'").mentions("one noise"));
     CHECK(refused(" --set numerics.verify=true --set 'sensor.noise_levels=[1,2]'")
-              .mentions("leave out what is for single records (run): numerics.verify\n"));
+              .mentions("`lives` ignores keys that only `run` uses: numerics.verify\n"));
 }
 
 }  // namespace

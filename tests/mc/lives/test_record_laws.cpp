@@ -1,4 +1,5 @@
-// What a record has of its own: drawn by [random] or in short by [life], and what one asks of both.
+// Checks inputs that vary per record, given by [random] or, in short form, by [life], and the
+// conflicts of both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 const std::string kTorque =
     "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=500,per=\"record\"}";
 
-TEST_CASE("A lognormal law of the record is the scatter key in long") {
+TEST_CASE("A lognormal law per record is equivalent to the scatter key") {
     const mc::GearboxId id{mc::Group::graded, 2};
     const auto history = [&](const std::string& more) {
         const mc::Scene scene(life_study({more}));
@@ -27,7 +28,7 @@ TEST_CASE("A lognormal law of the record is the scatter key in long") {
             mc::Sampler(mc::study_of_gearboxes(scene.study())).sample(id.group, id.index);
         return crack.history(id, inputs, true);
     };
-    // sd of the logarithm 0.1: cv^2 = exp(0.01) - 1
+    // For a standard deviation of 0.1 of the logarithm, cv^2 = exp(0.01) - 1.
     const std::string cv = fmt::format("{:.17g}", std::sqrt(std::expm1(0.01)));
     const auto in_short = history("life.gain_scatter=0.1");
     const auto in_long = history(
@@ -39,7 +40,7 @@ TEST_CASE("A lognormal law of the record is the scatter key in long") {
     }
 }
 
-TEST_CASE("Records draw from the law that [random] gives them, about no gearbox's own value") {
+TEST_CASE("Records follow the law given by [random], not centred on a value of the gearbox") {
     const mc::Study study = life_study({kTorque, "life.records=4000"});
     const mc::Scene scene(study);
     const mc::CrackLife crack(scene);
@@ -52,7 +53,8 @@ TEST_CASE("Records draw from the law that [random] gives them, about no gearbox'
         for (const auto& record : crack.history(id, inputs, false).records) {
             torques.push_back(record.torque * inputs.torque_N_m);
         }
-        // Kolmogorov's distance of 4,000 from the uniform law: above 1.63 / sqrt(n) once in 100.
+        // Kolmogorov's distance of 4,000 values from the uniform law: above 1.63 / sqrt(n) once in
+        // 100.
         std::ranges::sort(torques);
         double apart = 0.0;
         for (std::size_t i = 0; i < torques.size(); ++i) {
@@ -61,13 +63,13 @@ TEST_CASE("Records draw from the law that [random] gives them, about no gearbox'
         }
         CHECK(apart < 1.63 / std::sqrt(4000.0));
     }
-    // No column of a gearbox's own.
+    // The gearbox has no column of its own for this input.
     for (const auto& column : sampler.columns()) {
         CHECK(column.name != "torque_N_m");
     }
 }
 
-TEST_CASE("More marches divide the same range evenly, and a record has its neighbours") {
+TEST_CASE("More integrated values divide the same range evenly, and a record uses its neighbours") {
     const mc::RecordLaw law(life_study(), mc::RecordQuantity::torque, 0.1);
     const auto two = law.marched(2), four = law.marched(4), between = law.between(4);
     REQUIRE(four.size() == 4);
@@ -87,8 +89,8 @@ TEST_CASE("More marches divide the same range evenly, and a record has its neigh
     CHECK(mc::shares_of(four, 2.0)[3] > 1.0);
 }
 
-TEST_CASE("A law of few values marches where its records are") {
-    // Nine in ten at one torque: its quantiles at -1.5 and 1.5 may be the same.
+TEST_CASE("A discrete law is integrated at its values") {
+    // Nine in ten at one torque: its quantiles at -1.5 and 1.5 may be equal.
     const mc::Study study =
         life_study({"random.operation.torque_N_m={distribution=\"discrete\",values=[300,429],"
                     "weights=[0.02,0.98],per=\"record\"}"});
@@ -102,7 +104,7 @@ TEST_CASE("A law of few values marches where its records are") {
     CHECK(none.marched(2) == std::vector<double>{1.0});
 }
 
-TEST_CASE("A snapshot's baseline record draws what belongs to records anew, and only that") {
+TEST_CASE("A snapshot's baseline record varies the inputs per record, and only these") {
     const std::vector<std::string> both{
         "features.use=[\"change_window_ratio\"]", "sensor.noise_levels=[1]", kTorque,
         "random.sensor.gain={distribution=\"uniform\",low=1,high=2}"};
@@ -113,14 +115,14 @@ TEST_CASE("A snapshot's baseline record draws what belongs to records anew, and 
     CHECK(before.torque_N_m > 300.0);
     CHECK(before.torque_N_m < 500.0);
     CHECK(judged.gain == before.gain);
-    // Of one record a gearbox, the record's law is the gearbox's.
+    // With one record per gearbox the record's law is the gearbox's.
     auto plain = both;
     plain[2].replace(plain[2].find(",per"), 13, "");
     const mc::Sampler gearbox(shipped_study("planet-crack-ideal.toml", plain));
     CHECK(gearbox.sample(mc::Group::graded, 3).torque_N_m == judged.torque_N_m);
 }
 
-TEST_CASE("What belongs to records is read, written and refused with its key") {
+TEST_CASE("Keys of inputs per record are read, written and refused by name") {
     const mc::Study study = life_study({kTorque});
     CHECK(mc::resolved_text(study).find("per = \"record\"") != std::string::npos);
     CHECK(*mc::read_study_text(mc::resolved_text(study), "again").study == study);
@@ -145,11 +147,11 @@ TEST_CASE("What belongs to records is read, written and refused with its key") {
         CHECK(std::ranges::count(text, '\n') == 1);
     };
     says({law("gearbox.mesh_damping_ratio", "distribution=\"uniform\",low=0.04,high=0.1")},
-         "mesh_damping_ratio belongs to the gearbox");
+         "mesh_damping_ratio is the same in all records of a gearbox");
     says({"random.sensor.gain={distribution=\"uniform\",low=1,high=2,per=\"day\"}"},
-         "is no level of randomness");
+         "must be \"record\" or \"gearbox\"");
     says({law("sensor.gain", "distribution=\"levels\",values=[1,2]")}, "takes its values in turn");
-    says({kTorque, "life.torque_scatter=0.1"}, "given beside life.torque_scatter");
+    says({kTorque, "life.torque_scatter=0.1"}, "conflicts with life.torque_scatter");
     auto snapshot = std::vector<std::string>{kTorque, "ensemble.threshold_records=3"};
     std::string text;
     for (const auto& problem :
@@ -157,10 +159,10 @@ TEST_CASE("What belongs to records is read, written and refused with its key") {
         text += mc::format(problem) + "\n";
     }
     INFO(text);
-    CHECK(text.find("3 records of a gearbox differ in noise alone") != std::string::npos);
+    CHECK(text.find("the 3 records of a gearbox differ only in their noise") != std::string::npos);
 }
 
-TEST_CASE("describe shows the law that records draw from") {
+TEST_CASE("describe shows the law of inputs per record") {
     std::string options;
     for (const std::string& one : kLife) {
         options += " --set '" + one + "'";
@@ -170,7 +172,7 @@ TEST_CASE("describe shows the law that records draw from") {
     INFO(said.output);
     CHECK(said.code == 0);
     CHECK(said.mentions("operation.torque_N_m = { distribution = \"uniform\""));
-    CHECK(said.mentions("of the study's value"));
+    CHECK(said.mentions("times the study's value"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How long records are and under what loads: against whole spans, many short ones, and marches.
+// Checks length and loads of records against whole spans, many short records, and integration.
 #include <cmath>
 
 #include "mc/gearbox/instance_features.hpp"
@@ -11,7 +11,7 @@ using namespace gearpod::test;
 
 namespace {
 
-// Without noise, of features that short records have.
+// A study without noise, with features that short records have.
 mc::Study quiet_study(std::vector<std::string> more) {
     for (const char* one : {"features.use=[\"sensor_rms\",\"window_ratio\"]", "sensor.noise_m_s2=0",
                             "sensor.encoder_noise_arcsec=0"}) {
@@ -26,10 +26,10 @@ mc::GearboxLife healthy_life(const mc::Scene& scene) {
     return mc::LifeTiles(scene).run(std::span(&id, 1), false, costs).front();
 }
 
-TEST_CASE("A recording of all turns, or of twice as many, is the whole span") {
+TEST_CASE("A recording of all turns, or of twice as many, equals the whole span") {
     const mc::Scene plain(quiet_study({"life.records=8"}));
     const auto whole = healthy_life(plain);
-    // 31 planet teeth and 81 ring teeth: the carrier's 31 turns.
+    // Teeth 31 (planet) and 81 (ring): 31 carrier turns.
     for (const char* turns : {"life.record_turns=31", "life.record_turns=62"}) {
         const mc::Scene scene(quiet_study({"life.records=8", turns}));
         const auto life = healthy_life(scene);
@@ -41,7 +41,7 @@ TEST_CASE("A recording of all turns, or of twice as many, is the whole span") {
           std::string::npos);
 }
 
-TEST_CASE("Short recordings hear a part of the turns, and many of them all") {
+TEST_CASE("Short recordings cover a part of the turns, and many of them all") {
     const mc::Scene plain(quiet_study({"life.records=8"}));
     const auto whole = healthy_life(plain);
     const auto spread = [&](const std::vector<std::string>& more) {
@@ -53,23 +53,24 @@ TEST_CASE("Short recordings hear a part of the turns, and many of them all") {
         }
         return std::sqrt(sum / static_cast<double>(life.values[0].size()));
     };
-    // 1.2 turns of the carrier are three of the planet. The path weighs each of them otherwise.
+    // A duration of 1.2 carrier turns is three planet turns. The path gives each of them a
+    // different weight.
     const double few = spread({"life.records=20", "life.record_turns=1.2"});
     const double some = spread({"life.records=20", "life.record_turns=1.2", "life.recordings=16"});
     CHECK(few > 1e-4);
-    CHECK(some < 0.6 * few);  // a quarter, but for 20 records' chance
+    CHECK(some < 0.6 * few);  // a quarter, within the scatter of 20 records
     const mc::Scene scene(quiet_study({"life.records=8", "life.record_turns=4"}));
     CHECK(mc::record_text(scene).find("10 turns of 31 mesh periods") == 0);
     CHECK(mc::record_text(scene).find("each of the 31 teeth in 10 of its 81 meetings") !=
           std::string::npos);
-    // The same time in seconds: 8.87 turns a minute.
+    // Same duration in seconds, at 8.87 rpm.
     const double seconds = 4.0 * 60.0 / 8.87 + 1e-6;
     const mc::Scene timed(
         quiet_study({"life.records=8", "life.record_s=" + std::to_string(seconds)}));
     CHECK(mc::record_text(timed) == mc::record_text(scene));
 }
 
-TEST_CASE("Noise of a record falls with the root of what it takes in") {
+TEST_CASE("Noise of a record decreases with the root of its duration") {
     const auto deviation = [](const std::vector<std::string>& more) {
         auto all = more;
         all.emplace_back("features.use=[\"window_z\",\"sensor_rms\"]");
@@ -90,7 +91,7 @@ TEST_CASE("Noise of a record falls with the root of what it takes in") {
     CHECK(deviation({"life.recordings=16"}) == Approx(0.25 * one).epsilon(0.35));
 }
 
-TEST_CASE("A record at another speed is near what is marched at that speed") {
+TEST_CASE("A record at another speed is close to an integration at that speed") {
     const mc::Scene scene(quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05"}));
     const mc::LifeTiles tiles(scene);
     const mc::GearboxId id{mc::Group::graded, 1};
@@ -121,7 +122,7 @@ TEST_CASE("A record at another speed is near what is marched at that speed") {
     CHECK(apart < 0.03);
 }
 
-TEST_CASE("More marched torques and speeds take interpolation's error away") {
+TEST_CASE("More integrated torques and speeds reduce the interpolation error") {
     const auto error = [](int marched) {
         const std::string count = std::to_string(marched);
         const mc::Scene scene(
@@ -135,14 +136,14 @@ TEST_CASE("More marched torques and speeds take interpolation's error away") {
         tiles.run(std::span(&id, 1), false, costs, std::span(&errors, 1));
         return errors.load;
     };
-    // Linear between neighbours: a third of the distance, a ninth of the error.
+    // Interpolation is linear: a third of the distance gives a ninth of the error.
     const double two = error(2), four = error(4);
     CHECK(two > 0.0);
     CHECK(four < two / 6.0);
     CHECK(four > two / 14.0);
 }
 
-TEST_CASE("A crack follows the given curve at its gearbox's pace") {
+TEST_CASE("A crack follows the given curve at its gearbox's rate") {
     const std::vector<std::string> curve{"life.curve_h=[0,50,100]", "life.curve_depth_mm=[1,2,4]",
                                          "life.curve_pace=2"};
     std::vector<std::string> all;
@@ -156,7 +157,7 @@ TEST_CASE("A crack follows the given curve at its gearbox's pace") {
     const mc::GearboxId id{mc::Group::graded, 0};
     const auto inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
     const auto history = mc::CrackLife(scene).history(id, inputs, true);
-    // Twice as fast: 25 h to 2 mm, 50 h to 4 mm, behind six records of 5 h each.
+    // Twice the rate: 25 h to 2 mm, 50 h to 4 mm, after six records of 5 h each.
     REQUIRE(history.end_hours);
     CHECK(*history.end_hours == Approx(30.0 + 50.0));
     REQUIRE(history.records.size() == 16);
@@ -166,7 +167,7 @@ TEST_CASE("A crack follows the given curve at its gearbox's pace") {
     CHECK(history.records[13].depth_m == Approx(2.8e-3));
 }
 
-TEST_CASE("Records and curves that cannot be are refused with the key") {
+TEST_CASE("Invalid records and curves are refused with the key") {
     const auto refused = [&](const std::string& more) {
         std::string options;
         for (const std::string& one : kLife) {
@@ -178,39 +179,39 @@ TEST_CASE("Records and curves that cannot be are refused with the key") {
         CHECK(outcome.code == 2);
         return outcome;
     };
-    CHECK(refused("--set life.record_turns=1").mentions("windows return every 31"));
+    CHECK(refused("--set life.record_turns=1").mentions("windows repeat every 31"));
     CHECK(refused("--set life.record_s=60 --set life.record_turns=9")
-              .mentions("given beside record_s"));
+              .mentions("conflicts with record_s"));
     CHECK(refused("--set 'features.use=[\"te_rms\"]' --set life.record_s=60")
               .mentions("recordings have another length"));
     CHECK(refused("--set 'life.curve_h=[0,1]' --set 'life.curve_depth_mm=[1,4]'")
               .mentions("life.first_depth_mm"));
     CHECK(refused("--set 'life.curve_depth_mm=[1,4]'").mentions("only with life.curve_h"));
-    CHECK(refused("--set life.marched_speeds=3").mentions("records have one speed"));
+    CHECK(refused("--set life.marched_speeds=3").mentions("all records have the same speed"));
     CHECK(refused("--set life.marched_torques=1 --set life.torque_scatter=0.1")
               .mentions("life.marched_torques: must be between 2 and 16"));
-    CHECK(refused("--set monitoring.baseline_records=2").mentions("take 3 or more, or 0"));
+    CHECK(refused("--set monitoring.baseline_records=2").mentions("use at least 3, or 0"));
     CHECK(refused("--set monitoring.baseline_records=3 --set monitoring.torque_regression=true")
-              .mentions("along a line in the torque"));
+              .mentions("about a line in the torque"));
     CHECK(refused("--set monitoring.false_alarms_per_1000_h=200")
-              .mentions("an alarm or more in every record"));
+              .mentions("one alarm or more in every record"));
 }
 
-TEST_CASE("describe says what is drawn for a gearbox and what for a record") {
+TEST_CASE("describe states which inputs vary per gearbox and which per record") {
     const Outcome said = program("describe " + study("planet-life.toml"));
     CHECK(said.code == 0);
-    CHECK(said.mentions("drawn for a gearbox"));
-    CHECK(said.mentions("torque of a record"));
-    CHECK(said.mentions("interpolated between marches at 0.97, 1.03"));
-    CHECK(said.mentions("speed of a record"));
-    // A depth that [random] draws is `run`'s: in a life it grows.
+    CHECK(said.mentions("random per gearbox"));
+    CHECK(said.mentions("torque per record"));
+    CHECK(said.mentions("interpolated between solutions at 0.97, 1.03"));
+    CHECK(said.mentions("speed per record"));
+    // Random depth from [random] applies to `run`: in a life the crack grows.
     const Outcome drawn =
         program("describe " + study("planet-life.toml") +
                 " --set 'random.fault.depth_mm={distribution=\"uniform\",low=1,high=3}' --set "
                 "'detection.size_edges_mm=[1,2,3]'");
     INFO(drawn.output);
     CHECK(drawn.code == 0);
-    CHECK(drawn.mentions("torque and speed, whatever fault.depth_mm in [random]"));
+    CHECK(drawn.mentions("fault.depth_mm in [random] is ignored"));
     CHECK(!drawn.mentions(", fault.depth_mm,"));
 }
 

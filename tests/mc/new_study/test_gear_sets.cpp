@@ -21,7 +21,7 @@ bool within_kernels(const GearSet& set) {
     return set.tooth_pairs <= dynamics::kMostToothPairs;
 }
 
-// Text with the crack at half of the way through the root, in half of the graded gearboxes.
+// Text with a crack of half the root thickness in half of the graded gearboxes.
 std::string with_half_crack(std::string text, double deepest_mm) {
     const std::size_t begin = text.find("fault.depth_mm = {");
     REQUIRE(begin != std::string::npos);
@@ -32,7 +32,7 @@ std::string with_half_crack(std::string text, double deepest_mm) {
                                     0.5 * deepest_mm));
 }
 
-// The depth of a crack all the way through the root: the comment before the levels.
+// Depth of a crack through the whole root, from the comment before the levels.
 double deepest_mm_of(const std::string& text) {
     const std::string before = "% of the way through the root, ";
     const std::size_t at = text.find(before);

@@ -1,4 +1,4 @@
-// gearpod new planetary: a study from a datasheet.
+// Checks gearpod new planetary: a study from a datasheet.
 #include <algorithm>
 
 #include "mc/new_study/planetary.hpp"
@@ -30,7 +30,7 @@ std::string all_of(const mc::Problems& problems) {
 
 }  // namespace
 
-TEST_CASE("A study of a datasheet's gears has them, their load and bodies of steel") {
+TEST_CASE("A study from a datasheet has its gears, their load and bodies of steel") {
     const mc::NewStudy made = new_planetary(wind_turbine(), "new planetary");
     INFO(format(made.problems));
     REQUIRE(made.problems.empty());
@@ -47,14 +47,14 @@ TEST_CASE("A study of a datasheet's gears has them, their load and bodies of ste
     CHECK(*planet.mass_kg ==
           Approx(7850.0 * M_PI * (outer * outer - inner * inner) * 0.151).epsilon(1e-3));
     CHECK(inner == Approx(0.219 - 1.2 * 0.027).epsilon(1e-3));
-    // Every rule of thumb has its source or says that it is chosen.
+    // Every rule of thumb has its source or is marked as chosen.
     for (const char* word : {"Shigley", "AGMA 2001", "Kraemer", "Kasuba", "ISO 286", "chosen"}) {
         INFO(word);
         CHECK(made.text.find(word) != std::string::npos);
     }
 }
 
-TEST_CASE("Power stands in for torque or speed") {
+TEST_CASE("Power replaces torque or speed") {
     mc::PlanetaryDatasheet data = wind_turbine();
     data.torque_N_m.reset();
     data.power_kW = 1508;
@@ -72,8 +72,9 @@ TEST_CASE("Power stands in for torque or speed") {
     CHECK(all_of(new_planetary(data, "c").problems).find("--power") != std::string::npos);
 }
 
-// The stage of a Bell 206B meshes at 567 Hz, SpectraQuest's rig of 28/36/100 teeth at 656 Hz.
-TEST_CASE("Gears that mesh faster than 512 Hz have studies") {
+// Mesh frequencies: 567 Hz for the stage of a Bell 206B, 656 Hz for SpectraQuest's rig of 28/36/100
+// teeth.
+TEST_CASE("Gears with mesh frequencies above 512 Hz have studies") {
     for (const double speed_rpm : {343.8, 3000.0, 60000.0}) {
         mc::PlanetaryDatasheet data;
         data.sun = 27;
@@ -97,8 +98,8 @@ TEST_CASE("Gears that mesh faster than 512 Hz have studies") {
     }
 }
 
-// Without shift, tips of the ring's teeth reach below the planet's base circle.
-TEST_CASE("Tip circles that a message advises are options") {
+// Tips of unshifted ring teeth reach below the planet's base circle.
+TEST_CASE("Tip circles recommended by a message are available as options") {
     mc::PlanetaryDatasheet data;
     data.sun = 40;
     data.planet = 16;
@@ -116,7 +117,7 @@ TEST_CASE("Tip circles that a message advises are options") {
     const auto study = mc::read_study_text(made.text, "s.toml").study;
     REQUIRE(study);
     CHECK(1e3 * *study->gearbox.bodies[mc::Member::ring].tip_diameter_m == Approx(141));
-    // Options of shifts and addenda go the same way.
+    // Options of shifts and addenda are passed in the same way.
     data.addendum = 0.9;
     data.sun_shift = 0.1;
     data.ring_shift = -0.1;
@@ -126,8 +127,8 @@ TEST_CASE("Tip circles that a message advises are options") {
     }
 }
 
-// Contradicting shifts are one problem that names the value that fits.
-TEST_CASE("Shifts that leave backlash are refused with the one that fits") {
+// Contradicting shifts are one problem, reported with the matching value.
+TEST_CASE("Shifts that leave backlash are refused with the matching value") {
     mc::PlanetaryDatasheet data = wind_turbine();
     data.sun_shift = data.planet_shift = 0.1;
     data.ring_shift = -0.4;
@@ -137,7 +138,7 @@ TEST_CASE("Shifts that leave backlash are refused with the one that fits") {
     CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);
 }
 
-TEST_CASE("What geometry refuses is refused with the numbers, all at once") {
+TEST_CASE("Impossible geometry is refused with the relevant numbers, all at once") {
     const auto refused = [](const auto& change) {
         mc::PlanetaryDatasheet data = wind_turbine();
         change(data);
@@ -147,7 +148,7 @@ TEST_CASE("What geometry refuses is refused with the numbers, all at once") {
     };
     const auto ring = refused([](auto& data) { data.ring = 98; });
     CHECK(ring.find("--ring") != std::string::npos);
-    CHECK(ring.find("99") != std::string::npos);  // what would be right
+    CHECK(ring.find("99") != std::string::npos);  // the number that is possible
     const auto crowded = refused([](auto& data) { data.planets = 7; });
     INFO(crowded);
     CHECK(crowded.find("new planetary: --") != std::string::npos);
@@ -176,7 +177,7 @@ TEST_CASE("What geometry refuses is refused with the numbers, all at once") {
     CHECK(nothing.find("--torque") != std::string::npos);
 }
 
-TEST_CASE("The study that new writes is described and run as it stands") {
+TEST_CASE("The study written by new is described and run unchanged") {
     const Folder folder;
     const std::string file = folder.file("p.toml");
     const std::string command =
@@ -196,7 +197,7 @@ TEST_CASE("The study that new writes is described and run as it stands") {
     const auto described = program("describe " + file);
     INFO(described.output);
     CHECK(described.code == 0);
-    CHECK(described.mentions("% of the largest that the tooth holds"));
+    CHECK(described.mentions("% of the largest possible size"));
     CHECK(!described.mentions("  damping  "));
 
     const auto run = program("run " + file +
@@ -207,7 +208,7 @@ TEST_CASE("The study that new writes is described and run as it stands") {
     CHECK(run.code == 0);
 }
 
-TEST_CASE("new refuses what is no gear set and writes nothing") {
+TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     const Folder folder;
     const auto said = program(
         "new planetary --sun 21 --planet 39 --ring 98 --module 12 --torque 5 "

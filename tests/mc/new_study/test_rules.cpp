@@ -11,8 +11,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The force that rollers take together when their ring has moved by `shift` mm: each Palmgren's (Q
-// / l^0.8 ...)^(1/0.9) = ((shift cos angle) / 7.68e-5)^(1/0.9) l^(8/9), without clearance.
+// Total force of the rollers when their ring is displaced by `shift` mm. Each roller has Palmgren's
+// ((shift cos angle) / 7.68e-5)^(1/0.9) l^(8/9), without clearance.
 double rollers_N(int rollers, double length_mm, double shift_mm) {
     double sum = 0.0;
     for (int i = 0; i < rollers; ++i) {
@@ -28,7 +28,7 @@ double rollers_N(int rollers, double length_mm, double shift_mm) {
 
 }  // namespace
 
-TEST_CASE("A roller bearing is as stiff as its rollers are together") {
+TEST_CASE("The stiffness of a roller bearing is that of its rollers in parallel") {
     for (const double bore : {0.04, 0.12, 0.35}) {
         const RollerBearing bearing = bearing_in_bore(bore, 0.8 * bore);
         const double length_mm = 1e3 * bearing.roller_length_m;
@@ -42,9 +42,10 @@ TEST_CASE("A roller bearing is as stiff as its rollers are together") {
     }
 }
 
-// ISO 15, dimension series 22: 2210 is 50 x 90 x 23 mm, 2220 is 100 x 180 x 46, 2240 is 200 x 360
-// x 98.
-TEST_CASE("A bearing in a bore has the bore of a cylindrical roller bearing, and its rollers fit") {
+// Source: ISO 15, dimension series 22; 2210 is 50 x 90 x 23 mm, 2220 is 100 x 180 x 46, 2240 is 200
+// x 360 x 98.
+TEST_CASE(
+    "A bearing in a bore has the dimensions of a cylindrical roller bearing, and its rollers fit") {
     for (const auto& [outside, inside] :
          {std::pair{90.0, 50.0}, std::pair{180.0, 100.0}, std::pair{360.0, 200.0}}) {
         const RollerBearing bearing = bearing_in_bore(1e-3 * outside, 0.1);
@@ -52,15 +53,14 @@ TEST_CASE("A bearing in a bore has the bore of a cylindrical roller bearing, and
         const double roller = 0.14 * outside, circle = 0.77 * outside;
         CHECK(circle - roller > inside);
         CHECK(circle + roller < outside);
-        CHECK(bearing.rollers * roller < pi * circle);        // side by side
+        CHECK(bearing.rollers * roller < pi * circle);        // adjacent
         CHECK((bearing.rollers + 4) * roller > pi * circle);  // with few gaps
     }
 }
 
-// ISO 286-1, table 1, grade 7: 10 to 18 mm 18 um, 50 to 80 30 um, 120 to 180 40 um, 315 to 400 57
-// um, 800 to 1000 90 um. The standard takes the geometric mean of each step, and
-// rounds.
-TEST_CASE("The tolerance of grade 7 is that of ISO 286's table") {
+// Source: ISO 286-1, table 1, grade 7; 10 to 18 mm 18 um, 50 to 80 30 um, 120 to 180 40 um, 315 to
+// 400 57 um, 800 to 1000 90 um. The standard uses the geometric mean of each step and rounds.
+TEST_CASE("The tolerance of grade 7 matches ISO 286's table") {
     for (const auto& [low, high, um] :
          {std::tuple{10.0, 18.0, 18.0}, std::tuple{50.0, 80.0, 30.0},
           std::tuple{120.0, 180.0, 40.0}, std::tuple{315.0, 400.0, 57.0},

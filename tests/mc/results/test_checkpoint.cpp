@@ -1,4 +1,4 @@
-// The checkpoint: what was written is there again, what is damaged or foreign is noticed.
+// Checks the checkpoint: written data are read again, damaged or foreign data are detected.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -70,7 +70,9 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("A plan's batches hold every row once, the threshold group's apart from the graded") {
+TEST_CASE(
+    "A plan's batches hold every row once, with the threshold group and graded gearboxes in "
+    "separate batches") {
     std::size_t row = 0;
     for (std::size_t batch = 0; batch < kPlan.batches(); ++batch) {
         CHECK(kPlan.rows_before(batch) == row);
@@ -114,7 +116,7 @@ TEST_CASE("Records of a gearbox are rows of its batch") {
     CHECK(!resumed->has(3));
 }
 
-TEST_CASE("Parts of a plan hold every batch of the whole once, with rows of their own") {
+TEST_CASE("Parts of a plan hold every batch of the whole once, each with its own rows") {
     const int records = GENERATE(1, 5);
     for (const auto& [thresholds, graded] : {std::pair{20, 42}, {35, 50}, {16, 16}, {3, 2}}) {
         const BatchPlan whole(thresholds, graded, {}, records);
@@ -153,7 +155,7 @@ TEST_CASE("Parts of a plan hold every batch of the whole once, with rows of thei
     CHECK(!read_part("-1/4"));
 }
 
-TEST_CASE("Finished batches are there again, in whatever order they were written") {
+TEST_CASE("Finished batches are read again, in any order of writing") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {4, 0, 2});
@@ -170,7 +172,7 @@ TEST_CASE("Finished batches are there again, in whatever order they were written
     CHECK(folder.empty());
 }
 
-TEST_CASE("A larger ensemble keeps all batches but the one that it fills up") {
+TEST_CASE("A larger ensemble keeps all batches except the one that it fills") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
@@ -207,7 +209,7 @@ TEST_CASE("Another study, seed or version is refused with the reason") {
     CHECK(reason_of(path).empty());
 }
 
-TEST_CASE("Two runs cannot work on one checkpoint") {
+TEST_CASE("Two runs cannot use one checkpoint at the same time") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     const auto mine = Checkpoint::create(path, kIdentity, kPlan);
@@ -225,7 +227,7 @@ TEST_CASE("Two runs cannot work on one checkpoint") {
         }
         const std::string resumed = reason_of(path);
         const bool good = contains(resumed, worker) && contains(created, worker) &&
-                          contains(created, "is working on it") && !contains(created, "delete");
+                          contains(created, "is using it") && !contains(created, "delete");
         std::_Exit(good ? 0 : 1);
     }
     int status = 0;
@@ -233,8 +235,8 @@ TEST_CASE("Two runs cannot work on one checkpoint") {
     CHECK(status == 0);
 }
 
-// Of many starters at once one makes the checkpoint, and all others know whose it is.
-TEST_CASE("Starters that race for one checkpoint do not get it twice") {
+// One of many simultaneous runs creates the checkpoint, and all others report its owner.
+TEST_CASE("Only one of several competing runs gets a checkpoint") {
     const Folder folder;
     for (int round = 0; round < 20; ++round) {
         const std::string path = folder.file("r" + std::to_string(round) + ".part");
@@ -246,13 +248,13 @@ TEST_CASE("Starters that race for one checkpoint do not get it twice") {
             if (starters.back() == 0) {
                 char byte = 0;
                 ::close(gate[1]);
-                static_cast<void>(::read(gate[0], &byte, 1) == 0);  // until all are there
+                static_cast<void>(::read(gate[0], &byte, 1) == 0);  // until all have started
                 int code = 0;
                 std::unique_ptr<Checkpoint> mine;
                 try {
                     mine = Checkpoint::create(path, kIdentity, kPlan);
                 } catch (const std::runtime_error& error) {
-                    code = contains(error.what(), "is working on it") ? 1 : 2;
+                    code = contains(error.what(), "is using it") ? 1 : 2;
                 }
                 ::usleep(200000);
                 std::_Exit(code);
@@ -273,21 +275,21 @@ TEST_CASE("Starters that race for one checkpoint do not get it twice") {
     CHECK(folder.files() == 20);
 }
 
-TEST_CASE("A checkpoint that is a link or a pipe is refused and not waited for") {
+TEST_CASE("A checkpoint that is a link or a pipe is refused without blocking") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
-    CHECK(contains(reason_of(path), "is no regular file"));
+    CHECK(contains(reason_of(path), "is not a regular file"));
     std::filesystem::remove(path);
     fill(folder.file("other"), {0});
     std::filesystem::create_symlink("other", path);
     CHECK(contains(reason_of(path), "cannot be opened"));
 }
 
-TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged batch is used") {
+TEST_CASE("For any damaged byte of a checkpoint no damaged batch is used") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
-    const std::vector<std::size_t> written{0, 1, 4};  // a full one, and the last of either group
+    const std::vector<std::size_t> written{0, 1, 4};  // a full one, and the last of each group
     fill(path, written);
     const std::string bytes = bytes_of(path);
     long refused = 0, found = 0;
@@ -312,15 +314,16 @@ TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged batch is used") 
         if (there < written.size()) {
             REQUIRE(there == written.size() - 1);
             REQUIRE(checkpoint->findings().size() == 1);
-            REQUIRE(contains(checkpoint->findings()[0], "1 tile is damaged"));
+            REQUIRE(contains(checkpoint->findings()[0], "1 batch is damaged"));
             ++found;
         }
     }
     CHECK(refused > 20);
-    CHECK(found == 3 * 1176 / 3);  // every byte looked at of every batch
+    CHECK(found == 3 * 1176 / 3);  // every checked byte of every batch
 }
 
-TEST_CASE("A truncated checkpoint is continued with what is left, and says what it lost") {
+TEST_CASE(
+    "A truncated checkpoint is resumed with the remaining batches, and the loss is reported") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
@@ -331,13 +334,13 @@ TEST_CASE("A truncated checkpoint is continued with what is left, and says what 
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
         CHECK(checkpoint->batches_done() == 2);
         REQUIRE(checkpoint->findings().size() == 1);
-        CHECK(contains(checkpoint->findings()[0], "3 of 5 tiles"));
+        CHECK(contains(checkpoint->findings()[0], "3 of 5 batches"));
     }
     write_bytes(path, bytes.substr(0, 4096 + 4 * record + 100));
     {
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
         CHECK(checkpoint->batches_done() == 4);
-        CHECK(contains(checkpoint->findings()[0], "1 tile is damaged or incomplete"));
+        CHECK(contains(checkpoint->findings()[0], "1 batch is damaged or incomplete"));
     }
     for (const std::size_t length : {std::size_t{0}, std::size_t{10}, std::size_t{60}}) {
         write_bytes(path, bytes.substr(0, length));
@@ -347,7 +350,7 @@ TEST_CASE("A truncated checkpoint is continued with what is left, and says what 
     CHECK(contains(reason_of(path), "is not a checkpoint"));
 }
 
-TEST_CASE("A batch at another batch's place is not taken for it") {
+TEST_CASE("A batch at another batch's position is refused") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 2, 3});
@@ -361,7 +364,7 @@ TEST_CASE("A batch at another batch's place is not taken for it") {
     CHECK(checkpoint->findings().size() == 1);
 }
 
-TEST_CASE("A full disk is an error of the write, and the batches before it stay") {
+TEST_CASE("A full disk is a write error, and earlier batches remain") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     std::signal(SIGXFSZ, SIG_IGN);

@@ -1,4 +1,4 @@
-// Contact loss ratios and the error of the time steps in the results file.
+// Checks contact loss ratios and the error of the time steps in the results file.
 #include <hdf5.h>
 
 #include <catch2/catch.hpp>
@@ -44,8 +44,8 @@ bool has_group(const std::string& path, const char* name) {
 
 }  // namespace
 
-// More rows than both the writer and the reader take at once.
-TEST_CASE("Contact loss ratios read back as they were written, whole and some rows at a time") {
+// More rows than writer and reader process at once.
+TEST_CASE("Contact loss ratios read back as they were written, at once and in parts") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     const Results r = example(9001);
@@ -68,7 +68,7 @@ TEST_CASE("Contact loss ratios read back as they were written, whole and some ro
     CHECK(frame.step_error->meshes == 16);
 }
 
-TEST_CASE("The datasets of contact loss say what they are") {
+TEST_CASE("The datasets of contact loss have descriptions") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     write_results(path, example(10));
@@ -79,8 +79,8 @@ TEST_CASE("The datasets of contact loss say what they are") {
         std::string::npos);
 }
 
-// Files of versions before 0.3, and of studies whose teeth cannot part.
-TEST_CASE("Results without contact loss have none, not zero") {
+// Files of versions before 0.3, and of studies whose teeth cannot separate.
+TEST_CASE("Results without contact loss have no value instead of zero") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     Results r = example(10);
@@ -95,7 +95,7 @@ TEST_CASE("Results without contact loss have none, not zero") {
     CHECK(test::bits(back) == test::bits(r));
 }
 
-TEST_CASE("Contact loss of another number of rows is not written") {
+TEST_CASE("Contact loss with a wrong number of rows is not written") {
     const Folder folder;
     Results r = example(10);
     r.contact_loss[1].values.pop_back();

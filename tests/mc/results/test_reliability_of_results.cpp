@@ -1,4 +1,4 @@
-// What the assessment takes from an ensemble's rows.
+// Checks the inputs of the reliability assessment from an ensemble's rows.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -9,8 +9,8 @@ using namespace gearpod::mc;
 
 namespace {
 
-// 400 healthy gearboxes set the threshold; of 600 graded ones, every third has no fault. The
-// parameter that looks like a crack depth is an input like any other.
+// Four hundred healthy gearboxes set the threshold; of 600 graded ones, every third has no fault.
+// The parameter that looks like a crack depth is an input like any other.
 Results example() {
     Results r;
     r.noise_levels = {1.0, 2.0};
@@ -38,7 +38,7 @@ Results example() {
 
 }  // namespace
 
-TEST_CASE("The fault's size is the column that the request names, all others are inputs") {
+TEST_CASE("The fault's size is the column named by the request, all others are inputs") {
     const Results r = example();
     const auto reliability = reliability_of(r, ColumnRows(r), "", 2);
     REQUIRE(reliability);
@@ -54,11 +54,11 @@ TEST_CASE("The fault's size is the column that the request names, all others are
                       Catch::Contains("it has fault_depth_m"));
 }
 
-TEST_CASE("An ensemble too large to hold is not assessed, and the text says so") {
+TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text reports this") {
     const Results r = example();
     CHECK(reliability_of(r, ColumnRows(r), "", 2, 2000));
     const auto none =
-        reliability_of(r, ColumnRows(r), "", 2, 1999);  // 1000 gearboxes, 2 values each
+        reliability_of(r, ColumnRows(r), "", 2, 1999);  // one thousand gearboxes, 2 values each
     CHECK(!none);
     CHECK_THAT(reliability_text(none, r), Catch::Contains("at most 8388608 of them"));
 }

@@ -1,5 +1,5 @@
-// Results files whose seal fits and whose contents do not: refused on opening, with what is wrong,
-// by all that read them.
+// Checks results files with a valid checksum and invalid contents: every reader refuses them with
+// the reason.
 #include <cmath>
 
 #include "tests/mc/program.hpp"
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A small run's results, made once: three healthy gearboxes, five graded, two noise levels.
+// Results of a small run, computed once: three healthy gearboxes, five graded, two noise levels.
 const std::string& genuine() {
     static const Folder folder;
     static const std::string path = [] {
@@ -59,7 +59,7 @@ std::vector<Edit> edits() {
     return {
         {"fewer noise levels", levels({0.0}), "noise_levels"},
         {"more noise levels", levels({0.0, 0.5, 1.0}), "noise_levels"},
-        {"other noise levels", levels({0.0, 0.75}), "not the study's"},
+        {"other noise levels", levels({0.0, 0.75}), "differ from the study's"},
         {"a noise level that is none", levels({0.0, NAN}), "must be finite"},
         {"an infinite noise level", levels({0.0, INFINITY}), "must be finite"},
         {"descending noise levels", levels({0.5, 0.0}), "ascending"},
@@ -96,7 +96,7 @@ std::vector<Edit> edits() {
              mc::check(H5Ldelete(root, "status", H5P_DEFAULT), "");
              mc::write_integers(root, "status", {8}, {0, 0, 0, 0, 99, 0, 0, 0});
          },
-         "/status of row 4 is 99"},
+         "/status of row 4 has the invalid value 99"},
         {"too short a column",
          [](hid_t root) {
              replace_numbers(root, "instances/path_exponent", {3}, {1, 2, 3});
@@ -104,7 +104,7 @@ std::vector<Edit> edits() {
          "damaged"},
         {"records of healthy gearboxes that have one each",
          [](hid_t root) { mc::write_number(root, "detection", "threshold_records", 3.0); },
-         "threshold_records = 3, but of the study 1"},
+         "threshold_records = 3, but the study has 1"},
         {"a confidence of nothing",
          [](hid_t root) {
              mc::check(H5Adelete_by_name(root, "detection", "confidence", H5P_DEFAULT), "");
@@ -116,7 +116,7 @@ std::vector<Edit> edits() {
 
 }  // namespace
 
-TEST_CASE("An untouched or just resealed results file is reported") {
+TEST_CASE("A results file that is unchanged, or has a new checksum only, is reported") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     fs::copy_file(genuine(), path);
@@ -128,7 +128,7 @@ TEST_CASE("An untouched or just resealed results file is reported") {
     }
 }
 
-TEST_CASE("A resealed results file that no run wrote is refused with the reason") {
+TEST_CASE("A modified results file with a valid checksum is refused with the reason") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     for (const Edit& edit : edits()) {
@@ -151,7 +151,7 @@ TEST_CASE("A resealed results file that no run wrote is refused with the reason"
     }
 }
 
-TEST_CASE("Names that are no UTF-8 do not keep a report from its JSON") {
+TEST_CASE("Names that are not valid UTF-8 do not prevent a report's JSON") {
     const Folder folder;
     const std::string path = folder.file("caf\xe9.h5");
     fs::copy_file(genuine(), path);

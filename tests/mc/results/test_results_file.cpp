@@ -1,4 +1,4 @@
-// The results file: complete or absent, readable by other programs, refused when it is not ours.
+// Checks the results file: complete or absent, readable by other programs, foreign files refused.
 #include <fcntl.h>
 #include <hdf5.h>
 #include <sys/resource.h>
@@ -117,7 +117,7 @@ TEST_CASE("Results read back as they were written") {
     CHECK(back.timing[1].seconds == 2.5);
 }
 
-TEST_CASE("Rows read some at a time are those of the whole file") {
+TEST_CASE("Rows read in parts equal those of the whole file") {
     const Folder folder;
     Results large = example();
     large.group.clear();
@@ -128,7 +128,7 @@ TEST_CASE("Rows read some at a time are those of the whole file") {
     for (auto& feature : large.features) {
         feature.values.clear();
     }
-    // More than both the writer and the reader take at once.
+    // More rows than writer and reader process at once.
     for (int row = 0; row < 9001; ++row) {
         large.group.push_back(row < 100 ? 0 : 1);
         large.status.push_back(row % 3);
@@ -158,7 +158,7 @@ TEST_CASE("The same results give the same bytes") {
     CHECK(bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")));
 }
 
-TEST_CASE("h5dump sees the documented layout") {
+TEST_CASE("h5dump shows the documented layout") {
     if (std::system("command -v h5dump > /dev/null") != 0) {
         WARN("h5dump (hdf5-tools) is not installed");
         return;
@@ -233,7 +233,7 @@ TEST_CASE("A results file that is missing, foreign, damaged or newer is refused 
     CHECK(contains(reason_of(bad), "version 2"));
 }
 
-TEST_CASE("Every damaged byte of a results file is noticed") {
+TEST_CASE("Every damaged byte of a results file is detected") {
     const Folder folder;
     const std::string good = folder.file("good.h5"), bad = folder.file("bad.h5");
     write_results(good, example());
@@ -246,13 +246,13 @@ TEST_CASE("Every damaged byte of a results file is noticed") {
     }
 }
 
-TEST_CASE("A failed write leaves the old file and nothing else") {
+TEST_CASE("A failed write leaves only the old file") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     write_results(path, example());
     const std::string before = bytes_of(path);
 
-    // A limit on the file size stands in for a full disk.
+    // A limit on the file size simulates a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit limit{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
@@ -270,7 +270,7 @@ TEST_CASE("A failed write leaves the old file and nothing else") {
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("An output that cannot be written is known before the run") {
+TEST_CASE("An output that cannot be written is reported before the run") {
     const Folder folder;
     const std::string path = folder.file("r.h5");
     CHECK(why_not_writable(path).empty());
@@ -286,7 +286,7 @@ TEST_CASE("An output that cannot be written is known before the run") {
     CHECK_THROWS_AS(write_results(folder.file("no/r.h5"), example()), std::runtime_error);
 }
 
-TEST_CASE("Of a file whose writer is killed before it has its name nothing is left") {
+TEST_CASE("A file whose writer is killed before it is renamed leaves nothing") {
     const Folder folder;
     const int unnamed = ::open(folder.file(".").c_str(), O_TMPFILE | O_RDWR, 0600);
     if (unnamed < 0) {
@@ -303,7 +303,7 @@ TEST_CASE("Of a file whose writer is killed before it has its name nothing is le
     REQUIRE(::waitpid(child, &status, 0) == child);
     CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
     CHECK(folder.files() == 0);
-    // Nothing is in the way of the next one, and the one after finds it taken.
+    // The next writer succeeds, and the one after it finds the file in use.
     const int fd = create_exclusively(folder.file("r.part"), {}, [](int) {});
     CHECK(fd >= 0);
     ::close(fd);
@@ -312,7 +312,7 @@ TEST_CASE("Of a file whose writer is killed before it has its name nothing is le
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("What is no regular file is refused and stays") {
+TEST_CASE("An output that is not a regular file is refused and kept") {
     const Folder folder;
     const std::string fifo = folder.file("fifo"), socket_path = folder.file("socket");
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
@@ -342,7 +342,7 @@ TEST_CASE("What is no regular file is refused and stays") {
     CHECK(contains(why_not_writable("/dev/null"), "a regular file is needed"));
 }
 
-TEST_CASE("A symbolic link stays, and the file it names is written") {
+TEST_CASE("A symbolic link is kept, and its target is written") {
     const Folder folder;
     fs::create_directory(folder.file("far"));
     write_bytes(folder.file("far/old.h5"), "old");
@@ -361,7 +361,7 @@ TEST_CASE("A symbolic link stays, and the file it names is written") {
     }
     CHECK(fs::is_symlink(folder.file("old")));
     CHECK(fs::is_regular_file(folder.file("far/new.h5")));
-    // The same content to the bit; modification times in the files may differ.
+    // The content is equal to the bit; modification times in the files may differ.
     CHECK(test::bits(folder.file("far/new.h5")) == test::bits(folder.file("far/old.h5")));
     CHECK(fs::file_size(folder.file("far/new.h5")) == fs::file_size(folder.file("far/old.h5")));
     CHECK(std::distance(fs::directory_iterator(folder.file("far")), fs::directory_iterator{}) == 2);
@@ -375,7 +375,7 @@ TEST_CASE("A symbolic link stays, and the file it names is written") {
     CHECK_THROWS_AS(write_results(folder.file("ring"), example()), std::runtime_error);
 }
 
-TEST_CASE("Results whose shapes disagree are not written") {
+TEST_CASE("Results of inconsistent shapes are not written") {
     const Folder folder;
     Results r = example();
     r.status.pop_back();
@@ -389,7 +389,7 @@ TEST_CASE("Results whose shapes disagree are not written") {
     CHECK(folder.files() == 0);
 }
 
-TEST_CASE("A study without instances or detections is still a readable file") {
+TEST_CASE("A study without instances or detections still gives a readable file") {
     const Folder folder;
     write_results(folder.file("r.h5"), Results{});
     CHECK(read_results(folder.file("r.h5")).features.empty());

@@ -1,4 +1,4 @@
-// Draws of a distribution, held against its distribution function.
+// Compares random values of a distribution with its distribution function.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline Distribution distribution_of(const std::string& toml) {
     return *distribution;
 }
 
-// Draws of as many instances, as a Sampler takes them, from a distribution given as TOML.
+// Random values from the Sampler for that many instances, of a distribution given as TOML.
 inline std::vector<double> draws_of(const std::string& toml, int count) {
     const Distribution distribution = distribution_of(toml);
     std::vector<double> draws;
@@ -51,7 +51,7 @@ inline double kolmogorov_smirnov(std::vector<double> draws,
     return distance * std::sqrt(n);
 }
 
-// Exceeded by chance once in ten thousand: 2 exp(-2 x^2) = 1e-4.
+// Limit that is exceeded by chance once in ten thousand: 2 exp(-2 x^2) = 1e-4.
 inline constexpr double kKsLimit = 2.23;
 inline constexpr int kDraws = 20000;
 

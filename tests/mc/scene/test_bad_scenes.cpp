@@ -1,4 +1,5 @@
-// What the kinds of gearbox, motion, profile and fault cannot have is refused when a study is read.
+// Checks that keys invalid for a kind of gearbox, degrees of freedom, profile or fault are refused
+// when a study is read.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,14 +18,14 @@ struct BadScene {
     const std::string& study;
     const char* from;
     const char* to;
-    const char* key;    // that the one problem names
-    const char* words;  // in what is wrong or in the remedy
+    const char* key;    // named by the single problem
+    const char* words;  // in the problem or in the remedy
 };
 
 const BadScene kBadScenes[] = {
     // Keys of the other kind of gearbox.
     {kFixedShaftStudy, "[effects]", "planets = 3\n[effects]", "gearbox.planets",
-     "has no place here (only for gearbox.kind = \"planetary\"); remove it"},
+     "is not allowed here (only for gearbox.kind = \"planetary\"); remove it"},
     {kFixedShaftStudy, "[operation]", "[operation]\nfixed = \"ring\"", "operation.fixed",
      "only for gearbox.kind = \"planetary\""},
     {kFixedShaftStudy, "[operation]", "[operation]\ncarrier_speed_rpm = 10",
@@ -32,7 +33,7 @@ const BadScene kBadScenes[] = {
     {kFixedShaftStudy, "[effects]", "[effects]\ninertial_terms = true", "effects.inertial_terms",
      "only for gearbox.kind = \"planetary\""},
     {kFixedShaftStudy, "[effects]", "[effects]\npath = \"hamming\"", "effects.path",
-     "sits on a bearing"},
+     "is on a bearing"},
     {kFixedShaftStudy, "[sensor]", "[sensor]\npath_exponent = 0.1", "sensor.path_exponent",
      "only for gearbox.kind = \"planetary\""},
     {kFixedShaftStudy, "pinion_speed_rpm = 1800\n", "", "operation.pinion_speed_rpm", "missing"},
@@ -51,7 +52,7 @@ const BadScene kBadScenes[] = {
      "only for gearbox.kind = \"fixed-shaft\""},
     {kExampleStudy, "[operation]", "[effects]\npath = \"none\"\n[operation]", "effects.path",
      "use path = \"rectangular\""},
-    // Faults that the gearbox, the tooth or the profile cannot have.
+    // Faults that are impossible for the gearbox, the tooth or the profile.
     {kFixedShaftStudy, "member = \"pinion\"", "member = \"planet\"\nside = \"sun\"", "fault.member",
      "which a fixed-shaft gearbox does not have; use \"pinion\" or \"gear\""},
     {kExampleStudy, "member = \"planet\"\nside = \"ring\"", "member = \"gear\"", "fault.member",
@@ -59,14 +60,14 @@ const BadScene kBadScenes[] = {
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 17", "fault.chip_mm",
      "17 mm is wider than the face, 16 mm; stay at or below 16 mm"},
     {kFixedShaftStudy, "chip_height_mm = 2", "chip_height_mm = 9", "fault.chip_height_mm",
-     "takes the whole tooth off"},
+     "removes the whole tooth"},
     {kFixedShaftStudy, "chip_mm = 8\n", "", "fault.chip_mm", "missing (fault.kind is \"chip\")"},
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 8\ndepth_mm = 1", "fault.depth_mm",
      "only for fault.kind = \"crack\""},
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 8\nangle_deg = 45", "fault.angle_deg",
      "only for fault.kind = \"crack\" or \"spatial-crack\""},
     {kExampleStudy, "side = \"ring\"", "side = \"both\"", "fault.side",
-     "is \"both\" (a crack lies on one flank"},
+     "is \"both\", but a crack is on one flank"},
     {kQuasiStaticStudy, "values = [0, 0.1, 0.2, 0.3]", "values = [0, 1.1]",
      "random.fault.reduction", "reduction must be between 0 and 1"},
     {kQuasiStaticStudy, "side = \"both\"\n", "", "fault.side",
@@ -95,7 +96,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "end_angle_deg = 90", "end_angle_deg = 91", "fault.end_angle_deg",
      "must be > 0 and <= 90"},
     {kSpatialCrackStudy, "[sensor]", "[detection]\nsize_edges_mm = [0, 1]\n[sensor]",
-     "detection.size_edges_mm", "the fault's size is a pure number: size_edges groups it"},
+     "detection.size_edges_mm", "the fault's size is a pure number: use size_edges"},
     {kSpatialCrackStudy, "[sensor]", "[detection]\nsize_edges = [0, 1]\n[sensor]",
      "detection.size_edges", "fault.stage is not continuous"},
     // Profiles and effects that exclude one another.
@@ -154,7 +155,7 @@ const BadScene kBadScenes[] = {
      "gearbox.sun_rim_mm",
      "16 mm leaves no web (from the root circle to the bore there are 15.5 mm)"},
     {kExampleStudy, "[operation]", "sun_rim_mm = 4\n[operation]", "gearbox.sun_rim_mm",
-     "it takes from elastic gear bodies, and effects.foundation is \"none\""},
+     "only for elastic gear bodies, but effects.foundation is \"none\""},
     {kSpatialCrackStudy, "backlash_mm = 0.1\n", "", "gearbox.backlash_mm",
      "missing (effects.separation is \"two-sided\")"},
     {kSpatialCrackStudy, "separation = \"two-sided\"", "separation = \"one-sided\"",
@@ -164,7 +165,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "sun_planet_error_um = [10, 2]", "sun_planet_error_um = [10, -2]",
      "gearbox.sun_planet_error_um", "must be >= 0, but is -2"},
     {kSpatialCrackStudy, "horizon = \"march\"", "horizon = \"reuse\"", "numerics.horizon",
-     "is \"reuse\", but every tooth has errors of its own"},
+     "is \"reuse\", but every tooth has individual errors"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "tooth_quality = 13", "gearbox.tooth_quality",
      "must be between 0 and 12"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "gear_quality = 6", "gearbox.gear_quality",
@@ -180,7 +181,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "separation = \"two-sided\"",
      "separation = \"two-sided\"\nmotion = \"torsional\"\n[random]\n"
      "gearbox.pin_radial_rms_um = { distribution = \"constant\", value = 1 }",
-     "gearbox.pin_radial_rms_um", "rigid bearings hold the planets in their places"},
+     "gearbox.pin_radial_rms_um", "the bearings of this model are rigid"},
     {kSpatialCrackStudy, "integrator = \"newmark\"", "integrator = \"newmak\"",
      "numerics.integrator", "did you mean newmark?"},
     // Tones.
@@ -201,16 +202,16 @@ const BadScene kBadScenes[] = {
     {kFixedShaftStudy, "[sensor]",
      "[sensor]\ntones = [{ frequency_Hz = 30000, amplitude_m_s2 = 1 }]", "sensor.tones",
      "tone 1: 30000 Hz is not below half of sampling_Hz"},
-    // What may not be random.
+    // Inputs that must not be random.
     {kQuasiStaticStudy, "[random]",
      "[random]\ngearbox.helix_angle_deg = { distribution = \"constant\", value = 1 }",
-     "random.gearbox.helix_angle_deg", "may not be random (it shapes the teeth"},
+     "random.gearbox.helix_angle_deg", "may not be random (it defines the teeth"},
     {kSpatialCrackStudy, "[sensor]",
      "[random]\ngearbox.sun_planet_error_um = { distribution = \"constant\", value = 1 }\n[sensor]",
      "random.gearbox.sun_planet_error_um", "may not be random (it is not a number)"},
     {kFixedShaftStudy, "[sensor]",
      "[random]\nfault.chip_height_mm = { distribution = \"constant\", value = 1 }\n[sensor]",
-     "random.fault.chip_height_mm", "of which only the size may differ"},
+     "random.fault.chip_height_mm", "only the size of a fault may be random"},
 };
 
 bool mentions(const Problem& problem, const std::string& words) {
@@ -229,7 +230,7 @@ std::string pitted(double radius_mm) {
 
 }  // namespace
 
-TEST_CASE("The scenes that bad ones are made from are good") {
+TEST_CASE("The scenes from which invalid ones are made are valid") {
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
         const auto reading = read_study_text(text, "good.toml");
         INFO(format(reading.problems));
@@ -237,7 +238,7 @@ TEST_CASE("The scenes that bad ones are made from are good") {
     }
 }
 
-TEST_CASE("Each scene that cannot be is refused with one message on its key") {
+TEST_CASE("Each invalid scene is refused with one message on its key") {
     for (const BadScene& bad : kBadScenes) {
         const std::string text = replaced(bad.study, bad.from, bad.to);
         INFO(bad.from << " -> " << bad.to);
@@ -252,10 +253,10 @@ TEST_CASE("Each scene that cannot be is refused with one message on its key") {
     }
 }
 
-TEST_CASE("A pitted band is refused where the mate does not touch the flank") {
-    // Tian's 19/48 pair, in mm: tips 3.175 off the pitch circles; the gear's tip touches the pinion
-    // where the line of action, (r1 + r2) sin a long between the base circles, is sqrt(ra2^2 -
-    // rb2^2) from the gear's end.
+TEST_CASE("A pitted band is refused outside the contact with the mating flank") {
+    // Dimensions of Tian's 19/48 pair in mm: tips 3.175 from the pitch circles. The gear's tip
+    // meets the pinion where the line of action, (r1 + r2) sin a long between the base circles, is
+    // sqrt(ra2^2 - rb2^2) from the gear's end.
     const double a = M_PI / 9, r1 = 0.5 * 3.175 * 19, r2 = 0.5 * 3.175 * 48;
     const double tip2 = r2 + 3.175, base1 = r1 * std::cos(a), base2 = r2 * std::cos(a);
     const double left = (r1 + r2) * std::sin(a) - std::sqrt(tip2 * tip2 - base2 * base2);
@@ -267,6 +268,6 @@ TEST_CASE("A pitted band is refused where the mate does not touch the flank") {
         INFO(format(reading.problems));
         REQUIRE(reading.problems.size() == 1);
         CHECK(reading.problems[0].key == "fault.pit_radius_mm");
-        CHECK(mentions(reading.problems[0], "leaves the flank that is touched"));
+        CHECK(mentions(reading.problems[0], "extends beyond the active flank"));
     }
 }

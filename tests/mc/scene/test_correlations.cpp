@@ -1,4 +1,4 @@
-// Random inputs that go together, against closed forms of the Gaussian copula.
+// Checks correlated random inputs against closed forms of the Gaussian copula.
 #include <cmath>
 #include <numbers>
 
@@ -67,7 +67,7 @@ double spearman(const std::vector<double>& x, const std::vector<double>& y) {
     return pearson(midranks(x), midranks(y));
 }
 
-// The problem that a study with these overrides has.
+// The single problem of a study with these overrides.
 std::string problem_of(const std::vector<std::string>& overrides) {
     const StudyReading reading = reading_of(overrides);
     REQUIRE(reading.problems.size() == 1);
@@ -76,12 +76,12 @@ std::string problem_of(const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Correlated inputs have the rank correlation asked for and their own distributions") {
+TEST_CASE("Correlated inputs have the requested rank correlation and their own distributions") {
     constexpr std::uint64_t kCount = 20000;
     const double error = 4.0 / std::sqrt(static_cast<double>(kCount));
     const double r = 2.0 * std::sin(std::numbers::pi / 6.0 * kRank);
 
-    SECTION("normal ones: Pearson's is the normals' own") {
+    SECTION("normal ones: Pearson's equals that of the normals") {
         const Pairs pairs = draw({kTorque + "{distribution='normal',mean=400,sd=20}",
                                   kMass + "{distribution='normal',mean=2,sd=0.1}", kPairOf},
                                  kCount);
@@ -106,7 +106,7 @@ TEST_CASE("Correlated inputs have the rank correlation asked for and their own d
                   return 0.5 * std::erfc(-std::log(x / 400.0) / (s * std::numbers::sqrt2));
               }) < kKsLimit);
     }
-    SECTION("any: ranks are those of the law") {
+    SECTION("any: rank correlation follows the law") {
         for (const char* law : {"'uniform',low=1,high=3", "'triangular',low=1,mode=1.2,high=3",
                                 "'weibull',scale=2,shape=3", "'beta',low=1,high=3,alpha=2,beta=5",
                                 "'truncated-normal',mean=2,sd=1,low=1,high=3"}) {
@@ -116,7 +116,7 @@ TEST_CASE("Correlated inputs have the rank correlation asked for and their own d
                 {kTorque + "{distribution='normal',mean=400,sd=20}", kMass + text, kPairOf}, 5000);
             CHECK(spearman(pairs.torque, pairs.mass) == Approx(kRank).margin(2.0 * error));
             const Distribution own = distribution_of(text);
-            // Its quantiles come as often as they say.
+            // Its quantiles have their nominal frequency.
             for (const double share : {0.1, 0.5, 0.9}) {
                 const auto below = std::ranges::count_if(
                     pairs.mass, [&](double x) { return x <= own.quantile(share); });
@@ -129,7 +129,7 @@ TEST_CASE("Correlated inputs have the rank correlation asked for and their own d
     }
 }
 
-TEST_CASE("Lists keep their shares when they are correlated") {
+TEST_CASE("Lists keep their frequencies when they are correlated") {
     const Pairs pairs =
         draw({kTorque + "{distribution='discrete',values=[300,100,200],weights=[1,2,5]}",
               kMass + "{distribution='empirical',values=[3,1,1,2]}", kPairOf},
@@ -143,17 +143,17 @@ TEST_CASE("Lists keep their shares when they are correlated") {
     CHECK(spearman(pairs.torque, pairs.mass) > 0.4);  // ties lower it
 }
 
-TEST_CASE("A correlation leaves the other inputs' draws as they were") {
+TEST_CASE("A correlation leaves the random values of other inputs unchanged") {
     const std::vector<std::string> laws = {kTorque + "{distribution='normal',mean=400,sd=20}",
                                            kMass + "{distribution='normal',mean=2,sd=0.1}"};
     std::vector<std::string> correlated = laws;
     correlated.push_back(kPairOf);
     CHECK(draw(laws, 50).exponent == draw(correlated, 50).exponent);
     CHECK(draw(laws, 50).mass != draw(correlated, 50).mass);
-    // And stands in the study that is written.
+    // The written study contains the correlation.
     const Study study = *reading_of(correlated).study;
     CHECK(read_study_text(resolved_text(study), "again.toml").study == study);
-    // A value for all gearboxes ends it.
+    // A value for all gearboxes removes it.
     const std::string of_study =
         "random.correlations=[" +
         pair_of("gearbox.planet_bearing_stiffness_N_m", "sensor.path_exponent", "0.5") + "]";
@@ -164,7 +164,7 @@ TEST_CASE("A correlation leaves the other inputs' draws as they were") {
     CHECK(reading.study->correlations.empty());
 }
 
-TEST_CASE("Correlations that no inputs can have are refused") {
+TEST_CASE("Impossible correlations are refused") {
     const std::string mass = kMass + "{distribution='normal',mean=2,sd=0.1}";
     const std::string torque = kTorque + "{distribution='normal',mean=400,sd=20}";
     const auto list = [](const std::string& pairs) { return "random.correlations=" + pairs; };
@@ -185,13 +185,14 @@ TEST_CASE("Correlations that no inputs can have are refused") {
     has(problem_of(
             {torque, mass, list("[" + pair_of(t, m, "0.5") + "," + pair_of(m, t, "0.4") + "]")}),
         "pair 2: gearbox.planet_mass_kg and operation.torque_N_m are correlated already");
-    has(problem_of({torque, list("[" + pair_of(t, "fault.depth_mm", "0.5") + "]")}), "graded by");
+    has(problem_of({torque, list("[" + pair_of(t, "fault.depth_mm", "0.5") + "]")}),
+        "is the fault size");
     has(problem_of({torque, kMass + "{distribution='levels',values=[1,2]}",
                     list("[" + pair_of(t, m, "0.5") + "]")}),
         "takes its values in turn");
     has(problem_of({torque, kMass + "{distribution='empirical',values=[1,2],rows=3}",
                     list("[" + pair_of(t, m, "0.5") + "]")}),
-        "drawn in rows");
+        "sampled by row");
     has(problem_of({torque, mass, list("[" + pair_of(t, m, "0.5").insert(1, "with=1,") + "]")}),
         "unknown key with");
     has(problem_of({torque, mass, list("3")}), "must be a list of pairs");

@@ -1,4 +1,4 @@
-// Laws that a study may draw its inputs from, against their closed forms.
+// Checks distributions of random inputs against their closed forms.
 #include "mc/scene/sampling.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/scene/draws.hpp"
@@ -6,7 +6,7 @@
 
 using namespace gearpod::tests;
 
-TEST_CASE("Draws of Weibull and beta laws follow their distribution functions") {
+TEST_CASE("Random values of Weibull and beta laws follow their distribution functions") {
     for (const double shape : {0.7, 2.0, 9.0}) {
         const std::string text =
             "{distribution='weibull', scale=3, shape=" + std::to_string(shape) + "}";
@@ -14,7 +14,7 @@ TEST_CASE("Draws of Weibull and beta laws follow their distribution functions") 
                   return 1.0 - std::exp(-std::pow(x / 3.0, shape));
               }) < kKsLimit);
     }
-    // alpha = 2, beta = 1: F = u^2; alpha = beta = 1/2: the arcsine law.
+    // Closed forms: F = u^2 for alpha = 2, beta = 1; the arcsine law for alpha = beta = 1/2.
     CHECK(kolmogorov_smirnov(
               draws_of("{distribution='beta', low=-1, high=3, alpha=2, beta=1}", kDraws),
               [](double x) { return std::pow((x + 1) / 4, 2); }) < kKsLimit);
@@ -24,7 +24,7 @@ TEST_CASE("Draws of Weibull and beta laws follow their distribution functions") 
           kKsLimit);
 }
 
-TEST_CASE("Discrete values come as often as their weights say") {
+TEST_CASE("Discrete values have the frequencies of their weights") {
     const auto draws =
         draws_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}", kDraws);
     for (const auto& [value, share] : {std::pair{30.0, 0.125}, {10.0, 0.25}, {20.0, 0.625}}) {
@@ -54,7 +54,7 @@ TEST_CASE("Medians of Weibull and beta laws are those of the distribution functi
     CHECK(median_of("{distribution='beta', low=0, high=4, alpha=3, beta=3}") == Approx(2));
 }
 
-TEST_CASE("Values that were measured come equally often") {
+TEST_CASE("Measured values are used with equal frequency") {
     const auto draws = draws_of("{distribution='empirical', values=[3, 1, 1, 7]}", kDraws);
     for (const auto& [value, share] : {std::pair{3.0, 0.25}, {1.0, 0.5}, {7.0, 0.25}}) {
         const double found = static_cast<double>(std::count(draws.begin(), draws.end(), value));
@@ -84,7 +84,7 @@ const std::string kExponents = "random.sensor.path_exponent={distribution=\"empi
 
 }  // namespace
 
-TEST_CASE("Inputs of the same rows draw the same place of their lists") {
+TEST_CASE("Inputs linked in rows use the same position of their lists") {
     const auto study = [](const std::string& rows) {
         return gearpod::test::shipped_study("planet-crack-ideal.toml",
                                             {kTorques + "values=[100,200,300,400]" + rows + "}",
@@ -104,7 +104,7 @@ TEST_CASE("Inputs of the same rows draw the same place of their lists") {
                     "has 2") != std::string::npos);
 }
 
-TEST_CASE("Columns of a file are drawn in rows, and what it lacks is said") {
+TEST_CASE("Columns of a file are used in rows, and missing ones are reported") {
     const gearpod::test::Folder folder;
     std::string text = "time;torque [N m];exponent\n";
     for (int i = 1; i <= 1500; ++i) {
@@ -135,13 +135,13 @@ TEST_CASE("Columns of a file are drawn in rows, and what it lacks is said") {
           std::string::npos);
     gearpod::test::write_bytes(folder.file("bad.csv"), "torque\n1\nlots\n");
     CHECK(problems_of(kTorques + "file=\"" + folder.file("bad.csv") + "\",column=\"torque\"}")
-              .find("bad.csv:3: \"lots\" is no number") != std::string::npos);
+              .find("bad.csv:3: \"lots\" is not a number") != std::string::npos);
     gearpod::test::write_bytes(folder.file("empty.csv"), "torque\n");
     CHECK(problems_of(kTorques + "file=\"" + folder.file("empty.csv") + "\",column=\"torque\"}")
               .find("empty.csv: has no row below its header") != std::string::npos);
 }
 
-TEST_CASE("Lists of a study may stand in a column of a file") {
+TEST_CASE("Lists of a study may come from a column of a file") {
     const gearpod::test::Folder folder;
     std::string text = "tooth,sun [um]\n";
     std::vector<double> deviations;

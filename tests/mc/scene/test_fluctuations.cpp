@@ -1,4 +1,4 @@
-// Torque and speed that fluctuate, and gravity, from the study file to the signals.
+// Checks fluctuating torque and speed, and gravity, from the study file to the signals.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -87,19 +87,19 @@ const BadStudy kBad[] = {
      {"gearbox.pitch_error_um=1", "operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3",
       "numerics.horizon=superpose"},
      "numerics.horizon",
-     "is \"superpose\", but torque, speed or weight vary"},
+     "is \"superpose\", but torque, speed or weight varies"},
     {kExampleStudy,
      {"numerics.horizon=superpose"},
      "numerics.horizon",
-     "is \"superpose\", but no tooth has errors of its own"},
+     "is \"superpose\", but the teeth have no individual errors"},
     {kExampleStudy,
      {"effects.gravity=true", "numerics.horizon=reuse"},
      "numerics.horizon",
-     "gravity turns past the carrier"},
+     "gravity rotates relative to the carrier"},
     {kExampleStudy,
      {"effects.gravity=true", "effects.motion=torsional"},
      "effects.gravity",
-     "would do nothing"},
+     "would have no effect"},
     {kExampleStudy,
      {"effects.gravity_direction_deg=0"},
      "effects.gravity_direction_deg",
@@ -119,22 +119,22 @@ struct BadScene {
 const BadScene kBadScenes[] = {
     {{"effects.gravity=true", "numerics.integrator=newmark"},
      "numerics.integrator",
-     "gravity is marched by rk4 and sdirk3, not by newmark"},
+     "gravity is supported by rk4 and sdirk3, not by newmark"},
     {{"effects.gravity=true", "numerics.precision=single"},
      "numerics.precision",
-     "gravity is marched in doubles"},
+     "gravity needs double precision"},
     {{"operation.speed_fluctuation=0.1", "operation.speed_fluctuation_order=1",
       "numerics.integrator=sdirk3"},
      "numerics.integrator",
-     "a fluctuating speed is marched by rk4"},
+     "a fluctuating speed is supported by rk4"},
     {{"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=100000"},
      "numerics.steps_per_mesh",
-     "too few to follow what fluctuates fastest"},
+     "too few for the fastest fluctuation"},
 };
 
 }  // namespace
 
-TEST_CASE("Bad fluctuations and a weight that does nothing are refused with key and remedy") {
+TEST_CASE("Invalid fluctuations and a weight without effect are refused with key and remedy") {
     for (const BadStudy& bad : kBad) {
         const StudyReading reading = read_study_text(bad.study, "example", bad.overrides);
         CAPTURE(bad.key, bad.words);
@@ -149,7 +149,7 @@ TEST_CASE("Bad fluctuations and a weight that does nothing are refused with key 
     }
     CHECK_THROWS_WITH(Scene(study_of(kQuasiStaticStudy, {"operation.torque_noise=0.1",
                                                          "operation.torque_noise_band_Hz=1e7"})),
-                      Catch::Contains("cannot show what fluctuates fastest"));
+                      Catch::Contains("too few for the fastest fluctuation"));
     for (const BadScene& bad : kBadScenes) {
         const Study study = study_of(kExampleStudy, with(kFast, bad.overrides));
         CAPTURE(bad.key, bad.words);
@@ -163,24 +163,24 @@ TEST_CASE("Bad fluctuations and a weight that does nothing are refused with key 
     }
 }
 
-TEST_CASE("Every mesh is marched where none repeats, and only there") {
+TEST_CASE("Every mesh is integrated where none repeats, and only there") {
     const auto horizon = [](const std::vector<std::string>& overrides) {
         return study_of(kExampleStudy, overrides).numerics.horizon;
     };
     CHECK(horizon({"effects.gravity=true"}) == Horizon::march);
     CHECK(horizon({"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"}) ==
           Horizon::march);
-    // Nothing fluctuates by 0.
+    // An amplitude of 0 is no fluctuation.
     CHECK(horizon({"operation.torque_fluctuation=0", "operation.torque_fluctuation_Hz=3"}) ==
           Horizon::reuse);
-    // Where the carrier stands, weight is as steady as the torque.
+    // The weight is as constant as the torque where the carrier is fixed.
     std::string standing = kExampleStudy;
     const std::string speed = "carrier_speed_rpm = 8.87";
     standing.replace(standing.find(speed), speed.size(), "fixed = \"carrier\"\nsun_speed_rpm = 50");
     CHECK(study_of(standing, {"effects.gravity=true"}).numerics.horizon == Horizon::reuse);
 }
 
-TEST_CASE("A scene pays for the effects that it has, and for no other") {
+TEST_CASE("A scene's cost includes its own effects only") {
     const auto effects = [](const std::string& text, const std::vector<std::string>& overrides) {
         std::vector<std::string> names;
         for (const EffectCost& cost : effect_costs(study_of(text, overrides))) {
@@ -214,7 +214,7 @@ TEST_CASE("Without inertia the transmission error follows the torque from mesh t
         const auto& te_a = a.march.records[static_cast<std::size_t>(a.march.content[mesh])].te;
         const auto& te_b = b.march.records[static_cast<std::size_t>(b.march.content[mesh])].te;
         for (int s = 0; s < samples; ++s) {
-            // Twice a turn of the carrier, which takes 68 meshes.
+            // Two periods per turn of the carrier, which takes 68 meshes.
             const double turns =
                 2.0 * (static_cast<double>(mesh) + static_cast<double>(s) / samples) / 68.0;
             const double factor = 1.0 + 0.3 * std::sin(2.0 * pi * turns + 40.0 * pi / 180.0);
@@ -225,9 +225,9 @@ TEST_CASE("Without inertia the transmission error follows the torque from mesh t
     CHECK(worst < 1e-9);
 }
 
-TEST_CASE("Simulated samples lie at the times at which the phase passes them") {
-    // 15.39 meshes are a turn of the sun: the speed varies once a mesh period, which then takes
-    // T times the mean of 1 / (1 + A sin), 1 / sqrt(1 - A^2).
+TEST_CASE("Simulated samples lie at the times of their phases") {
+    // One sun turn takes 15.39 meshes. The speed varies once per mesh period, which then takes T
+    // times the mean of 1 / (1 + A sin), 1 / sqrt(1 - A^2).
     const Study study = study_of(
         kExampleStudy,
         with(kFast, {"operation.speed_fluctuation=0.2", "operation.speed_fluctuation_order=15.39",
@@ -247,7 +247,7 @@ TEST_CASE("Simulated samples lie at the times at which the phase passes them") {
           Approx(period / static_cast<double>(samples) / 1.2).epsilon(0.02));
 }
 
-TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, beside any neighbours") {
+TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with any neighbours") {
     const Study study =
         study_of(kExampleStudy,
                  with(kFast, {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=20",

@@ -1,4 +1,4 @@
-// Gears that are rims on webs, in a study.
+// Checks gears with rims and webs in a study.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -26,8 +26,9 @@ double mean(const Scene& scene, std::size_t mesh) {
 
 }  // namespace
 
-// ISO 6336-1: 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))), of which a mesh has the smaller one.
-TEST_CASE("A mesh of rims on webs has the smaller blank factor of its gears") {
+// Source: ISO 6336-1, 1 + ln(b_s / b) / (5 exp(s_R / (5 m_n))); the smaller value applies to a
+// mesh.
+TEST_CASE("A mesh of gears with rims and webs has the smaller blank factor of its gears") {
     const Scene discs = scene_with({});
     const double face_mm = 1e3 * *discs.study().gearbox.face_width_m,
                  module_mm = 1e3 * *discs.study().gearbox.module_m;
@@ -53,7 +54,7 @@ TEST_CASE("A web as wide as the face changes no bit") {
     CHECK(mean(webs, 1) == mean(discs, 1));
 }
 
-TEST_CASE("A crack takes the same share of a mesh whatever its blanks") {
+TEST_CASE("A crack reduces a mesh by the same fraction for any blanks") {
     const Scene discs = scene_with({});
     const Scene webs = scene_with({"gearbox.planet_rim_mm=8", "gearbox.planet_web_mm=10"});
     const double kept = mean(webs, 1) / mean(discs, 1);
@@ -65,10 +66,10 @@ TEST_CASE("A crack takes the same share of a mesh whatever its blanks") {
         CHECK(faulty(webs, phase) == Approx(kept * faulty(discs, phase)).epsilon(1e-7));
 }
 
-TEST_CASE("Every gear has a bore of its own, and the ring its rim") {
+TEST_CASE("Every gear has its own bore, and the ring its rim") {
     const Scene discs = scene_with({});
     const double sun = mean(discs, 0), ring = mean(discs, 1);
-    // The later override holds.
+    // Later overrides take precedence.
     const auto with = [](const char* key, const char* value) {
         std::vector<std::string> all = kBodies;
         all.push_back(std::string(key) + "=" + value);

@@ -1,4 +1,5 @@
-// Draws that gearboxes exchange: mixed with those of others, or theirs as a whole.
+// Checks exchange of random inputs between gearboxes: mixed with those of others, or replaced as a
+// whole.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -42,10 +43,10 @@ std::size_t column_of(const Sampler& sampler, const std::string& name) {
     return column;
 }
 
-// 1 - s of an exchange in which `mixed` became (1 - s) own + sqrt(1 - (1 - s)^2) other.
+// Share 1 - s of an exchange in which `mixed` became (1 - s) own + sqrt(1 - (1 - s)^2) other.
 double kept_share(const std::vector<double>& mixed, const std::vector<double>& own,
                   const std::vector<double>& other) {
-    // Two places give both factors.
+    // Two positions determine both factors.
     const double determinant = own[0] * other[1] - own[1] * other[0];
     const double kept = (mixed[0] * other[1] - mixed[1] * other[0]) / determinant;
     for (std::size_t i = 0; i < mixed.size(); ++i) {
@@ -57,7 +58,7 @@ double kept_share(const std::vector<double>& mixed, const std::vector<double>& o
 
 }  // namespace
 
-TEST_CASE("Exchanged numbers are normal mixtures of both, as large as the share says") {
+TEST_CASE("Exchanged numbers are normal mixtures of both with the weights of the given share") {
     const Study study = test::study_of_text(tests::kExampleStudy);
     const std::vector<double> own = numbers(study, 4);
     for (const double share : {0.0, 0.01, 0.3, 1.0}) {
@@ -67,7 +68,7 @@ TEST_CASE("Exchanged numbers are normal mixtures of both, as large as the share 
     CHECK(numbers(study, 4, {{100, 0.0}}) == own);
 }
 
-TEST_CASE("A later exchange mixes what the earlier ones left") {
+TEST_CASE("A later exchange mixes the result of the earlier ones") {
     const Study study = test::study_of_text(tests::kExampleStudy);
     const std::vector<double> both = numbers(study, 4, {{100, 0.2}, {101, 0.4}});
     const std::vector<double> first = numbers(study, 4, {{100, 0.2}});
@@ -75,7 +76,7 @@ TEST_CASE("A later exchange mixes what the earlier ones left") {
     CHECK(numbers(study, 4, {{100, 0.2}}, Group::threshold) != first);
 }
 
-TEST_CASE("Noise is exchanged number by number, a record's and a repeat's its own") {
+TEST_CASE("Noise is exchanged number by number, separately for each record and repeat") {
     const Study study = test::study_of_text(tests::kExampleStudy);
     GearboxId id{Group::graded, 4}, other{Group::graded, 100};
     const std::vector<DrawExchange> exchanged{{100, 0.1}};
@@ -96,7 +97,7 @@ TEST_CASE("Noise is exchanged number by number, a record's and a repeat's its ow
     }
 }
 
-TEST_CASE("Of gearboxes that exchange, random inputs keep their law and move by normal numbers") {
+TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by normal numbers") {
     const Study study = test::study_of_text(
         tests::kExampleStudy, {"random.sensor.path_exponent={distribution=\"uniform\",low=0,"
                                "high=1}",
@@ -109,7 +110,7 @@ TEST_CASE("Of gearboxes that exchange, random inputs keep their law and move by 
     double sum = 0.0, squares = 0.0, twos = 0.0;
     for (std::uint64_t index = 0; index < kGearboxes; ++index) {
         const std::vector<DrawExchange> none, others{{5000 + index, 0.3}, {9000 + index, 0.6}};
-        // By the quantile of a normal number that belongs to the input, without exchanges as well.
+        // Computed by the quantile of the input's normal number, also without exchanges.
         const auto with = [&](std::span<const DrawExchange> exchanged) {
             GearboxId id{Group::graded, index};
             id.exchanged = exchanged;
@@ -131,7 +132,7 @@ TEST_CASE("Of gearboxes that exchange, random inputs keep their law and move by 
     CHECK(twos == Approx(0.75).margin(0.03));
 }
 
-TEST_CASE("What is not made of normal numbers is exchanged as a whole") {
+TEST_CASE("Inputs without an underlying normal number are exchanged as a whole") {
     const Study study = test::study_of_text(tests::kExampleStudy);
     int taken = 0;
     for (std::uint64_t index = 0; index < 200; ++index) {

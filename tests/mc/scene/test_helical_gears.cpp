@@ -1,4 +1,4 @@
-// Studies of helical gears whose stiffness is computed from their teeth.
+// Checks studies of helical gears whose stiffness is computed from their teeth.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -32,7 +32,7 @@ double relative_range(const mc::SceneMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("A helix of no degrees gives the bits of giving none") {
+TEST_CASE("A helix angle of zero gives the bits of an omitted one") {
     std::vector<std::string> few = tests::kFast;
     few.insert(few.end(), {"ensemble.instances=4", "ensemble.threshold_instances=1"});
     const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
@@ -47,21 +47,22 @@ TEST_CASE("Helical gears are the gears of their normal module in the transverse 
     const double c = std::cos(8.0 * kDegree);
     CHECK(sun.module_m == Approx(0.012 / c).epsilon(1e-14));
     CHECK(std::tan(sun.pressure_angle_rad) == Approx(std::tan(20.0 * kDegree) / c));
-    // Tooth heights are those of the normal module.
+    // Tooth heights follow the normal module.
     CHECK(sun.tip_radius() - sun.pitch_radius() == Approx(0.012));
     CHECK(sun.pitch_radius() - sun.root_radius() == Approx(0.015));
     CHECK(overlap_ratio(study) ==
           Approx(0.28 * std::sin(8.0 * kDegree) / (std::numbers::pi * 0.012)));
-    // As drawings and ISO 21771 count it, a shift moves the rack by normal modules.
+    // A shift moves the rack by normal modules, as in drawings and ISO 21771.
     const mc::Study shifted = shipped_study("wind-turbine-helical.toml", {"gearbox.sun_shift=0.3"});
     CHECK(gear_of(shifted, Member::sun).root_radius() - sun.root_radius() == Approx(0.3 * 0.012));
 }
 
-TEST_CASE("A helical set whose overlap is about one hardly varies in stiffness") {
-    const Scene helical(shipped_study("wind-turbine-helical.toml", {}));
-    const Scene spur(shipped_study(
-        "wind-turbine-helical.toml",
-        {"gearbox.helix_angle_deg=0", "gearbox.tooth_quality=5", "gearbox.normal_module_mm=12"}));
+TEST_CASE("The stiffness of a helical set with an overlap of about one is nearly constant") {
+    const Scene helical(
+        shipped_study("wind-turbine-helical.toml", {"effects.contact_onset=abrupt"}));
+    const Scene spur(shipped_study("wind-turbine-helical.toml",
+                                   {"effects.contact_onset=abrupt", "gearbox.helix_angle_deg=0",
+                                    "gearbox.tooth_quality=5", "gearbox.normal_module_mm=12"}));
     for (const std::size_t mesh : {0u, 1u}) {
         const mc::SceneMesh& one = helical.meshes()[mesh];
         CHECK(one.stiffness->contact_ratio() ==
@@ -70,9 +71,9 @@ TEST_CASE("A helical set whose overlap is about one hardly varies in stiffness")
     }
 }
 
-// A crack passes over the contact ratio and the overlap: in recorded meshes that are arranged and
-// in meshes that are marched one by one alike.
-TEST_CASE("Reused and marched meshes of a cracked helical gearbox agree") {
+// A crack's passage covers contact ratio and overlap, equally in recorded meshes that are reused
+// and in meshes that are integrated one by one.
+TEST_CASE("Reused and integrated meshes of a cracked helical gearbox agree") {
     const auto features = [](std::vector<std::string> overrides) {
         overrides.insert(overrides.end(),
                          {"gearbox.helix_angle_deg=12", "operation.carrier_speed_rpm=60",
@@ -86,21 +87,22 @@ TEST_CASE("Reused and marched meshes of a cracked helical gearbox agree") {
     const mc::Results reused = features({}), marched = features({"numerics.horizon=march"});
     for (std::size_t f = 0; f < reused.features.size(); ++f) {
         INFO(reused.features[f].name);
-        // Of healthy teeth, which are alike, the score is one of rounding.
+        // The score of healthy, equal teeth is one of rounding.
         const double margin = reused.features[f].name == "window_z" ? 1e-4 : 1e-6;
         for (std::size_t row = 0; row < reused.status.size(); ++row) {
             CHECK(reused.features[f].values[row] ==
                   Approx(marched.features[f].values[row]).epsilon(1e-6).margin(margin));
         }
     }
-    // The last of the sizes, each drawn once, is the deepest; the first row is healthy.
+    // The last of the sizes, each used once, is the deepest; the first row is healthy.
     const auto& ratio = reused.features[test::feature_index(reused, "window_ratio")].values;
     CHECK(ratio.front() == Approx(1.0).epsilon(1e-5));
     CHECK(*std::max_element(ratio.begin(), ratio.end()) > 1.05);
 }
 
-// A tooth touched in the reverse order engages first with its other end.
-TEST_CASE("Where a chip lies along the face of helical teeth shows when it passes") {
+// A tooth in reversed contact engages first with its other end.
+TEST_CASE(
+    "The position of a chip along the face of helical teeth determines the time of its passage") {
     const auto loss_time = [](const std::vector<std::string>& more) {
         std::string text = tests::kExampleStudy;
         for (const std::string line :
@@ -146,7 +148,7 @@ TEST_CASE("Spur teeth have no end that engages first") {
           std::string::npos);
 }
 
-TEST_CASE("A module is given in one plane") {
+TEST_CASE("A module is given in one plane only") {
     const auto problems =
         mc::read_study_text(tests::kExampleStudy, "study.toml",
                             {"gearbox.helix_angle_deg=8", "gearbox.normal_module_mm=3"})
@@ -157,11 +159,11 @@ TEST_CASE("A module is given in one plane") {
 }
 
 TEST_CASE("Relief and crowning of helical teeth change the approach under load alone") {
-    const Scene plain(shipped_study("wind-turbine-helical.toml", {}));
-    const Scene ground(
-        shipped_study("wind-turbine-helical.toml",
-                      {"gearbox.sun_crowning_um=10", "gearbox.planet_tip_relief_um=20",
-                       "gearbox.planet_tip_relief_length_mm=10"}));
+    const Scene plain(shipped_study("wind-turbine-helical.toml", {"effects.contact_onset=abrupt"}));
+    const Scene ground(shipped_study(
+        "wind-turbine-helical.toml",
+        {"effects.contact_onset=abrupt", "gearbox.sun_crowning_um=10",
+         "gearbox.planet_tip_relief_um=20", "gearbox.planet_tip_relief_length_mm=10"}));
     CHECK(mean_total(*ground.meshes()[0].stiffness) < mean_total(*plain.meshes()[0].stiffness));
     const double before = plain.meshes()[0].loaded->range().mean;
     CHECK(ground.meshes()[0].loaded->range().mean > before + 10e-6 / 3.0);

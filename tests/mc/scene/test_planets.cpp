@@ -1,4 +1,4 @@
-// Planets that differ: how they are given and drawn, and that their meshes repeat.
+// Checks planets that differ: given and random deviations, and the repetition of their meshes.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -21,13 +21,13 @@ Study study_with(const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Planets differ as they are given and by what is drawn, each gearbox by its own") {
+TEST_CASE("Planets differ by given and by random deviations, independently in each gearbox") {
     const Study given =
         study_with({"gearbox.pin_tangential_um=[10, 0, 0, 0]", "gearbox.pin_radial_um=[0, 5, 0, 0]",
                     "gearbox.planet_bearing_stiffness_factors=[1, 1, 2, 1]",
                     "gearbox.planet_mass_factors=[1, 1, 1, 0.5]"});
     const Planets listed = Sampler(given).nominal().planets;
-    // Planet 1 lies on the x axis and turns towards y, planet 2 on the y axis.
+    // Planet 1 lies on the x axis and moves towards y, planet 2 on the y axis.
     CHECK(listed[0].pin_x_m == Approx(0.0).margin(1e-20));
     CHECK(listed[0].pin_y_m == Approx(10e-6));
     CHECK(listed[1].pin_x_m == Approx(0.0).margin(1e-20));
@@ -54,13 +54,13 @@ TEST_CASE("Planets differ as they are given and by what is drawn, each gearbox b
             mass += std::pow(std::log(p.mass), 2) / (4 * kGearboxes);
             CHECK(p.bearing_damping == 1.0);
         }
-        CHECK(planets[4].mass == 1.0);  // there is no fifth
+        CHECK(planets[4].mass == 1.0);  // there is no fifth planet
     }
     CHECK(std::sqrt(tangential) == Approx(8e-6).epsilon(0.04));
     CHECK(std::sqrt(radial) == Approx(3e-6).epsilon(0.04));
     CHECK(std::sqrt(stiffness) == Approx(0.2).epsilon(0.04));
     CHECK(std::sqrt(mass) == Approx(0.01).epsilon(0.04));
-    // A scatter that is drawn itself scales what its gearbox has.
+    // A random scatter scales the deviations of its gearbox.
     auto twice = scatter;
     twice[0] = "gearbox.pin_tangential_rms_um=16";
     twice[1] = "gearbox.pin_radial_rms_um=6";
@@ -70,7 +70,7 @@ TEST_CASE("Planets differ as they are given and by what is drawn, each gearbox b
     CHECK(two[2].bearing_stiffness == one[2].bearing_stiffness);
 }
 
-TEST_CASE("Unlike planets repeat every mesh: reused records give what marching all of them gives") {
+TEST_CASE("Different planets repeat every mesh: reused records equal integration of all meshes") {
     const auto features = [](std::vector<std::string> overrides) {
         overrides.insert(overrides.end(),
                          {"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",

@@ -1,4 +1,4 @@
-// Random numbers, distributions and the gearboxes drawn from them.
+// Checks random numbers, distributions and gearboxes sampled from them.
 #include <algorithm>
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -40,8 +40,8 @@ bool same(const InstanceInputs& a, const InstanceInputs& b) {
 
 }  // namespace
 
-TEST_CASE("Philox gives the known answers of its authors") {
-    // Random123, tests/kat_vectors, philox4x64 with 10 rounds: counter, key, answer.
+TEST_CASE("Philox reproduces its authors' reference values") {
+    // Source: Random123, tests/kat_vectors, philox4x64 with 10 rounds: counter, key, output.
     using Engine = r123::Philox4x64;
     const std::uint64_t ones = ~std::uint64_t{0};
     CHECK(Engine{}(Engine::ctr_type{{0, 0, 0, 0}}, Engine::key_type{{0, 0}}) ==
@@ -57,7 +57,7 @@ TEST_CASE("Philox gives the known answers of its authors") {
                             0x57bd43b5e52b7fe6u}});
 }
 
-TEST_CASE("A stream is the blocks of its counter in order") {
+TEST_CASE("A stream consists of the blocks of its counter in order") {
     Philox stream(0, Group::threshold, 0, 0);
     CHECK(stream() == 0x16554d9eca36314cu);
     CHECK(stream() == 0xdb20fe9d672d0fdcu);
@@ -73,7 +73,7 @@ TEST_CASE("A stream is the blocks of its counter in order") {
     CHECK(other() == block[0]);
 }
 
-TEST_CASE("Words of a stream come alike one by one and many at once") {
+TEST_CASE("Words of a stream are the same one by one and in bulk") {
     Philox single(5, Group::graded, 6, 7);
     Philox many(5, Group::graded, 6, 7);
     for (const std::size_t count : {1, 2, 9, 4, 0, 3, 16, 5}) {
@@ -107,13 +107,13 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
 }
 
 TEST_CASE("Parameter numbers are FNV-1a with 64 bits") {
-    // The authors' test vectors: "", "a", "foobar".
+    // Test vectors of the authors: "", "a", "foobar".
     CHECK(parameter_id("") == 0xcbf29ce484222325u);
     CHECK(parameter_id("a") == 0xaf63dc4c8601ec8cu);
     CHECK(parameter_id("foobar") == 0x85944171f73967e8u);
 }
 
-TEST_CASE("Draws of each distribution follow its distribution function") {
+TEST_CASE("Random values of each distribution follow its distribution function") {
     const boost::math::normal normal;
     const auto phi = [&](double x) { return boost::math::cdf(normal, x); };
 
@@ -129,13 +129,14 @@ TEST_CASE("Draws of each distribution follow its distribution function") {
     };
     CHECK(kolmogorov_smirnov(draws_of("{distribution='triangular', low=0, mode=1, high=4}", kDraws),
                              triangular) < kKsLimit);
-    // Truncated around the mean, in the upper tail, in the lower tail.
+    // Truncation around the mean, in the upper tail, in the lower tail.
     const double bounds[][2] = {{-1, 0.5}, {4, 5}, {-9, -6}};
     for (const auto& [low, high] : bounds) {
         const std::string text =
             "{distribution='truncated-normal', mean=0, sd=1, low=" + std::to_string(low) +
             ", high=" + std::to_string(high) + "}";
-        const double sign = low >= 0 ? -1.0 : 1.0;  // differences of small tails, not of near ones
+        // Differences of small tails, not of values near one.
+        const double sign = low >= 0 ? -1.0 : 1.0;
         const double below = phi(sign * low), above = phi(sign * high);
         CHECK(kolmogorov_smirnov(draws_of(text, kDraws), [&, a = below, b = above](double x) {
                   return (phi(sign * x) - a) / (b - a);
@@ -143,9 +144,9 @@ TEST_CASE("Draws of each distribution follow its distribution function") {
     }
 }
 
-TEST_CASE("Moments of the draws are those of the closed forms") {
+TEST_CASE("Moments of the random values are those of the closed forms") {
     const auto lognormal = draws_of("{distribution='lognormal', median=2, cv=0.5}", kDraws);
-    // Mean median sqrt(1 + cv^2), sd cv times the mean; five standard errors.
+    // Mean median sqrt(1 + cv^2), standard deviation cv times the mean; five standard errors.
     const double mean = 2 * std::sqrt(1.25), sd = 0.5 * mean, root = std::sqrt(1.0 * kDraws);
     CHECK(mean_of(lognormal) == Approx(mean).margin(5 * sd / root));
     double squares = 0.0;
@@ -158,10 +159,10 @@ TEST_CASE("Moments of the draws are those of the closed forms") {
     CHECK(mean_of(triangular) == Approx(5.0 / 3).margin(5 * 0.85 / root));
 }
 
-TEST_CASE("Medians are those of the distribution function") {
+TEST_CASE("Medians agree with the distribution function") {
     const auto median_of = [](const std::string& text) { return distribution_of(text).median(); };
     CHECK(median_of("{distribution='uniform', low=1, high=4}") == 2.5);
-    // F(x) = 1 - (4 - x)^2 / 12 = 1/2.
+    // Median of F(x) = 1 - (4 - x)^2 / 12.
     CHECK(median_of("{distribution='triangular', low=0, mode=1, high=4}") ==
           Approx(4 - std::sqrt(6.0)));
     CHECK(median_of("{distribution='triangular', low=-4, mode=-1, high=0}") ==
@@ -172,7 +173,7 @@ TEST_CASE("Medians are those of the distribution function") {
     CHECK(median_of("{distribution='levels', values=[5, 1, 3]}") == 3);
 }
 
-TEST_CASE("Truncated normals keep their bounds even far out") {
+TEST_CASE("Truncated normals keep their bounds even far in the tails") {
     for (const char* text : {"{distribution='truncated-normal', mean=0, sd=1, low=-30, high=30}",
                              "{distribution='truncated-normal', mean=0, sd=1, low=29, high=1e6}",
                              "{distribution='truncated-normal', mean=0, sd=1, low=-1e6, high=-29}",
@@ -184,8 +185,7 @@ TEST_CASE("Truncated normals keep their bounds even far out") {
     }
 }
 
-TEST_CASE(
-    "Levels and grids are taken in turn in the graded group and are 0 in the threshold group") {
+TEST_CASE("Levels and grids alternate in the graded group and are 0 in the threshold group") {
     const Sampler sampler(study_with({}));
     const double depths_mm[] = {0, 1, 2, 3, 4.3};
     for (std::uint64_t i = 0; i < 12; ++i) {
@@ -196,13 +196,13 @@ TEST_CASE(
     CHECK(grid == std::vector<double>{0.0, 0.5, 1.0, 0.0});
 }
 
-TEST_CASE("Levels and grids of several inputs take all combinations, each equally often") {
+TEST_CASE("Levels and grids of several inputs form all combinations, each equally often") {
     std::vector<std::string> overrides{
         "random.fault.depth_mm.values=[0, 1, 2, 3]",
         "random.gearbox.sun_mass_kg={distribution='grid', low=1, high=4, count=4}",
         "random.sensor.noise_m_s2={distribution='grid', low=0, high=3, count=4}"};
     const Sampler sampler(study_with(overrides));
-    // Another random input, and one of constant value, change no draw.
+    // Another random input, and one of constant value, change no random value.
     overrides.push_back("random.operation.torque_N_m={distribution='uniform', low=1, high=2}");
     overrides.push_back("random.gearbox.ring_mass_kg={distribution='constant', value=3}");
     const Sampler more(study_with(overrides));
@@ -222,12 +222,12 @@ TEST_CASE("Levels and grids of several inputs take all combinations, each equall
         }
         CHECK(combinations.size() == (group == Group::graded ? 64 : 16));
     }
-    // In the order of the schema: the mass turns before the noise.
+    // The order of the schema determines the combinations: the mass varies faster than the noise.
     CHECK(sampler.sample(Group::graded, 4).bodies[Member::sun].mass_kg == 2.0);
     CHECK(sampler.sample(Group::graded, 4).noise_m_s2 == 0.0);
     CHECK(sampler.sample(Group::graded, 16).noise_m_s2 == 1.0);
 
-    // More combinations than there are numbers for instances.
+    // More combinations than there are instance numbers.
     overrides.clear();
     for (const char* key : {"sun_mass_kg", "planet_mass_kg", "ring_mass_kg", "carrier_mass_kg"}) {
         overrides.push_back("random.gearbox." + std::string(key) +
@@ -239,7 +239,7 @@ TEST_CASE("Levels and grids of several inputs take all combinations, each equall
     CHECK(last.bodies[Member::carrier].mass_kg == 1.0);
 }
 
-TEST_CASE("An instance is the same whatever was sampled before and however often") {
+TEST_CASE("An instance does not depend on what was sampled before and how often") {
     const Sampler forward(study_with({})), backward(study_with({}));
     std::vector<InstanceInputs> first;
     for (std::uint64_t i = 0; i < 50; ++i) {
@@ -252,7 +252,7 @@ TEST_CASE("An instance is the same whatever was sampled before and however often
     CHECK_FALSE(same(Sampler(study_with({"ensemble.seed=8"})).sample(Group::graded, 5), first[5]));
 }
 
-TEST_CASE("A new random input leaves the draws of the others as they were") {
+TEST_CASE("A new random input leaves the random values of the others unchanged") {
     const Sampler before(study_with({}));
     const Sampler after(study_with(
         {"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
@@ -263,7 +263,7 @@ TEST_CASE("A new random input leaves the draws of the others as they were") {
     }
 }
 
-TEST_CASE("Different inputs of one distribution are drawn independently") {
+TEST_CASE("Different inputs of the same distribution are independent") {
     const Sampler sampler(
         study_with({"random.gearbox.sun_mass_kg={distribution='uniform', low=1, high=2}",
                     "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"}));
@@ -293,7 +293,7 @@ TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") 
     CHECK(given.bodies[Member::sun].inertia_over_r2_kg == 0.39);
 }
 
-TEST_CASE("A fixed-shaft gearbox's inputs are drawn like any other's") {
+TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
     const std::vector<std::string> overrides{
         "random.gearbox.motor_coupling_stiffness_N_m_rad={distribution='lognormal', median=4.4e4, "
         "cv=0.2}",
@@ -327,7 +327,7 @@ TEST_CASE("A fixed-shaft gearbox's inputs are drawn like any other's") {
 }
 
 TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears") {
-    // Tian (2004), Table 4.1: the inertias are discs of the pitch radii.
+    // Source: Tian (2004), Table 4.1; the inertias are discs of the pitch radii.
     std::string text = replaced(kFixedShaftStudy, "pinion_inertia_kg_m2 = 4.3659e-4\n", "");
     text = replaced(replaced(text, "gear_inertia_kg_m2 = 8.3602e-3\n", ""),
                     "load_torque_N_m = 48.8\n", "");

@@ -1,5 +1,5 @@
-// Gearboxes that fill the ranges of their inputs evenly: Sobol's points against published ones, the
-// scramble against closed forms, and what a study draws from them.
+// Checks gearboxes that fill the ranges of their inputs evenly: Sobol's points against published
+// ones, the scramble against closed forms, and the resulting inputs of a study.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -28,7 +28,7 @@ Study sobol_study(std::vector<std::string> overrides = {}) {
     return *reading.study;
 }
 
-// Where a gearbox's path exponent, uniform in this study, lies in its range.
+// Position in its range of a gearbox's path exponent, uniform in this study.
 const std::vector<std::string> kUniform = {
     "random.sensor.path_exponent={distribution='uniform',low=0.0,high=1.0}"};
 double share_of(const Sampler& sampler, Group group, std::uint64_t index) {
@@ -41,9 +41,9 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("Sobol points are those that Joe and Kuo print") {
-    // S. Joe, F. Y. Kuo, Notes on generating Sobol sequences (2008): the first ten points in three
-    // dimensions, which they walk through in Gray code.
+TEST_CASE("Sobol points match those printed by Joe and Kuo") {
+    // Source: S. Joe, F. Y. Kuo, Notes on generating Sobol sequences (2008), the first ten points
+    // in three dimensions, in Gray code order.
     constexpr std::array<std::array<double, 3>, 10> kPrinted{{{0, 0, 0},
                                                               {0.5, 0.5, 0.5},
                                                               {0.75, 0.25, 0.25},
@@ -62,7 +62,7 @@ TEST_CASE("Sobol points are those that Joe and Kuo print") {
     }
 }
 
-TEST_CASE("Of scrambled points every dyadic interval of every coordinate has its share") {
+TEST_CASE("Every dyadic interval of every coordinate has its share of scrambled points") {
     const Sobol sobol(20);
     for (const std::uint64_t seed : {1U, 2U}) {
         for (std::size_t d = 0; d < 20; ++d) {
@@ -76,8 +76,8 @@ TEST_CASE("Of scrambled points every dyadic interval of every coordinate has its
     }
 }
 
-TEST_CASE("The first two coordinates share out all rectangles of a net") {
-    // Sobol's first two dimensions are a (0, m, 2)-net, which nested permutations keep.
+TEST_CASE("The first two coordinates are equidistributed over all rectangles of a net") {
+    // Sobol's first two dimensions are a (0, m, 2)-net, which nested permutations preserve.
     const Sobol sobol(2);
     for (const unsigned first : {0U, 2U, 5U, 8U}) {
         std::set<std::uint64_t> boxes;
@@ -102,9 +102,9 @@ TEST_CASE("A scrambled point is uniform over the seeds") {
     CHECK(kolmogorov_smirnov(draws, [](double x) { return x; }) < kKsLimit);
 }
 
-TEST_CASE("A mean over evenly drawn gearboxes has the variance of stratified ones") {
-    // n = 2^m values, one uniform in each n-th of (0, 1): the mean of x has variance 1 / (12 n^3),
-    // that of plain draws 1 / (12 n).
+TEST_CASE("A mean over evenly distributed gearboxes has the variance of stratified ones") {
+    // For n = 2^m values, one uniform in each n-th of (0, 1), the mean of x has variance 1 / (12
+    // n^3); that of independent values is 1 / (12 n).
     constexpr int kSeeds = 400;
     constexpr std::uint64_t kGearboxes = 32, kSizes = 5;
     Study study = sobol_study(kUniform);
@@ -125,7 +125,7 @@ TEST_CASE("A mean over evenly drawn gearboxes has the variance of stratified one
     CHECK(ratio < 1.35);
 }
 
-TEST_CASE("Evenly drawn inputs keep their distributions and stay apart from each other") {
+TEST_CASE("Evenly distributed inputs keep their distributions and are mutually independent") {
     constexpr std::uint64_t kSizes = 5, kRounds = 4096;
     const Sampler sampler(sobol_study(kUniform));
     double product = 0.0;
@@ -137,14 +137,13 @@ TEST_CASE("Evenly drawn inputs keep their distributions and stay apart from each
         stiffness.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
         product += (stiffness.back() - 0.5) * (inputs.path_exponent - 0.5) * 12.0 / kRounds;
     }
-    // Stratified to 1 / 4096, ten times closer than plain draws lie to their law.
+    // Stratified to 1 / 4096, ten times closer than independent values are to their law.
     CHECK(kolmogorov_smirnov(stiffness, [](double x) { return x; }) < 0.05);
-    CHECK(std::abs(product) < 0.01);  // plain draws: 0.016 rms
+    CHECK(std::abs(product) < 0.01);  // independent values: 0.016 rms
 }
 
-TEST_CASE("Each fault size and each group has a scramble of its own") {
-    // Over the seeds: within one, two scrambles of a sequence have their first bits alike or
-    // opposite.
+TEST_CASE("Each fault size and each group has its own scramble") {
+    // Over the seeds: within one, two scrambles of a sequence have equal or opposite first bits.
     constexpr int kSeeds = 600;
     Study study = sobol_study(kUniform);
     double between_sizes = 0.0, between_groups = 0.0;
@@ -161,7 +160,7 @@ TEST_CASE("Each fault size and each group has a scramble of its own") {
     CHECK(std::abs(between_groups) < 4.0 / std::sqrt(kSeeds));
 }
 
-TEST_CASE("Healthy gearboxes are one sequence, whatever turn of the sizes they would have") {
+TEST_CASE("Healthy gearboxes are one sequence, regardless of the order of the sizes") {
     const Sampler sampler(sobol_study(kUniform));
     std::set<int> strata;
     for (std::uint64_t i = 0; i < 1024; ++i) {
@@ -170,7 +169,8 @@ TEST_CASE("Healthy gearboxes are one sequence, whatever turn of the sizes they w
     CHECK(strata.size() == 1024);
 }
 
-TEST_CASE("A larger ensemble begins with the gearboxes of a smaller one, evenly drawn too") {
+TEST_CASE(
+    "A larger ensemble begins with the gearboxes of a smaller one, also if evenly distributed") {
     const Sampler small(sobol_study()), large(sobol_study({"ensemble.instances=1000"}));
     for (std::uint64_t i = 0; i < 100; ++i) {
         CHECK(small.row({Group::graded, i}) == large.row({Group::graded, i}));
@@ -179,7 +179,7 @@ TEST_CASE("A larger ensemble begins with the gearboxes of a smaller one, evenly 
     CHECK(small.row({Group::graded, 3}) != other.row({Group::graded, 3}));
 }
 
-TEST_CASE("Inputs that go together do so in evenly drawn gearboxes") {
+TEST_CASE("Correlated inputs stay correlated in evenly distributed gearboxes") {
     // Normals with correlation r agree in sign with probability 1/2 + asin(r) / pi (Sheppard 1899).
     const double rank = 0.6, r = 2.0 * std::sin(M_PI / 6.0 * rank);
     const Sampler sampler(
@@ -194,10 +194,10 @@ TEST_CASE("Inputs that go together do so in evenly drawn gearboxes") {
         agree += (inputs.torque_N_m > 400) == (inputs.bodies[Member::planet].mass_kg > 2) ? 1 : 0;
     }
     CHECK(agree / static_cast<double>(kCount) ==
-          Approx(0.5 + std::asin(r) / M_PI).margin(0.005));  // plain draws: 0.007 rms
+          Approx(0.5 + std::asin(r) / M_PI).margin(0.005));  // independent values: 0.007 rms
 }
 
-TEST_CASE("A sampling plan that there is not is refused with those that there are") {
+TEST_CASE("An unknown sampling plan is refused with the known ones") {
     const StudyReading reading =
         read_study_text(kExampleStudy, "study.toml", {"ensemble.sampling=latin"});
     REQUIRE_FALSE(reading.study);

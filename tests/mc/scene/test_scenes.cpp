@@ -1,4 +1,5 @@
-// Scenes of every kind of gearbox and motion, from study text to recorded motion.
+// Checks scenes of every kind of gearbox and degrees of freedom, from study text to recorded
+// response.
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -30,11 +31,11 @@ std::string without(const std::string& text, const std::string& key) {
 
 }  // namespace
 
-TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is stiff") {
+TEST_CASE("An explicit integrator on a stiff gearbox is refused with the stiff part") {
     const std::string integrator =
         GENERATE("numerics.integrator=rk4", "numerics.integrator=central-difference");
     const mc::Study study = test::study_of_text(kFixedShaftStudy, {integrator});
-    // The coupling's damper between motor and pinion: c (1 / I_m + 1 / I_1).
+    // Rate of the coupling's damper between motor and pinion: c (1 / I_m + 1 / I_1).
     const double rate = 5e5 * (1.0 / 0.0021 + 1.0 / 4.3659e-4);
     try {
         const Scene scene(study);
@@ -57,7 +58,7 @@ TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is 
     CHECK(newmark.plan().grid.steps.size() >= 77);
 }
 
-TEST_CASE("Steps by which central differences are unstable are refused, their own are stable") {
+TEST_CASE("Unstable steps of central differences are refused, their default steps are stable") {
     const std::string by = "numerics.integrator=central-difference";
     const Scene own(test::shipped_study("published/liang-fig-5-8.toml", {by}));
     CHECK(own.plan().integrator == lockstep::Integrator::central_difference);
@@ -80,7 +81,8 @@ TEST_CASE("Steps by which central differences are unstable are refused, their ow
 }
 
 TEST_CASE(
-    "Central differences' own steps are stable for gearboxes that no pilot has, and not for more") {
+    "Central differences' default steps are stable outside the pilot, and not larger than "
+    "necessary") {
     const Scene scene(test::shipped_study("planet-life.toml"));
     const mc::Sampler sampler(scene.study());
     double most = 0.0;
@@ -97,7 +99,8 @@ TEST_CASE(
     CHECK(1.0 / longest < 1.1 * most);
 }
 
-TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused with its part") {
+TEST_CASE(
+    "Single precision on a gearbox too stiff for explicit steps is refused with the stiff part") {
     try {
         const Scene scene(test::study_of_text(kFixedShaftStudy, {"numerics.precision=single"}));
         FAIL("accepted");
@@ -108,7 +111,7 @@ TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused
     }
 }
 
-TEST_CASE("A pilot grades the steps of a study, the same at every start") {
+TEST_CASE("A pilot grades the steps of a study, the same in every run") {
     const auto graded = [](const std::string& tolerance) {
         return Scene(test::study_of_text(
                          kFixedShaftStudy,
@@ -133,7 +136,7 @@ TEST_CASE("A pilot grades the steps of a study, the same at every start") {
     }
 }
 
-TEST_CASE("Scenes of other numerics share what these leave alike, and march as if made anew") {
+TEST_CASE("Scenes of other numerics share unchanged parts, and integrate as if built anew") {
     const Scene scene(test::study_of_text(kFixedShaftStudy, {"numerics.grid=graded"}));
     const auto with = [&](const std::vector<std::string>& overrides) {
         return test::study_of_text(kFixedShaftStudy, overrides).numerics;
@@ -158,7 +161,7 @@ TEST_CASE("Scenes of other numerics share what these leave alike, and march as i
     CHECK_THROWS_AS(scene.with(with({"numerics.integrator=rk4"})), mc::SceneError);
 }
 
-TEST_CASE("A scene that records less is the same otherwise") {
+TEST_CASE("A scene that records less is otherwise the same") {
     const Scene scene(test::study_of_text(kFixedShaftStudy));
     const Scene less = scene.recording_at_most(3);
     CHECK(less.recorded_meshes() == 3);
@@ -168,7 +171,8 @@ TEST_CASE("A scene that records less is the same otherwise") {
     CHECK(less.with(scene.study().numerics).recorded_meshes() == 3);
 }
 
-TEST_CASE("A fixed-shaft gearbox at rest deflects like its mesh and bearings in series") {
+TEST_CASE(
+    "The static deflection of a fixed-shaft gearbox is that of its mesh and bearings in series") {
     std::string text = kFixedShaftStudy;
     for (const char* key : {"sampling_Hz", "low_pass_Hz", "load_torque_N_m"}) {
         text = without(text, key);
@@ -185,12 +189,14 @@ TEST_CASE("A fixed-shaft gearbox at rest deflects like its mesh and bearings in 
     for (const double te : tile.march.records[0].te) {
         CHECK(te == Approx(-slack / r2).epsilon(1e-9));
     }
-    // The couplings wind up by T / k_c, in u by the base radii.
+    // The couplings twist by T / k_c, in u by the base radii.
     const auto& q = tile.march.records[0].motion;
     CHECK(q[dynamics::u_m] - q[dynamics::u_1] == Approx(11.9 / 4.4e4 * r1).epsilon(1e-9));
 }
 
-TEST_CASE("A planetary train driven by its carrier yields at sun, ring and support in series") {
+TEST_CASE(
+    "The deflection of a planetary train driven by its carrier is that of sun, ring and support in "
+    "series") {
     // Equal levels: constant stiffness along the normal of helical teeth, Park (2016), Eq. A1.
     const mc::Study study = test::study_of_text(
         without(kQuasiStaticStudy, "operation.torque_N_m"),
@@ -215,8 +221,8 @@ TEST_CASE("A planet tooth weakened on both sides meets sun and ring half a turn 
     for (const auto& passage : scene.pattern().passages) {
         (passage.pair < 3 ? sun : ring) = passage.start;
     }
-    // Pitch point to pitch point (26 - 1) / 2 meshes, to which the engagements' starts and the
-    // phase of ring and sun mesh add less than a mesh each.
+    // The pitch points are (26 - 1) / 2 meshes apart; the engagements' starts and the phase of ring
+    // and sun mesh add less than a mesh each.
     CHECK(std::abs(std::abs(ring - sun) - 13.0) < 2.0);
     const auto te = run_one(scene);
     CHECK(te.folded.empty());
@@ -249,7 +255,7 @@ TEST_CASE(
     CHECK(eight != perfect);
 }
 
-TEST_CASE("The features of a fixed-shaft gearbox single out the broken tooth's turn") {
+TEST_CASE("The features of a fixed-shaft gearbox identify the broken tooth's revolution") {
     const std::string broken = replaced(kFixedShaftStudy,
                                         "kind = \"chip\"\nmember = \"pinion\"\nchip_mm = 8\n"
                                         "chip_height_mm = 2",
@@ -273,7 +279,7 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
     const auto inputs =
         std::get<dynamics::PlanetaryInputs>(scene.inputs(mc::Sampler(scene.study()).nominal()));
     CHECK(inputs.backlash_m == Approx(1e-4));
-    // Every stage takes more of the stiffness than the one before it (Yang, Fig. 15).
+    // Every stage reduces the stiffness more than the one before it (Yang, Fig. 15).
     double last = stiffness::total_at(scene.pairs().curve(0), 0.3);
     for (const double stage : {1.0, 2.0, 3.0, 4.0, 5.0}) {
         const auto mesh = scene.faulty_mesh(stage);

@@ -1,4 +1,4 @@
-// Studies of gears with profile shift.
+// Checks studies of gears with profile shift.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@ using test::shipped_study;
 
 namespace {
 
-// Problems with a study that is Liang's gearbox but for these.
+// Problems of a study of Liang's gearbox with these overrides.
 mc::Problems problems_of(const std::vector<std::string>& overrides) {
     const auto reading = mc::read_study_text(tests::kExampleStudy, "study.toml", overrides);
     CHECK(!reading.study);
@@ -41,7 +41,7 @@ std::vector<std::string> bell_with(const std::vector<std::string>& more) {
 
 }  // namespace
 
-TEST_CASE("Shifts of zero and the standard centre distance give the bits of giving none") {
+TEST_CASE("Shifts of zero and the standard centre distance give the bits of omitted ones") {
     std::vector<std::string> few = tests::kFast;
     few.insert(few.end(), {"ensemble.instances=6", "ensemble.threshold_instances=1"});
     const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
@@ -56,7 +56,7 @@ TEST_CASE("Shifts of zero and the standard centre distance give the bits of givi
     }
 }
 
-TEST_CASE("A shifted gearbox works at its centre distance, its planets where they mesh") {
+TEST_CASE("A shifted gearbox works at its centre distance, its planets at assembly positions") {
     const mc::Study study = test::study_of_text(tests::kExampleStudy, kBell);
     const Scene scene(study);
     const auto places = gears::planet_places(mc::planetary_train(study));
@@ -82,7 +82,8 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets where the
     const auto& forces = std::get<dynamics::PlanetaryInputs>(in).force_N;
     CHECK(forces[dynamics::carrier] ==
           Approx(-forces[dynamics::sun] * (std::cos(angle_s) + std::cos(angle_r))).epsilon(1e-12));
-    // Phases repeat with the planets' places; the ring follows the sun as the planet's flanks do.
+    // Phases repeat with the planets' positions; the phase of the ring relative to the sun follows
+    // from the planet's flanks.
     const auto& drive = dynamic_cast<const mc::PlanetaryDrive&>(scene.drive());
     for (int n = 0; n < 4; ++n) {
         const double turn = places.place[static_cast<std::size_t>(n)] / 126.0;
@@ -94,7 +95,7 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets where the
     }
 }
 
-TEST_CASE("Standard planets that cannot be spaced equally go to the nearest places, too") {
+TEST_CASE("Standard planets that cannot be spaced equally take the nearest positions, too") {
     const auto three =
         mc::planetary_train(test::study_of_text(tests::kExampleStudy, {"gearbox.planets=3"}));
     CHECK(gears::planet_places(three).place == std::vector<int>{0, 33, 67});
@@ -127,7 +128,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
             CHECK(stiffness::total_at(*cracked, healthy.transitions(), tau) < 0.99 * whole);
         }
     }
-    // A thicker tooth takes a deeper crack to break.
+    // A thicker tooth breaks at a deeper crack.
     const auto largest = [](const std::vector<std::string>& shifts) {
         std::vector<std::string> all{"fault.side='sun'"};
         all.insert(all.end(), shifts.begin(), shifts.end());
@@ -136,7 +137,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
     CHECK(largest({"gearbox.planet_shift=0.2", "gearbox.sun_shift=-0.2"}) > 1.02 * largest({}));
 }
 
-TEST_CASE("Shifted gears that cannot be are refused with the numbers that show it") {
+TEST_CASE("Impossible shifted gears are refused with the relevant numbers") {
     CHECK(names(problems_of({"gearbox.ring_teeth=83"}), "gearbox.ring_teeth",
                 "or with profile shift"));
     CHECK(names(problems_of({"gearbox.centre_distance_mm=73"}), "gearbox.centre_distance_mm",
@@ -160,8 +161,8 @@ TEST_CASE("Shifted gears that cannot be are refused with the numbers that show i
     CHECK(names(problems_of({"gearbox.sun_shift=3"}), "gearbox.sun_shift", "must be > -2 and < 2"));
 }
 
-// The pair 17/96 of a geometry report: shifts 0.2 and 0.5 (0.5 outwards), 14 mm, 557.089 mm, 21.125
-// degrees. A sun of 62 teeth goes with it.
+// Source: the pair 17/96 of a geometry report, shifts 0.2 and 0.5 (0.5 outwards), 14 mm, 557.089
+// mm, 21.125 degrees. The matching sun has 62 teeth.
 TEST_CASE("The shifts of planet and ring give the centre distance and the sun's shift") {
     const mc::Study study = test::study_of_text(
         tests::kExampleStudy,
@@ -178,8 +179,8 @@ TEST_CASE("The shifts of planet and ring give the centre distance and the sun's 
     }
 }
 
-TEST_CASE("A ring's shift that leaves backlash is refused with the one that leaves none") {
-    // Sun and planet fix the distance, at which the ring's shift is another.
+TEST_CASE("A ring's shift that leaves backlash is refused with the value that leaves none") {
+    // Sun and planet determine the distance, which requires another shift of the ring.
     const std::string three = "gearbox.ring_shift";
     const auto loose = problems_of({"gearbox.sun_teeth=27", "gearbox.planet_teeth=35",
                                     "gearbox.ring_teeth=99", "gearbox.sun_shift=0.3",
@@ -187,14 +188,14 @@ TEST_CASE("A ring's shift that leaves backlash is refused with the one that leav
     INFO(format(loose));
     CHECK(names(loose, three, "of backlash between planets and ring"));
     CHECK(names(loose, three, "(a shift of 0.24"));
-    // With the distance and the planet's shift it is meant.
+    // An explicit distance with the planet's shift makes the ring's shift intentional.
     CHECK(mc::read_study_text(tests::kExampleStudy, "study.toml",
                               bell_with({"gearbox.planet_shift=0.2286", "gearbox.ring_shift=0.1"}))
               .study);
     CHECK(names(problems_of(bell_with({"gearbox.ring_shift=0.1"})), three, "of backlash"));
 }
 
-TEST_CASE("Real sets that standard teeth cannot build run with their windows on every gear") {
+TEST_CASE("Real sets that standard teeth cannot form run with their windows on every gear") {
     for (const char* name : {"bell-206b.toml", "snu-rig.toml"}) {
         INFO(name);
         const auto rows = test::run(

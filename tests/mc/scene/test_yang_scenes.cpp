@@ -1,5 +1,5 @@
-// More scenes after Yang et al. (2022): tooth separation where it happens, his test rig, and pitch
-// errors; and the tones of Liang's test rig.
+// Checks further scenes after Yang et al. (2022): tooth separation, his test rig, and pitch errors;
+// and the tones of Liang's test rig.
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "tests/mc/liang_signals.hpp"
@@ -10,12 +10,12 @@ using test::shipped_study;
 
 namespace {
 
-// Of the mesh of ring and planet 1, over one mesh period of the healthy orbit.
+// Results for the mesh of ring and planet 1, over one mesh period of the healthy periodic orbit.
 struct RingMesh {
-    double vibration_m = 0.0;   // rms about the mean of its compression d - e
+    double vibration_m = 0.0;   // rms of its compression d - e about the mean
     double apart = 0.0;         // share of the time out of contact
-    double deepest_m = 0.0;     // least d - e
-    double mean_force_N = 0.0;  // of k (d - e) on the front flanks
+    double deepest_m = 0.0;     // minimum of d - e
+    double mean_force_N = 0.0;  // mean of k (d - e) on the front flanks
 };
 
 RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
@@ -31,7 +31,7 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
     for (int i = 0; i < samples; ++i) {
         const double phase = static_cast<double>(i) / samples;
         const Eigen::Map<const Eigen::VectorXd> q(motion.data() + i * row.size(), row.size());
-        // Amplitude 0.4 um, phase 180 degrees.
+        // Error with amplitude 0.4 um, phase 180 degrees.
         const double error =
             -0.4e-6 * std::sin(2.0 * std::numbers::pi * (phase - scene.drive().pitch_phase(pair)));
         pressed.push_back(row.dot(q) - error);
@@ -49,11 +49,11 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
     return result;
 }
 
-// Lines of the test rig's sensor signal, i f_mp / kRigMeshes apart: carrier (112 meshes), sun (32)
-// and planets (40) repeat in them.
+// Line spacing of the test rig's sensor signal is f_mp / kRigMeshes: carrier (112 meshes), sun (32)
+// and planets (40) repeat in this span.
 constexpr int kRigMeshes = 1120, kRigCarrier = 10, kRigSun = 35;
 
-// The first graded gearbox, whose teeth are the same at any depth of the crack.
+// Signal of the first graded gearbox, whose teeth are the same at any depth of the crack.
 std::vector<double> rig_signal(double depth_mm, bool alike) {
     mc::Study study =
         shipped_study("published/yang-test-rig.toml",
@@ -67,7 +67,7 @@ std::vector<double> rig_signal(double depth_mm, bool alike) {
 }
 
 struct RigLines {
-    std::vector<double> healthy, change;  // change: by a crack of 0.2 mm
+    std::vector<double> healthy, change;  // change due to a crack of 0.2 mm
 };
 RigLines rig_lines(bool alike) {
     const auto healthy = rig_signal(0.0, alike);
@@ -78,8 +78,8 @@ RigLines rig_lines(bool alike) {
     return {test::lines(healthy), test::lines(change)};
 }
 
-// What the crack adds at 2 f_mp + k f_rs, k from -6 to 6: the mean of those k for which three equal
-// planets leave the line, and of the others.
+// Change due to the crack at 2 f_mp + k f_rs, k from -6 to 6: the mean over those k where three
+// equal planets leave the line, and over the others.
 std::pair<double, double> sun_sidebands(const std::vector<double>& change) {
     double left = 0.0, gone = 0.0;
     for (int k = -6; k <= 6; ++k) {
@@ -91,23 +91,25 @@ std::pair<double, double> sun_sidebands(const std::vector<double>& change) {
 
 }  // namespace
 
-TEST_CASE("Separating teeth: the response jumps below the linear resonance, and bears the load") {
+TEST_CASE(
+    "Separating teeth: the response jumps below the linear resonance, and the mean force carries "
+    "the load") {
     const RingMesh before = ring_mesh(1), after = ring_mesh(2);
-    // Softening: 25 rpm of 5250 make the vibration grow fivefold; without separation by 2 %.
+    // Softening: 25 rpm of 5250 increase the vibration fivefold; without separation by 2 %.
     CHECK(after.vibration_m > 4.0 * before.vibration_m);
     CHECK(before.apart < 0.2);
     CHECK(after.apart > 0.4);
     const std::vector<std::string> linear{"effects.separation=\"none\""};
     CHECK(ring_mesh(2, linear).vibration_m < 1.1 * ring_mesh(1, linear).vibration_m);
     CHECK(ring_mesh(0, linear).vibration_m ==
-          Approx(ring_mesh(0).vibration_m).epsilon(0.05));  // hardly any contact is lost there
+          Approx(ring_mesh(0).vibration_m).epsilon(0.05));  // contact is hardly lost there
 
-    // Teeth that touch half of the time still bear all of it: T / (N r_s), whatever the damping.
+    // Teeth in contact half of the time still carry the whole load: T / (N r_s), for any damping.
     const double force = 4.0 / (4 * 28e-3 * std::cos(20 * std::numbers::pi / 180));
     for (const RingMesh& mesh : {before, after}) {
         CHECK(mesh.mean_force_N == Approx(force).epsilon(0.02));
     }
-    // Back flanks touch once the backlash is used up, and push back.
+    // Back flanks come into contact once the backlash is used up.
     const RingMesh both =
         ring_mesh(3, {"effects.separation=\"two-sided\"", "gearbox.backlash_mm=0.001"});
     const RingMesh front = ring_mesh(3);
@@ -119,7 +121,7 @@ TEST_CASE("Separating teeth: the response jumps below the linear resonance, and 
     CHECK(wide.deepest_m == Approx(front.deepest_m).epsilon(1e-9));
 }
 
-TEST_CASE("Separating teeth that never repeat are marched mesh by mesh, and only then") {
+TEST_CASE("Separating teeth that never repeat are integrated mesh by mesh, and only then") {
     const auto status = [](const char* horizon) {
         const mc::Scene scene(shipped_study(
             "published/yang-separation.toml",
@@ -152,14 +154,16 @@ TEST_CASE("Yang, section 4.3: frequencies of the test rig") {
 }
 
 TEST_CASE(
-    "Yang, Fig. 23: a crack of 0.2 mm hardly shows; unlike planets make it repeat with f_rs") {
+    "Yang, Fig. 23: a crack of 0.2 mm has little effect; different planets make it repeat with "
+    "f_rs") {
     const RigLines alike = rig_lines(true);
     const RigLines unlike = rig_lines(false);
     for (const RigLines* lines : {&alike, &unlike}) {
         CHECK(*std::max_element(lines->change.begin(), lines->change.end()) <
               1e-4 * *std::max_element(lines->healthy.begin(), lines->healthy.end()));
     }
-    // The path makes 2 f_mp +- k f_c; three planets alike leave k = 1, -2, 4, ... and not 2 f_mp.
+    // The path produces 2 f_mp +- k f_c; three equal planets leave k = 1, -2, 4, ... and not 2
+    // f_mp.
     const auto main = static_cast<std::size_t>(2 * kRigMeshes);
     for (int k = -6; k <= 6; ++k) {
         INFO(k);
@@ -167,14 +171,15 @@ TEST_CASE(
         const double largest = alike.healthy[main + kRigCarrier];
         CHECK(((k - 1) % 3 == 0 ? line > 1e-4 * largest : line < test::kNothing * largest));
     }
-    // Of 2 f_mp + k f_rs three planets alike leave what f_fs divides; unlike ones leave all.
+    // Three equal planets leave those lines 2 f_mp + k f_rs that are multiples of f_fs; different
+    // ones leave all.
     const auto [left, gone] = sun_sidebands(alike.change);
     CHECK(gone < 0.05 * left);
     const auto [unlike_left, unlike_gone] = sun_sidebands(unlike.change);
     CHECK(unlike_gone > 0.2 * unlike_left);
 }
 
-TEST_CASE("Pitch errors make healthy teeth differ, by more than a crack of 2 mm does") {
+TEST_CASE("Pitch errors of healthy teeth have a larger effect than a crack of 2 mm") {
     const auto ratios = [](const std::vector<std::string>& overrides) {
         mc::Study study = shipped_study("published/yang-pitch-errors.toml", overrides);
         study.ensemble.threshold_instances = 1;
@@ -182,7 +187,7 @@ TEST_CASE("Pitch errors make healthy teeth differ, by more than a crack of 2 mm 
         const mc::Results results = test::run(study);
         return results.features[test::feature_index(results, "window_ratio")].values;
     };
-    // A healthy gearbox for the threshold, then cracks of 0, 1 and 2 mm.
+    // One healthy gearbox for the threshold, then cracks of 0, 1 and 2 mm.
     const auto without = ratios({"gearbox.pitch_error_um=0"});
     CHECK(without[1] == Approx(1.0).margin(1e-3));
     CHECK(without[3] > without[2]);
@@ -192,7 +197,7 @@ TEST_CASE("Pitch errors make healthy teeth differ, by more than a crack of 2 mm 
     }
 }
 
-TEST_CASE("Tones of the drive blur the cracked tooth's windows, and little") {
+TEST_CASE("Tones of the drive reduce the contrast of the cracked tooth's windows slightly") {
     const auto ratios = [](const char* name) {
         const mc::Results results = test::run(shipped_study(name));
         const auto values = [&](const char* feature) {
@@ -204,7 +209,7 @@ TEST_CASE("Tones of the drive blur the cracked tooth's windows, and little") {
     const auto [heard, heard_rms] = ratios("published/liang-test-rig.toml");
     CHECK(heard < quiet);
     CHECK(heard - 1.0 > 0.8 * (quiet - 1.0));
-    // Their power adds: half the sum of the squared amplitudes below the low-pass.
+    // Power adds: half the sum of the squared amplitudes below the low-pass.
     double power = 0.0;
     for (const mc::Tone& tone : shipped_study("published/liang-test-rig.toml").sensor.tones) {
         power += 0.5 * tone.amplitude_m_s2 * tone.amplitude_m_s2;

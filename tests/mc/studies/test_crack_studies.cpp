@@ -1,5 +1,5 @@
-// studies/crack-in-*.toml: the windows of the cracked gear see the crack, those of the others
-// hardly.
+// Checks studies/crack-in-*.toml: the windows of the cracked gear detect the crack, those of the
+// others hardly do.
 #include <catch2/catch.hpp>
 
 #include "tests/mc/study_file.hpp"
@@ -9,17 +9,18 @@ using namespace gearpod::test;
 
 namespace {
 
-// Noise-free value for a 2 mm crack, less the 1 of teeth that are alike.
+// Noise-free value for a 2 mm crack minus the value 1 of equal teeth.
 double excess(const std::string& member, const std::string& feature) {
     const auto results =
         run(shipped_study("crack-in-" + member + ".toml",
                           {"fault.depth_mm=2", "sensor.noise_levels=[0]", "ensemble.instances=1",
                            "ensemble.threshold_instances=1"}));
     const auto& values = results.features[feature_index(results, feature)].values;
-    return values.at(1) - 1.0;  // row 0 is the healthy one
+    return values.at(1) - 1.0;  // row 0 is the healthy gearbox
 }
 
-TEST_CASE("The cracked gear's windows see a 2 mm crack ten times better than other gears' do") {
+TEST_CASE(
+    "The cracked gear's windows respond ten times more to a 2 mm crack than other gears' do") {
     const std::pair<const char*, const char*> gears[] = {
         {"planet", "window_ratio"}, {"sun", "sun_window_ratio"}, {"ring", "ring_window_ratio"}};
     for (const auto& [cracked, own_feature] : gears) {
@@ -35,7 +36,7 @@ TEST_CASE("The cracked gear's windows see a 2 mm crack ten times better than oth
     }
 }
 
-// A sun with more teeth than the planets needs more than the planets' span: 31 x 81 meshes.
+// A sun with more teeth than the planets needs a longer span than the planets': 31 x 81 meshes.
 TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
     const mc::Scene liang(shipped_study("crack-in-sun.toml"));
     CHECK(liang.signal_meshes() == 31 * 81);

@@ -1,4 +1,4 @@
-// Liang's planetary gearbox (2016): what its published figures show.
+// Checks Liang's planetary gearbox (2016) against its published figures.
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/liang_signals.hpp"
 
@@ -27,15 +27,17 @@ mc::Study with_crack(mc::Member member, double depth_m,
 
 }  // namespace
 
-TEST_CASE("Fig. 5.8: the cracked tooth's RMS over the others' rises with depth as measured") {
+TEST_CASE(
+    "Fig. 5.8: the ratio of the cracked tooth's RMS to the others' rises with depth as measured") {
     const mc::Results results = test::run(shipped_study("published/liang-fig-5-8.toml"));
     const auto& ratio = results.features[test::feature_index(results, "window_ratio")].values;
     REQUIRE(ratio.size() == 8);
     for (std::size_t i = 2; i < ratio.size(); ++i) {
         CHECK(ratio[i] > ratio[i - 1]);
     }
-    // An independent computation with an 800 Hz sensor: 0, 1, 2, 3, 4.3 mm (rows 1, 3, 5, 6, 7).
-    // The thesis' 1, 1.10, 1.2, 1.44, 1.95 has the same order; studies/README.md compares.
+    // Reference: an independent computation with an 800 Hz sensor, for 0, 1, 2, 3, 4.3 mm (rows 1,
+    // 3, 5, 6, 7). The thesis' values 1, 1.10, 1.2, 1.44, 1.95 have the same order;
+    // studies/README.md compares them.
     const double reference[] = {1.02, 1.04, 1.10, 1.22, 1.61};
     const std::size_t rows[] = {1, 3, 5, 6, 7};
     for (std::size_t i = 0; i < 5; ++i) {
@@ -43,14 +45,16 @@ TEST_CASE("Fig. 5.8: the cracked tooth's RMS over the others' rises with depth a
     }
 }
 
-TEST_CASE("The healthy resultant signal has only carrier orders that the planets divide") {
+TEST_CASE(
+    "The healthy resultant signal has only carrier orders that are multiples of the number of "
+    "planets") {
     const mc::Scene scene(with_crack(mc::Member::planet, 0.0));
-    const auto lines = spectrum(scene, 81);  // one carrier turn: carrier orders
+    const auto lines = spectrum(scene, 81);  // one carrier turn, in carrier orders
     const double largest = *std::max_element(lines.begin(), lines.end());
     CHECK(largest_off_multiples_of_4(lines) < kNothing * largest);
 
-    // The largest line around mesh harmonic n is at n f_m (4 divides n), n f_m + - f_c (n odd) or
-    // n f_m + - 2 f_c: Liang, section 4.4.
+    // The largest line around mesh harmonic n is at n f_m (4 divides n), n f_m + - f_c (n odd) or n
+    // f_m + - 2 f_c (Liang, section 4.4).
     for (int n = 1; n <= 30; ++n) {
         int strongest = -40;
         for (int offset = -40; offset <= 40; ++offset) {
@@ -64,9 +68,11 @@ TEST_CASE("The healthy resultant signal has only carrier orders that the planets
     }
 }
 
-TEST_CASE("A cracked sun tooth adds lines between the healthy ones, and only where it may") {
-    // The tooth meets the next planet every Z_s / N meshes, so the signal's lines j f_m / Z_s + m
-    // f_c keep j - m divisible by N: multiples of 4 f_m / (Z_s Z_r). f_scrack = N f_m / Z_s is one.
+TEST_CASE(
+    "A cracked sun tooth adds lines between the healthy ones, at the expected positions only") {
+    // The tooth meets the next planet every Z_s / N meshes. The signal's lines j f_m / Z_s + m f_c
+    // therefore keep j - m divisible by N: multiples of 4 f_m / (Z_s Z_r), including f_scrack = N
+    // f_m / Z_s.
     const int meshes = 19 * 81;
     const mc::Scene healthy(with_crack(mc::Member::sun, 0.0));
     const mc::Scene cracked(with_crack(mc::Member::sun, 3.9e-3));
@@ -74,7 +80,7 @@ TEST_CASE("A cracked sun tooth adds lines between the healthy ones, and only whe
     const auto after = spectrum(cracked, meshes);
     const double largest = *std::max_element(after.begin(), after.end());
     CHECK(largest_off_multiples_of_4(after) < kNothing * largest);
-    // Lines of the healthy gearbox are carrier orders; everything else is the crack's.
+    // Lines of the healthy gearbox are carrier orders; all other lines are due to the crack.
     double sidebands_before = 0.0, sidebands_after = 0.0;
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (i % 19 != 0) {
@@ -84,13 +90,13 @@ TEST_CASE("A cracked sun tooth adds lines between the healthy ones, and only whe
     }
     CHECK(sidebands_before < kNothing * largest);
     CHECK(sidebands_after > 1e-2 * largest);
-    // The lines of the healthy gearbox are "rarely affected": Liang, section 4.4.
+    // Liang, section 4.4: the lines of the healthy gearbox are "rarely affected".
     const auto top =
         static_cast<std::size_t>(std::max_element(before.begin(), before.end()) - before.begin());
     CHECK(after[top] == Approx(before[top]).epsilon(0.1));
 }
 
-TEST_CASE("A cracked planet tooth repeats every Z_p meshes and the healthy lines stay") {
+TEST_CASE("A cracked planet tooth repeats every Z_p meshes, and the healthy lines remain") {
     const int meshes = 31 * 81;
     const mc::Scene healthy(with_crack(mc::Member::planet, 0.0));
     const mc::Scene cracked(with_crack(mc::Member::planet, 4.28e-3));
@@ -109,9 +115,9 @@ TEST_CASE("A cracked planet tooth repeats every Z_p meshes and the healthy lines
     CHECK(off > 1e-2 * after[top]);
 }
 
-TEST_CASE("The raw acceleration is large; the 800 Hz sensor shows the thesis' few m/s^2") {
-    // Sections 4.4 and 5.2: about 5 m/s^2 healthy and 10 m/s^2 with a 4.3 mm crack; hundreds of
-    // m/s^2 before the low-pass (PHYSICS of the bandwidth).
+TEST_CASE("The raw acceleration is large; the 800 Hz sensor signal has the thesis' few m/s^2") {
+    // Source: sections 4.4 and 5.2, about 5 m/s^2 healthy and 10 m/s^2 with a 4.3 mm crack. Before
+    // the low-pass the acceleration has hundreds of m/s^2.
     const auto peak = [](double depth_m) {
         const mc::Scene scene(with_crack(mc::Member::planet, depth_m));
         const auto signal = sensor_signal(scene, scene.span_meshes());
@@ -123,15 +129,16 @@ TEST_CASE("The raw acceleration is large; the 800 Hz sensor shows the thesis' fe
     CHECK(peak(4.28e-3) == Approx(10.0).margin(3.0));
 }
 
-TEST_CASE("With the sun held the carrier's turn repeats after each planet as well") {
-    // The planets then turn the other way past the carrier: phases change sign and contact runs its
-    // line of action backwards. Z_s meshes make a carrier turn; only orders that N divides remain.
+TEST_CASE("With the sun fixed the carrier's turn also repeats after each planet") {
+    // The planets then rotate the other way relative to the carrier: phases change sign and contact
+    // moves backwards along its line of action. A carrier turn has Z_s meshes; only orders that are
+    // multiples of N remain.
     mc::Study study = with_crack(mc::Member::planet, 0.0);
     study.operation.fixed = mc::Member::sun;
     study.operation.input = mc::Member::ring;
     study.operation.torque_on = mc::Member::ring;
-    // The rigid rotation that the turning frame feeds is removed at whole mesh periods, which the
-    // planets meet at different phases: with inertial terms other orders reach 3e-7 of the largest.
+    // The rigid rotation in the rotating frame is removed at whole mesh periods, where the planets
+    // have different phases: with inertial terms other orders reach 3e-7 of the largest.
     study.effects.inertial_terms = false;
     const mc::Scene scene(study);
     CHECK(scene.path_meshes() == 19);
@@ -148,7 +155,7 @@ TEST_CASE("With the sun held the carrier's turn repeats after each planet as wel
           kNothing * *std::max_element(cracked.begin(), cracked.end()));
 }
 
-TEST_CASE("With the carrier held the planets still mesh, driven from either side") {
+TEST_CASE("With the carrier fixed the planets still mesh, driven from either side") {
     for (const auto input : {mc::Member::sun, mc::Member::ring}) {
         mc::Study study = with_crack(mc::Member::planet, 4.28e-3);
         study.operation.fixed = mc::Member::carrier;
@@ -159,7 +166,7 @@ TEST_CASE("With the carrier held the planets still mesh, driven from either side
         CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 46.68 / 60).epsilon(1e-6));
         const auto tile = run_one(scene);
         CHECK(tile.march.status[0] == lockstep::LaneStatus::ok);
-        // Without a turning path the signal repeats with the cracked tooth, every Z_p meshes.
+        // The path does not rotate, so the signal repeats with the cracked tooth every Z_p meshes.
         const auto lines = spectrum(scene, 2 * 31);
         const double largest = *std::max_element(lines.begin(), lines.end());
         for (std::size_t i = 1; i < lines.size(); i += 2) {

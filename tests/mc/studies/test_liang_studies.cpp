@@ -1,4 +1,4 @@
-// The shipped studies of Liang's figures (2016): what each one's heading says it shows.
+// Checks the shipped studies of Liang's figures (2016) against the statements of their headings.
 #include <map>
 
 #include "tests/mc/liang_signals.hpp"
@@ -12,7 +12,7 @@ using test::spectrum;
 
 namespace {
 
-// Lowest mesh stiffness while the cracked tooth is in contact, at each crack level of a study.
+// Lowest mesh stiffness during the contact of the cracked tooth, at each crack level of a study.
 std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<double>& depths_m) {
     const auto& healthy = scene.pairs().curve(scene.faulty_pair());
     std::vector<double> lowest;
@@ -31,8 +31,8 @@ std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<d
 }
 
 struct SunMotion {
-    std::vector<double> x, y;  // m, over one turn of the sun past the planets
-    int samples = 0;           // a mesh period
+    std::vector<double> x, y;  // m, over one turn of the sun relative to the planets
+    int samples = 0;           // per mesh period
 };
 
 SunMotion sun_motion(const mc::Scene& scene, std::uint64_t number = 0) {
@@ -60,7 +60,7 @@ double rms(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// Root mean square of the rate of change over that of the values: how fast it oscillates.
+// Root mean square of the rate of change over that of the values, a measure of frequency.
 double quickness(const std::vector<double>& values) {
     std::vector<double> steps;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -80,7 +80,8 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
 
 }  // namespace
 
-TEST_CASE("Figs. 3.12, 3.14, 3.16: each crack level lowers the stiffness, a lost tooth leaves 0") {
+TEST_CASE(
+    "Figs. 3.12, 3.14, 3.16: each crack level lowers the stiffness, a missing tooth leaves 0") {
     const std::map<std::string, std::vector<double>> levels{
         {"published/liang-fig-3-12.toml", {0, 1.95e-3, 3.9e-3, 5.85e-3, 7.8e-3}},
         {"published/liang-fig-3-14.toml", {0, 2.15e-3, 4.28e-3, 6.43e-3, 8.57e-3}},
@@ -92,14 +93,15 @@ TEST_CASE("Figs. 3.12, 3.14, 3.16: each crack level lowers the stiffness, a lost
         for (std::size_t i = 1; i < lowest.size(); ++i) {
             CHECK(lowest[i] < lowest[i - 1]);
         }
-        // Only one pair is in contact somewhere: contact ratios are below 2.
+        // Contact ratios are below 2, so a single pair is in contact somewhere.
         CHECK(lowest.back() == 0.0);
         CHECK(lowest[lowest.size() - 2] < 0.7 * lowest.front());
     }
 }
 
-TEST_CASE("Cracks of all four levels march, and show the more the deeper they are") {
-    // A planet's crack shows in its own tooth; a sun's meets all planet teeth in turn.
+TEST_CASE(
+    "Cracks of all four levels can be integrated, and have the larger effect the deeper they are") {
+    // A planet's crack has its effect on its own tooth; a sun's meets all planet teeth in turn.
     const std::map<std::string, std::string> shown{
         {"published/liang-fig-3-12.toml", "sensor_rms"},
         {"published/liang-fig-3-14.toml", "window_ratio"},
@@ -119,7 +121,7 @@ TEST_CASE("Cracks of all four levels march, and show the more the deeper they ar
 }
 
 TEST_CASE(
-    "Fig. 4.6: a cracked sun tooth moves the sun as it meets each planet, every 4.75 meshes") {
+    "Fig. 4.6: a cracked sun tooth displaces the sun as it meets each planet, every 4.75 meshes") {
     const mc::Scene scene(shipped_study("published/liang-fig-4-6.toml"));
     const SunMotion healthy = sun_motion(scene, 0);
     const auto rise = [&](std::uint64_t number) {
@@ -131,7 +133,7 @@ TEST_CASE(
         return distance;
     };
     const auto small = rise(1), large = rise(2);
-    // The four largest, one in each quarter of the turn, come 4.75 meshes apart.
+    // The four largest peaks, one in each quarter of the turn, are 4.75 meshes apart.
     std::vector<std::size_t> peaks;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         const auto first = large.begin() + static_cast<std::ptrdiff_t>(quarter * large.size() / 4);
@@ -143,13 +145,13 @@ TEST_CASE(
               Approx(4.75).margin(2.0 / healthy.samples));
         CHECK(large[peaks[i]] == Approx(large[peaks[0]]).epsilon(0.01));
     }
-    // "Clearly" seen at 3.90 mm, "very weak" at 0.78 mm.
+    // Thesis: "clearly" visible at 3.90 mm, "very weak" at 0.78 mm.
     const double usual = *std::max_element(healthy.x.begin(), healthy.x.end());
     CHECK(large[peaks[0]] > 2.0 * usual);
     CHECK(*std::max_element(small.begin(), small.end()) < 0.25 * usual);
 }
 
-TEST_CASE("Fig. 4.8: inertial terms do not show at 8.87 rpm, and do and slow the sun at 950 rpm") {
+TEST_CASE("Fig. 4.8: inertial terms are negligible at 8.87 rpm, and slow the sun at 950 rpm") {
     const auto sun_y = [](const char* name, bool inertial) {
         mc::Study study = shipped_study(name);
         study.effects.inertial_terms = inertial;
@@ -162,12 +164,12 @@ TEST_CASE("Fig. 4.8: inertial terms do not show at 8.87 rpm, and do and slow the
     const auto with = sun_y("published/liang-fig-4-8-fast.toml", true);
     CHECK(rms(difference(with, without)) > 0.05 * rms(without));
     CHECK(quickness(with) < 0.98 * quickness(without));
-    // The thesis also finds it smaller. Ours grows by 4 % at 950 rpm.
+    // The thesis also finds a smaller value. Here it grows by 4 % at 950 rpm.
     CHECK(rms(with) / rms(without) == Approx(1.04).margin(0.01));
 }
 
 TEST_CASE("Fig. 4.13: sizable sidebands lie at f_main +- k f_scrack +- m f_s, not symmetric") {
-    // 42 f_m to 44 f_m, in lines of f_m / (19 x 81); k up to 4, m up to 2 as in the thesis.
+    // Band 42 f_m to 44 f_m in lines of f_m / (19 x 81); k up to 4, m up to 2 as in the thesis.
     const int meshes = 19 * 81, carrier = 19, mesh = meshes, crack = 4 * 81, sun = 100;
     const mc::Scene scene(shipped_study("published/liang-fig-4-12.toml"));
     const auto healthy = spectrum(scene, meshes, 0), cracked = spectrum(scene, meshes, 2);
@@ -204,14 +206,14 @@ TEST_CASE("Fig. 4.13: sizable sidebands lie at f_main +- k f_scrack +- m f_s, no
         }
     }
     CHECK(sizable >= 15);
-    // Most of the lines that four planets leave, every fourth, are not among them.
+    // Most of the lines that four planets leave, every fourth, are not sidebands.
     CHECK(possible < 2 * mesh / 4 / 2);
-    // Around 43 f_m + f_c the sidebands one f_scrack below and above differ.
+    // The sidebands one f_scrack below and above 43 f_m + f_c differ.
     const auto centre = static_cast<std::size_t>(43 * mesh + carrier);
     CHECK(std::abs(cracked[centre - crack] / cracked[centre + crack] - 1.0) > 0.2);
 }
 
-TEST_CASE("Fig. 4.11: the cracked sun tooth makes 17 spikes in a carrier turn, some attenuated") {
+TEST_CASE("Fig. 4.11: the cracked sun tooth causes 17 spikes in a carrier turn, some attenuated") {
     const mc::Scene scene(shipped_study("published/liang-fig-4-12.toml"));
     const auto healthy = sensor_signal(scene, 81, 0), cracked = sensor_signal(scene, 81, 2);
     const auto rise = difference(cracked, healthy);
@@ -231,7 +233,7 @@ TEST_CASE("Fig. 4.11: the cracked sun tooth makes 17 spikes in a carrier turn, s
     CHECK(*least < 0.25 * *most);
 }
 
-TEST_CASE("Section 2.3: with the carrier or the sun held the shipped gearboxes mesh as stated") {
+TEST_CASE("Section 2.3: with the carrier or the sun fixed the shipped gearboxes mesh as stated") {
     const mc::Scene carrier(shipped_study("published/liang-fig-2-10.toml"));
     CHECK(carrier.nominal_mesh_frequency_Hz() == Approx(19 * 46.68 / 60));
     const auto still = spectrum(carrier, 2 * 31, 1);

@@ -1,5 +1,5 @@
-// The shipped studies of Park's figures (2016): transmission errors over a planet turn, their
-// orders and features, quasi-static and with inertia.
+// Checks the shipped studies of Park's figures (2016): transmission errors over a planet turn,
+// their orders and features, quasi-static and with inertia.
 #include <numbers>
 
 #include "tests/mc/liang_signals.hpp"
@@ -14,7 +14,7 @@ namespace {
 constexpr int kPlanetTeeth = 26;
 constexpr double kSunTeeth = 16, kRingTeeth = 68;
 
-// The averaged TE of one planet turn, rad, mean removed.
+// Averaged TE of one planet turn, in rad, with the mean removed.
 std::vector<double> te_turn(const mc::Scene& scene, std::uint64_t number = 0) {
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
@@ -33,7 +33,7 @@ std::vector<double> orders(const std::vector<double>& turn) {
     return amplitudes;
 }
 
-// Share of the largest amplitude that lies at orders `step` does not divide.
+// Largest amplitude at orders that are not multiples of `step`, relative to the largest of all.
 double off_multiples(const std::vector<double>& amplitudes, std::size_t step) {
     double off = 0.0, largest = 0.0;
     for (std::size_t i = 1; i < amplitudes.size(); ++i) {
@@ -51,7 +51,7 @@ double rms(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// Stiffness of a pair at a phase of the planet turn, a passing faulty tooth's if one does.
+// Stiffness of a pair at a phase of the planet turn, including a faulty tooth during its passage.
 double pair_stiffness(const mc::Scene& scene, double size, int pair, double phase) {
     for (const auto& passage : scene.pattern().passages) {
         double since = phase - passage.start;
@@ -81,7 +81,7 @@ double sun_base_m(const mc::Study& study) {
            std::cos(study.gearbox.pressure_angle_rad);
 }
 
-// Of 180 kN m on the carrier.
+// Force on the sun for 180 kN m on the carrier.
 double sun_force_N(const mc::Study& study) {
     return 180e3 * kSunTeeth / (kSunTeeth + kRingTeeth) / sun_base_m(study);
 }
@@ -110,8 +110,8 @@ bool falls(const std::vector<double>& values) {
     return std::adjacent_find(values.begin(), values.end(), std::less_equal<>()) == values.end();
 }
 
-// By how much the faulty TE stands above the healthy one, and where: centre of the rise, meshes,
-// around the first meeting with the sun [0] and the one with the ring half a planet turn later [1].
+// Rise of the faulty TE above the healthy one, and centre of the rise in meshes, around the contact
+// with the sun [0] and with the ring half a planet turn later [1].
 struct Spikes {
     double height[2] = {}, centre[2] = {};
 };
@@ -140,7 +140,8 @@ Spikes spikes(const mc::Scene& scene, std::uint64_t number) {
 
 }  // namespace
 
-TEST_CASE("The planets' phases: 2/3 and 4/3 of a mesh past both gears, 5/8 from sun to ring") {
+TEST_CASE(
+    "The planets' phases: 2/3 and 4/3 of a mesh relative to both gears, 5/8 from sun to ring") {
     const mc::Scene scene(shipped_study("published/park-fig-10.toml"));
     const auto phase = [&](int pair) {
         return lockstep::phase_in_period(scene.pairs().pitch_phase(pair));
@@ -153,7 +154,7 @@ TEST_CASE("The planets' phases: 2/3 and 4/3 of a mesh past both gears, 5/8 from 
     }
 }
 
-TEST_CASE("Figs. 9, 10: multiples of 26 in phase; out of phase of 78 only, and smaller") {
+TEST_CASE("Figs. 9, 10: multiples of 26 in phase; out of phase multiples of 78 only, and smaller") {
     const mc::Scene in_phase(shipped_study("published/park-fig-9.toml"));
     const mc::Scene phased(shipped_study("published/park-fig-10.toml"));
     const auto together = te_turn(in_phase), apart = te_turn(phased);
@@ -167,7 +168,7 @@ TEST_CASE("Figs. 9, 10: multiples of 26 in phase; out of phase of 78 only, and s
 
 TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and sidebands") {
     const mc::Scene scene(shipped_study("published/park-fig-11.toml"));
-    // Growing with the fault, each above its smaller one and the sun's above the ring's.
+    // Both rises grow with the fault, and the sun's is higher than the ring's.
     Spikes before;
     for (std::uint64_t number = 1; number < 4; ++number) {
         const Spikes now = spikes(scene, number);
@@ -175,7 +176,7 @@ TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and 
         for (std::size_t half = 0; half < 2; ++half) {
             CHECK(now.height[half] > 1.5 * before.height[half]);
         }
-        // The tooth leans on sun and ring with opposite flanks: within a mesh of half a turn.
+        // Opposite flanks of the tooth touch sun and ring: half a turn apart within a mesh.
         CHECK(now.centre[1] - now.centre[0] == Approx(13.0).margin(1.0));
         before = now;
     }
@@ -186,7 +187,7 @@ TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and 
         return *std::max_element(faulty.begin() + from, faulty.begin() + to) / healthy[78];
     };
     CHECK(largest(1, 13) > 0.2);
-    for (const std::ptrdiff_t harmonic : {78, 156}) {  // a mesh order to either side
+    for (const std::ptrdiff_t harmonic : {78, 156}) {  // one mesh order on both sides
         CHECK(largest(harmonic - 26, harmonic) > 0.005);
         CHECK(largest(harmonic + 1, harmonic + 27) > 0.005);
     }
@@ -216,11 +217,11 @@ TEST_CASE("The TE of every sample is the sun's force over the train's stiffness"
     }
 }
 
-TEST_CASE("All six working conditions: the TE is that of the output's radius and flow") {
+TEST_CASE("All six working conditions: the TE follows from the output's radius and direction") {
     using mc::Member;
     const double ratio = (kRingTeeth + kSunTeeth) / kSunTeeth;
-    // The output member's share of the sun's TE under the same torques (Eq. 8): conditions 1, 3, 5
-    // are 2, 4, 6 with input and output exchanged.
+    // Ratio of the output member's TE to the sun's under the same torques (Eq. 8): conditions 1, 3,
+    // 5 are 2, 4, 6 with input and output exchanged.
     const struct {
         Member fixed, input;
         double scale;
@@ -262,9 +263,10 @@ TEST_CASE("All six working conditions: the TE is that of the output's radius and
     }
 }
 
-TEST_CASE("Fig. 12: RMS follows the torque; kurtosis, FC and FM0 tell 90 % at every torque alike") {
+TEST_CASE(
+    "Fig. 12: RMS follows the torque; kurtosis, FC and FM0 separate 90 % equally at every torque") {
     const FeatureTable table = feature_table(shipped_study("published/park-fig-12.toml"));
-    // Rows go by torque (30, 60, 120, 180, 240 kN m), healthy and 90 % in turn.
+    // Rows are ordered by torque (30, 60, 120, 180, 240 kN m), alternating healthy and 90 %.
     const double torque[] = {1, 2, 4, 6, 8};
     REQUIRE(table.rms.size() == 10);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -292,20 +294,22 @@ TEST_CASE("Fig. 13: RMS, kurtosis and FM0 rise and FC falls with the fault") {
     CHECK(falls(table.fc));
 }
 
-TEST_CASE("With inertia the TE rings after each step, and a ratio of 0.07 hides it from kurtosis") {
+TEST_CASE(
+    "With inertia the TE oscillates after each step; with a damping ratio of 0.07 kurtosis rises "
+    "less") {
     const mc::Study study = shipped_study("published/park-dynamic.toml");
     const FeatureTable ringing = feature_table(study),
                        still = feature_table(shipped_study("published/park-fig-13.toml"));
     CHECK(rises(ringing.rms));
     CHECK(rises(ringing.fm0));
     CHECK(falls(ringing.fc));
-    // The healthy TE's kurtosis grows by half, and 10 % lost leave it where it was.
+    // The healthy TE's kurtosis grows by half, and a loss of 10 % does not change it.
     CHECK(ringing.kurtosis[0] > 1.4 * still.kurtosis[0]);
     CHECK(ringing.kurtosis[1] == Approx(ringing.kurtosis[0]).epsilon(1e-3));
     CHECK(still.kurtosis[1] > 1.01 * still.kurtosis[0]);
     CHECK(ringing.fm0[0] > 1.5 * still.fm0[0]);
 
-    // Torque is as little felt by the ratios as without inertia: the equations are linear.
+    // The ratios depend on torque as little as without inertia: the equations are linear.
     mc::Study light = study;
     light.operation.torque_N_m = 30e3;
     const FeatureTable sixth = feature_table(light);
@@ -315,12 +319,12 @@ TEST_CASE("With inertia the TE rings after each step, and a ratio of 0.07 hides 
         CHECK(sixth.fc[i] == Approx(ringing.fc[i]).epsilon(1e-6));
         CHECK(sixth.fm0[i] == Approx(ringing.fm0[i]).epsilon(1e-6));
     }
-    // With hardly any damping FC no longer falls with the first 10 %, as Fig. 13 does.
+    // FC with hardly any damping no longer falls with the first 10 %, as it does in Fig. 13.
     mc::Study undamped = study;
     undamped.gearbox.mesh_damping_ratio = 0.01;
     const FeatureTable loud = feature_table(undamped);
     CHECK(loud.fc[1] > loud.fc[0]);
-    // Damped until it no longer rings, all trends are Fig. 13's again.
+    // All trends are those of Fig. 13 once damping suppresses the oscillation.
     mc::Study damped = study;
     damped.gearbox.mesh_damping_ratio = 0.6;
     const FeatureTable quiet = feature_table(damped);

@@ -1,5 +1,6 @@
-// Where a healthy spectrum fills when teeth differ: a recording of identical teeth repeats with the
-// carrier; teeth of the planets add lines at the orders of their turns, those of the sun at its.
+// Checks the orders of healthy spectra when teeth differ. A recording of identical teeth repeats
+// with the carrier; errors of planet teeth add lines at the orders of their turns, errors of sun
+// teeth at the sun's.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
@@ -13,10 +14,10 @@ using namespace gearpod::test;
 
 namespace {
 
-// 13/11/35 teeth, 8 samples a mesh period.
+// Study with 13/11/35 teeth, 8 samples per mesh period.
 const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
-// Amplitudes of the noise-free sensor signal over so many mesh periods, [cycles of them].
+// Amplitudes of the noise-free sensor signal over so many mesh periods, by cycles in them.
 std::vector<double> amplitudes(int meshes, const std::string& errors) {
     const Folder folder;
     const std::string path = folder.file("s.h5");
@@ -53,7 +54,7 @@ TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth wit
         const char* what;
         int meshes, carrier_turns;
     };
-    // Carrier's turns of 35 mesh periods until the gear's teeth meet the ring's again.
+    // Number of carrier turns of 35 mesh periods until the gear's teeth meet the same ring teeth.
     for (const Gear& gear : {Gear{"planet", 11 * 35, 11}, Gear{"sun", 13 * 35, 13}}) {
         INFO(gear.what);
         const auto ideal = amplitudes(gear.meshes, "");
@@ -62,10 +63,10 @@ TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth wit
         const double finer = rms(amplitudes(gear.meshes, grade + "4"), gear.carrier_turns, false);
         const double coarser = rms(amplitudes(gear.meshes, grade + "6"), gear.carrier_turns, false);
         CHECK(coarser > 0.02 * rms(ideal, gear.carrier_turns, true));
-        // A grade is a factor of sqrt(2) of all deviations; no tooth pair loses contact here.
+        // One grade is a factor of sqrt(2) of all deviations; no tooth pair loses contact here.
         CHECK(coarser / finer == Approx(2.0).epsilon(0.2));
     }
-    // The ring turns with the carrier's orders: its errors are where the ideal lines are.
+    // Errors of the ring teeth have the carrier's orders, where the ideal lines are.
     const auto ring = amplitudes(11 * 35, " --set gearbox.ring_quality=6");
     CHECK(rms(ring, 11, false) < 1e-6 * rms(ring, 11, true));
 }

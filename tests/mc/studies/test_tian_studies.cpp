@@ -1,5 +1,5 @@
-// The shipped studies of Tian's figures (2004, chapter 4): what the sensor on the pinion's bearing
-// hears of perfect gears and of a chipped, a cracked and a broken pinion tooth.
+// Checks the shipped studies of Tian's figures (2004, chapter 4): signal of the sensor on the
+// pinion's bearing for perfect gears and for a chipped, a cracked and a broken pinion tooth.
 #include <numbers>
 
 #include "tests/mc/liang_signals.hpp"
@@ -16,11 +16,11 @@ namespace {
 constexpr double kMesh_Hz = 570.0;
 constexpr int kPinionTeeth = 19;
 
-// Each study's graded gearbox 0 is healthy, 1 faulty.
+// Studies whose graded gearbox 0 is healthy and 1 faulty.
 const std::vector<std::string> kFaults{"published/tian-fig-4-6.toml", "published/tian-fig-4-9.toml",
                                        "published/tian-fig-4-12.toml"};
 
-// Frequency of the swings between two phases (mesh periods), from the signal's extremes.
+// Frequency of the oscillation between two phases (mesh periods), from the signal's extremes.
 double ringing_Hz(const std::vector<double>& signal, int samples, double from, double to) {
     std::vector<double> turns;
     const auto first = static_cast<std::size_t>(from * samples) + 1,
@@ -28,7 +28,7 @@ double ringing_Hz(const std::vector<double>& signal, int samples, double from, d
     for (std::size_t i = first; i < last; ++i) {
         const double before = signal[i] - signal[i - 1], after = signal[i + 1] - signal[i];
         if (before * after < 0.0) {
-            // Where the parabola through the three samples turns.
+            // Vertex of the parabola through the three samples.
             turns.push_back(static_cast<double>(i) + 0.5 * (before + after) / (before - after));
         }
     }
@@ -41,7 +41,7 @@ long dominant(const std::vector<double>& amplitudes) {
     return std::max_element(amplitudes.begin() + 1, amplitudes.end()) - amplitudes.begin();
 }
 
-// Faulty less healthy signal of a study, over two turns of the pinion.
+// Faulty minus healthy signal of a study, over two turns of the pinion.
 std::vector<double> fault_signal(const mc::Scene& scene) {
     auto rise = sensor_signal(scene, 2 * kPinionTeeth, 1);
     const auto healthy = sensor_signal(scene, 2 * kPinionTeeth, 0);
@@ -59,7 +59,8 @@ double peak(const std::vector<double>& signal) {
     return largest;
 }
 
-// Pinion with motor against gear with load, couplings and bearings held by their dampers.
+// Natural frequency of pinion with motor against gear with load, with couplings and bearings fixed
+// by their dampers.
 double closed_form_Hz(const mc::Study& study, double stiffness_N_m) {
     const auto& bodies = study.gearbox.bodies;
     const mc::FixedShaft& shaft = study.fixed_shaft;
@@ -77,7 +78,9 @@ double closed_form_Hz(const mc::Study& study, double stiffness_N_m) {
 
 }  // namespace
 
-TEST_CASE("Fig. 4.3: the sensor rings at 3788 Hz while two pairs touch and at 3049 Hz with one") {
+TEST_CASE(
+    "Fig. 4.3: the sensor signal oscillates at 3788 Hz with two pairs in contact and at 3049 Hz "
+    "with one") {
     const mc::Scene scene(shipped_study("published/tian-fig-4-3.toml"));
     const int samples = scene.samples_per_mesh();
     const auto signal = sensor_signal(scene, 3);
@@ -88,7 +91,7 @@ TEST_CASE("Fig. 4.3: the sensor rings at 3788 Hz while two pairs touch and at 30
     CHECK(ringing_Hz(signal, samples, one + shock, two + 1.0) == Approx(3049.0).epsilon(0.08));
 }
 
-TEST_CASE("A mesh that hardly changes its stiffness rings at the closed form's frequency") {
+TEST_CASE("A mesh of nearly constant stiffness oscillates at the closed form's frequency") {
     for (const double stiffness : {6e8, 9e8, 1.1e9}) {
         mc::Study study = shipped_study("published/tian-fig-4-3.toml");
         study.gearbox.tooth_profile = mc::ToothProfile::square_wave;
@@ -101,20 +104,20 @@ TEST_CASE("A mesh that hardly changes its stiffness rings at the closed form's f
 }
 
 TEST_CASE("Figs. 4.4, 4.5: the 7th mesh harmonic dominates, without shear energy the 10th") {
-    // The thesis reads the 6th and the 8th off its plots: see studies/README.md.
+    // The thesis reads the 6th and the 8th from its plots: see studies/README.md.
     CHECK(dominant(spectrum(mc::Scene(shipped_study("published/tian-fig-4-3.toml")), 1)) == 7);
     CHECK(dominant(spectrum(mc::Scene(shipped_study("published/tian-fig-4-5.toml")), 1)) == 10);
 }
 
-TEST_CASE("Coarse steps leave the dominant harmonic alone, or do not settle") {
-    // 60 samples, and steps, a mesh period; see tests/peers/tian-loose-tolerances.
+TEST_CASE("Coarse steps keep the dominant harmonic, or do not converge") {
+    // With 60 samples, and steps, per mesh period; see tests/peers/tian-loose-tolerances.
     for (const auto& [name, expected] : {std::pair{"published/tian-fig-4-3.toml", 7},
                                          std::pair{"published/tian-fig-4-5.toml", 10}}) {
         const std::vector<std::string> coarse{
             "sensor.sampling_Hz=34200", "sensor.encoder_sampling_Hz=34200",
             "sensor.low_pass_Hz=15390", "numerics.steps_per_mesh=10"};
         CHECK(dominant(spectrum(mc::Scene(shipped_study(name, coarse)), 1)) == expected);
-        // The trapezoidal rule never forgets motions that are this much faster than its steps.
+        // The trapezoidal rule does not damp modes that are this much faster than its steps.
         auto trapezoidal = coarse;
         trapezoidal.push_back("numerics.integrator=\"newmark\"");
         CHECK(run_one(mc::Scene(shipped_study(name, trapezoidal))).march.status[0] ==
@@ -122,7 +125,7 @@ TEST_CASE("Coarse steps leave the dominant harmonic alone, or do not settle") {
     }
 }
 
-TEST_CASE("Section 4.2.1: nothing moves along x") {
+TEST_CASE("Section 4.2.1: there is no motion along x") {
     for (const auto& name : kFaults) {
         const auto tile = run_one(mc::Scene(shipped_study(name)), true, 1);
         double along_x = 0.0, along_y = 0.0;
@@ -138,9 +141,9 @@ TEST_CASE("Section 4.2.1: nothing moves along x") {
     }
 }
 
-TEST_CASE("Fig. 4.7: the chipped tooth's signal leaves the healthy one at 22.4 degrees") {
+TEST_CASE("Fig. 4.7: the chipped tooth's signal departs from the healthy one at 22.4 degrees") {
     const mc::Scene scene(shipped_study("published/tian-fig-4-6.toml"));
-    // Of the pinion's turn since the tooth came into contact.
+    // Rotation of the pinion since the tooth came into contact.
     const auto degrees = [](double meshes) { return meshes * 360.0 / kPinionTeeth; };
     const auto& healthy = scene.pairs().curve(0);
     const auto chipped = scene.fault().mesh(0, 8e-3);
@@ -163,7 +166,7 @@ TEST_CASE("Fig. 4.7: the chipped tooth's signal leaves the healthy one at 22.4 d
     CHECK(degrees(since) == Approx(22.4).margin(1.0));
 }
 
-TEST_CASE("Figs. 4.6-4.14: every 19 meshes a peak, chip below crack below broken tooth") {
+TEST_CASE("Figs. 4.6-4.14: a peak every 19 meshes, chip below crack below broken tooth") {
     std::vector<double> peaks;
     for (const auto& name : kFaults) {
         INFO(name);
@@ -172,7 +175,7 @@ TEST_CASE("Figs. 4.6-4.14: every 19 meshes a peak, chip below crack below broken
         const std::size_t turn = rise.size() / 2,
                           samples = static_cast<std::size_t>(scene.samples_per_mesh());
         peaks.push_back(peak(rise));
-        // All of it within the meshes of the tooth and the ringing after them.
+        // The whole change is within the meshes of the tooth and the oscillation after them.
         double change = 0.0, later = 0.0;
         for (std::size_t i = 0; i < turn; ++i) {
             change = std::max(change, std::abs(rise[i + turn] - rise[i]));
@@ -189,7 +192,7 @@ TEST_CASE("Figs. 4.6-4.14: every 19 meshes a peak, chip below crack below broken
 }
 
 TEST_CASE(
-    "Figs. 4.8, 4.11, 4.14: a faulty tooth leaves harmonics of the shaft, perfect ones none") {
+    "Figs. 4.8, 4.11, 4.14: a faulty tooth causes harmonics of the shaft, perfect ones none") {
     double before = kNothing;
     for (const auto& name : kFaults) {
         INFO(name);
@@ -209,7 +212,7 @@ TEST_CASE(
     CHECK(before == 1.0);  // shaft harmonics are the largest lines of the broken tooth
 }
 
-TEST_CASE("Figs. 4.13, 4.14: the broken tooth's shock rings at 2530 Hz") {
+TEST_CASE("Figs. 4.13, 4.14: the broken tooth's impact oscillates at 2530 Hz") {
     const mc::Scene scene(shipped_study("published/tian-fig-4-12.toml"));
     const auto signal = sensor_signal(scene, kPinionTeeth, 1);
     const auto shock = std::max_element(signal.begin(), signal.end()) - signal.begin();

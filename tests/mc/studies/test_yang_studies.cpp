@@ -1,5 +1,5 @@
-// The shipped study of Yang et al. (2022): frequencies, phases, stiffness and the motions of sun
-// and fourth planet, sections 4.1 and 4.2.
+// Checks the shipped study of Yang et al. (2022): frequencies, phases, stiffness and the
+// displacements of sun and fourth planet, sections 4.1 and 4.2.
 #include "tests/mc/liang_signals.hpp"
 
 using namespace gearpod;
@@ -10,14 +10,14 @@ namespace {
 
 constexpr const char* kStudy = "published/yang-fig-15.toml";
 constexpr int kSunTeeth = 28, kPlanets = 4;
-constexpr int kPassage = kSunTeeth / kPlanets;  // meshes from a planet's impulse to the next one's
-constexpr int kMeshes = 10 * kSunTeeth;         // of a spectrum: line i lies at i f_m / kMeshes
+constexpr int kPassage = kSunTeeth / kPlanets;  // meshes from one planet's impulse to the next
+constexpr int kMeshes = 10 * kSunTeeth;  // length of a spectrum: line i lies at i f_m / kMeshes
 constexpr int kSunTurn = kMeshes / kSunTeeth, kFault = kMeshes / kPassage;  // f_rs, f_fs in lines
 
-// Torsional motions of case `number`, 0 healthy, over kMeshes meshes, m.
+// Torsional displacements of case `number`, 0 healthy, over kMeshes meshes, in m.
 struct Motions {
     std::vector<double> sun, planet4;
-    int samples = 0;  // a mesh period
+    int samples = 0;  // per mesh period
 };
 
 Motions motions(const mc::Scene& scene, int number) {
@@ -40,7 +40,7 @@ Motions motions(const mc::Scene& scene, int number) {
     return result;
 }
 
-// Of planet 4 in case 5.
+// Response of planet 4 in case 5.
 std::vector<double> heavy_damage(const std::vector<std::string>& overrides) {
     return motions(mc::Scene(shipped_study(kStudy, overrides)), 5).planet4;
 }
@@ -67,7 +67,7 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
     return result;
 }
 
-// The largest line within half a mesh frequency of f_m, but for f_m itself, over the line at f_m.
+// The largest line within half a mesh frequency of f_m, except f_m itself, over the line at f_m.
 double sideband(const std::vector<double>& lines) {
     double side = 0.0;
     for (std::size_t i = kMeshes / 2; i <= 3 * kMeshes / 2; ++i) {
@@ -85,7 +85,7 @@ double off_multiples(const std::vector<double>& lines, int spacing) {
     return off / lines[kMeshes];
 }
 
-// Where, in mesh periods, and how high the largest value of each stretch of `meshes` meshes is.
+// Position, in mesh periods, and height of the largest value of each stretch of `meshes` meshes.
 struct Impulse {
     double at, height;
 };
@@ -116,7 +116,7 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
     CHECK(mesh / kSunTeeth + carrier == Approx(25.0));          // f_s
     CHECK(mesh / 34 - carrier == Approx(10.29).margin(0.005));  // f_p
 
-    // The faulty tooth's passages give f_rs and f_fs.
+    // Frequencies f_rs and f_fs from the faulty tooth's passages.
     const auto& pattern = scene.pattern();
     CHECK(mesh / pattern.length == Approx(19.35).margin(0.005));
     REQUIRE(pattern.passages.size() == kPlanets);
@@ -126,7 +126,7 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
         CHECK(pattern.passages[i].pair != pattern.passages[i - 1].pair);
     }
 
-    // Table 3: beta_s = beta_r = 0, beta_rs = 1/2.
+    // Source: Table 3, beta_s = beta_r = 0, beta_rs = 1/2.
     for (int n = 0; n < kPlanets; ++n) {
         const auto phase = [&](int pair) { return scene.drive().pitch_phase(pair); };
         CHECK(std::remainder(phase(n) - phase(0), 1.0) == Approx(0.0).margin(1e-12));
@@ -135,7 +135,7 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
     }
 }
 
-TEST_CASE("Yang, Fig. 15: the stiffness falls from case to case, very little in 1 and 2") {
+TEST_CASE("Yang, Fig. 15: the stiffness decreases from case to case, very little in 1 and 2") {
     const mc::Scene scene(shipped_study(kStudy));
     const auto& healthy = scene.pairs().curve(scene.faulty_pair());
     constexpr int kPoints = 400;
@@ -176,12 +176,12 @@ TEST_CASE("Yang, Figs. 20-21: sidebands f_fs apart on the sun, f_rs on planet 4,
         const auto sun = test::lines(cracked.sun), planet4 = test::lines(cracked.planet4);
         sun_sides.push_back(sideband(sun));
         planet_sides.push_back(sideband(planet4));
-        // Four planets alike, all in phase: nothing but f_fs on the sun, to the settling tolerance.
+        // Four equal planets in phase leave only f_fs on the sun, within the convergence tolerance.
         CHECK(off_multiples(sun, kFault) < test::kNothing);
         CHECK(off_multiples(planet4, kSunTurn) < test::kNothing);
         CHECK(off_multiples(planet4, kFault) > 0.1 * sideband(planet4));
     }
-    // Out of sight in a plot on a linear scale: a five-hundredth of the mesh line.
+    // Limit of visibility in a plot on a linear scale: a five-hundredth of the mesh line.
     constexpr double kOutOfSight = 1.0 / 500;
     CHECK(sun_sides[0] < kOutOfSight);
     CHECK(planet_sides[0] < kOutOfSight);
@@ -211,12 +211,12 @@ TEST_CASE("Yang, Figs. 17-19: impulses every 7 meshes on the sun and every 28 on
     for (std::size_t i = 1; i < on_planet.size(); ++i) {
         CHECK(on_planet[i].at - on_planet[i - 1].at == Approx(kSunTeeth).margin(1.5 * sample));
     }
-    // The other planets' passages reach planet 4 weakened.
+    // Passages of the other planets have a smaller effect on planet 4.
     const auto all = impulses(planet4, kPassage, healthy.samples);
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK((all[i].height == on_planet[0].height || all[i].height < 0.5 * on_planet[0].height));
     }
-    // Distinct in case 5, on the planet more than on the sun, and hard to observe in case 1.
+    // Case 5 is distinct, on the planet more than on the sun; case 1 is hard to observe.
     const double of_sun = largest(sun) / range(healthy.sun);
     const double of_planet = largest(planet4) / range(healthy.planet4);
     CHECK(of_sun > 0.05);
@@ -224,7 +224,8 @@ TEST_CASE("Yang, Figs. 17-19: impulses every 7 meshes on the sun and every 28 on
     CHECK(largest(difference(slight.planet4, healthy.planet4)) < 0.005 * range(healthy.planet4));
 }
 
-TEST_CASE("Newmark's method at T_m / 300 follows Yang's gearbox to a percent, with order 2") {
+TEST_CASE(
+    "Newmark's method at T_m / 300 agrees with Yang's gearbox within a percent, with order 2") {
     const auto planet4 = [](const char* integrator, int steps) {
         return heavy_damage({"numerics.integrator=\"" + std::string(integrator) + "\"",
                              "numerics.steps_per_mesh=" + std::to_string(steps)});
@@ -240,7 +241,7 @@ TEST_CASE("Newmark's method at T_m / 300 follows Yang's gearbox to a percent, wi
     CHECK(error("sdirk3", 300) < 0.2 * printed);
 }
 
-TEST_CASE("At Yang's load no tooth leaves its mate, with a transmission error of 0 or 5 um") {
+TEST_CASE("At Yang's load no tooth loses contact, with a transmission error of 0 or 5 um") {
     for (const std::string error : {"0", "5"}) {
         const auto planet4 = [&](const std::string& separation) {
             return heavy_damage({"effects.separation=\"" + separation + "\"",

@@ -1,4 +1,4 @@
-// What an answer says it takes for granted.
+// Checks the stated assumptions of a result.
 #include <catch2/catch.hpp>
 
 #include "mc/study/assumptions.hpp"
@@ -14,28 +14,28 @@ std::string assumptions(const gearpod::mc::Study& study) {
 
 }  // namespace
 
-TEST_CASE("An answer says which teeth and planets it is for") {
+TEST_CASE("A result states for which teeth and planets it is valid") {
     const std::string ideal = assumptions(shipped_study("planet-crack-ideal.toml"));
-    CHECK_THAT(ideal, Catch::Contains("identical teeth, planets and pins alike, rigid gear bodies, "
-                                      "steady torque and speed"));
-    CHECK_THAT(ideal, Catch::Contains("Errors of real teeth hide faults"));
+    CHECK_THAT(ideal, Catch::Contains("identical teeth, identical planets and pins, rigid gear "
+                                      "bodies, steady torque and speed"));
+    CHECK_THAT(ideal, Catch::Contains("Errors of real teeth can hide faults"));
 
     const std::string real =
         assumptions(shipped_study("planet-crack-ideal.toml",
                                   {"gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20"}));
     CHECK_THAT(real, Catch::StartsWith("Holds for teeth of ISO 1328 grade 6, rigid gear bodies"));
     CHECK_THAT(real, !Catch::Contains("hide faults"));
-    CHECK_THAT(real, !Catch::Contains("alike"));
+    CHECK_THAT(real, !Catch::Contains("identical planets"));
 
     CHECK_THAT(assumptions(shipped_study("planet-crack-ideal.toml", {"gearbox.pitch_error_um=2"})),
-               Catch::Contains("teeth that differ"));
-    CHECK_THAT(
-        assumptions(shipped_study("real-teeth.toml")),
-        Catch::Contains("grades that vary") &&
-            Catch::Contains("a healthy record of the same gearbox, at a torque 2 % (rms) off"));
+               Catch::Contains("teeth with individual errors"));
+    CHECK_THAT(assumptions(shipped_study("real-teeth.toml")),
+               Catch::Contains("teeth of random ISO 1328 grades") &&
+                   Catch::Contains("a healthy record of the same gearbox, taken at a torque that "
+                                   "differs by 2 % (rms)"));
 }
 
-TEST_CASE("Cracks grow in an answer on lives, not in one on a run of the same study") {
+TEST_CASE("Crack growth is an assumption of results on lives, not of a run of the same study") {
     const gearpod::mc::Study study = shipped_study("planet-life.toml");
     CHECK_THAT(gearpod::mc::assumptions(study, true), Catch::Contains("grow by Paris' law"));
     CHECK_THAT(gearpod::mc::assumptions(study, false), !Catch::Contains("Paris"));

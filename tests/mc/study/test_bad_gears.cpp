@@ -1,4 +1,4 @@
-// Gears that cannot mesh are refused when the study is read.
+// Checks that gears that cannot mesh are refused when the study is read.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,7 +13,7 @@ using gearpod::tests::example_with;
 
 namespace {
 
-// 1 for the first line.
+// Line number of `marker`, 1 for the first line.
 int line_of(const std::string& text, const std::string& marker) {
     const auto at = text.begin() + static_cast<std::ptrdiff_t>(text.find(marker));
     return 1 + static_cast<int>(std::count(text.begin(), at, '\n'));
@@ -25,10 +25,10 @@ bool mentions(const Problem& problem, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("Gears that do not mesh are all named, on the line of the angle or the smaller gear") {
-    // In modules, tip circles one module off the pitch circles: does the mate touch below the base
-    // circle of the gear of z1 teeth? The length of the line of action up to there is (r1 +- r2)
-    // sin a.
+TEST_CASE("All gears that do not mesh are named, on the line of the angle or the smaller gear") {
+    // Lengths in modules, tip circles one module from the pitch circles. True if the mate's contact
+    // reaches below the base circle of the gear of z1 teeth: the length of the line of action up to
+    // there is (r1 +- r2) sin a.
     const auto undercuts = [](int z1, int z2, bool internal, double angle_deg) {
         const double a = angle_deg * M_PI / 180.0, side = internal ? -1.0 : 1.0;
         const double r1 = 0.5 * z1, r2 = 0.5 * z2, tip = r2 + side, base = r2 * std::cos(a);
@@ -74,7 +74,7 @@ TEST_CASE("Gears that do not mesh are all named, on the line of the angle or the
     }
 }
 
-TEST_CASE("Gears of which at times no teeth touch are refused") {
+TEST_CASE("Gears without tooth contact at some phase are refused") {
     const auto problems =
         read_study_text(example_with("planets = 4", "planets = 4\naddendum_coefficient = 0.2"),
                         "bad.toml")

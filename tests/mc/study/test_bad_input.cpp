@@ -1,4 +1,4 @@
-// Every way to get a study file wrong is answered with its file, line, key and what to do.
+// Checks that every kind of error in a study file is reported with file, line, key and remedy.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ using gearpod::tests::kExampleStudy;
 
 namespace {
 
-// 1 for the first line; 0 if the text does not hold `marker`.
+// Line number of `marker`, 1 for the first line; 0 if the text does not hold it.
 int line_of(const std::string& text, const std::string& marker) {
     const std::size_t at = text.find(marker);
     if (at == std::string::npos) {
@@ -28,11 +28,11 @@ int line_of(const std::string& text, const std::string& marker) {
 }
 
 struct BadFile {
-    const char* from;    // what of the example is replaced
-    const char* to;      // by what
-    const char* marker;  // text on the line that the problem names
+    const char* from;    // text of the example to replace
+    const char* to;      // replacement
+    const char* marker;  // text on the line named by the problem
     const char* key;
-    const char* words;  // in what is wrong or in the remedy
+    const char* words;  // in the problem or in the remedy
 };
 
 const BadFile kBadFiles[] = {
@@ -122,7 +122,7 @@ const BadFile kBadFiles[] = {
     {"torque_N_m = 429\n", "", "[operation]", "operation.torque_N_m", "missing; add torque_N_m"},
     {"carrier_speed_rpm = 8.87\n", "", "[operation]", "operation", "no speed is given"},
     {"mesh_damping_ratio = 0.07\n", "", "[gearbox]", "gearbox.mesh_damping_ratio",
-     "missing (effects.mesh_damping = \"ratio\" goes with it)"},
+     "missing (belongs to effects.mesh_damping = \"ratio\")"},
     {"side = \"ring\"\n", "", "[fault]", "fault.side", "missing (fault.member is \"planet\")"},
     {"fault.depth_mm = { distribution = \"levels\", values = [0, 1, 2, 3, 4.3] }\n", "", "[fault]",
      "fault.depth_mm", "missing (fault.kind is \"crack\")"},
@@ -132,7 +132,7 @@ const BadFile kBadFiles[] = {
     {"sun_mass_kg", "sun_inertia_kg_m2 = 1e-3\nsun_inertia_over_r2_kg = 0.5\nsun_mass_kg",
      "sun_inertia_over_r2", "gearbox.sun_inertia_over_r2_kg", "conflicts with"},
     {"[operation]", "mesh_damping_time_s = 1e-6\n[operation]", "mesh_damping_time_s",
-     "gearbox.mesh_damping_time_s", "has no place here"},
+     "gearbox.mesh_damping_time_s", "is not allowed here"},
     {"[operation]", "sun_planet_stiffness_N_m = 1e8\n[operation]", "sun_planet_stiffness",
      "gearbox.sun_planet_stiffness_N_m", "only for gearbox.tooth_profile = \"constant\""},
     {"[operation]", "[operation]\ninput = \"ring\"", "input", "operation.input",
@@ -147,7 +147,7 @@ const BadFile kBadFiles[] = {
      "the ring stands still"},
     {"member = \"planet\"", "member = \"sun\"", "side = ", "fault.side",
      "only for fault.member = \"planet\""},
-    // Gears and cracks that cannot be.
+    // Impossible gears and cracks.
     {"ring_teeth = 81", "ring_teeth = 77", "ring_teeth", "gearbox.ring_teeth",
      "cannot be assembled (the ring has 77 teeth"},
     {"planets = 4", "planets = 5", "ring_teeth", "gearbox.ring_teeth", "cannot be assembled"},
@@ -183,9 +183,9 @@ const BadFile kBadFiles[] = {
     {"\"lognormal\", median = 1.1e8, cv = 0.2", "\"normal\", mean = 1e8, sd = 2e7", "\"normal\"",
      "random.gearbox.planet_bearing_stiffness_N_m", "use lognormal or truncated-normal"},
     {"[random]", "[random]\ngearbox.module_mm = { distribution = \"constant\", value = 3 }",
-     "gearbox.module_mm =", "random.gearbox.module_mm", "may not be random (it shapes the teeth"},
+     "gearbox.module_mm =", "random.gearbox.module_mm", "may not be random (it defines the teeth"},
     {"[random]", "[random]\nsensor.sampling_Hz = { distribution = \"constant\", value = 3 }",
-     "sensor.sampling_Hz =", "random.sensor.sampling_Hz", "all gearboxes are sampled alike"},
+     "sensor.sampling_Hz =", "random.sensor.sampling_Hz", "sampling is the same for all gearboxes"},
     {"[random]", "[random]\nsensor.noise = { distribution = \"constant\", value = 3 }",
      "sensor.noise =", "random.sensor.noise", "did you mean noise_m_s2? (unit missing)"},
     {"[random]", "[random]\nsensor.noise_m_s2 = 3",
@@ -208,7 +208,7 @@ bool mentions(const Problem& problem, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("Each bad study file is refused with the line, the key and what to do") {
+TEST_CASE("Each bad study file is refused with the line, the key and the remedy") {
     for (const BadFile& bad : kBadFiles) {
         const std::string text = example_with(bad.from, bad.to);
         REQUIRE_FALSE(text.empty());
@@ -221,7 +221,7 @@ TEST_CASE("Each bad study file is refused with the line, the key and what to do"
                        p.key == bad.key && mentions(p, bad.words);
             });
         CHECK(found != reading.problems.end());
-        // One mistake, one message.
+        // One mistake gives one message.
         CHECK(reading.problems.size() == 1);
     }
 }
@@ -232,7 +232,7 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     auto reading = read_study_text(text, "bad.toml");
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].key == "detection.size_edges_mm");
-    CHECK(mentions(reading.problems[0], "whose sizes are grouped"));
+    CHECK(mentions(reading.problems[0], "whose sizes must be grouped"));
 
     reading = read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 3]\n", "bad.toml");
     REQUIRE(reading.problems.size() == 1);
@@ -242,11 +242,11 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     CHECK(read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 4]\n", "good.toml").study);
 }
 
-TEST_CASE("A crack depth is refused from the length on at which the crack leaves the tooth") {
-    // Liang (2016), section 3.2: root chord of the 31-tooth planet at the root circle; twice its
-    // half length over sin 45 degrees. R_b and a2 by hand for m = 3.175 mm, a0 = 20 degrees: the
-    // root circle (45.24 mm) lies below the base circle (46.25 mm), so the half chord is R_b sin
-    // a2.
+TEST_CASE("A crack depth is refused from the length on at which the crack exits the tooth") {
+    // Source: Liang (2016), section 3.2, root chord of the 31-tooth planet at the root circle;
+    // twice its half length over sin 45 degrees. R_b and a2 computed by hand for m = 3.175 mm, a0 =
+    // 20 degrees: the root circle (45.24 mm) lies below the base circle (46.25 mm), so the half
+    // chord is R_b sin a2.
     const double a0 = 20.0 * M_PI / 180.0;
     const double base_mm = 0.5 * 3.175 * 31 * std::cos(a0);
     const double half_angle = M_PI / (2 * 31) + std::tan(a0) - a0;
@@ -298,12 +298,12 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
                 "sensor.noise_levels: must ascend, but 1 is not above 2, the value before it"});
     CHECK(whats_of(example_with("[operation]",
                                 "[features]\nuse = [1, \"te_rmss\", 2.5]\n[operation]")) ==
-          Whats{"features.use: must be a list of strings, but holds an integer",
-                "features.use: must be a list of strings, but holds a number",
+          Whats{"features.use: must be a list of strings, but contains an integer",
+                "features.use: must be a list of strings, but contains a number",
                 "features.use: unknown feature \"te_rmss\""});
 }
 
-TEST_CASE("All problems of a file come at once, sorted by line, overrides last") {
+TEST_CASE("All problems of a file are reported at once, sorted by line, overrides last") {
     std::string text = example_with("planets = 4", "planets = 40");
     text.replace(text.find("seed = 7"), 8, "seed = -1");
     text.replace(text.find("member = \"planet\""), 17, "member = \"plane\"");
@@ -342,7 +342,7 @@ TEST_CASE("Overrides that are no assignments or hold no value are refused") {
     }
 }
 
-TEST_CASE("An empty file lacks each section that has required keys") {
+TEST_CASE("An empty file lacks each section with required keys") {
     const auto reading = read_study_text("", "empty.toml");
     for (const char* section : {"gearbox", "operation", "fault", "sensor", "ensemble"}) {
         CHECK(std::count_if(reading.problems.begin(), reading.problems.end(), [&](const auto& p) {
@@ -360,8 +360,8 @@ TEST_CASE("A file that cannot be read is one problem") {
     }
 }
 
-TEST_CASE("No damage to a study file ends in an exception") {
-    // Truncated anywhere, each byte replaced, each line doubled.
+TEST_CASE("No damage to a study file leads to an exception") {
+    // Truncated at every position, each byte replaced, each line doubled.
     const std::string text = kExampleStudy;
     for (std::size_t i = 0; i < text.size(); i += 3) {
         CHECK_NOTHROW(read_study_text(text.substr(0, i), "cut.toml"));

@@ -1,4 +1,4 @@
-// What every kind of fault has: names that a user meets, keys, and a law that its study builds.
+// Checks every kind of fault: names shown to the user, keys, and the law that its study builds.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
@@ -20,8 +20,7 @@ using gearpod::test::program;
 
 namespace {
 
-// The keys that each kind needs on a tooth of the example's sun, its size as large as can be
-// described.
+// Keys of each kind on a tooth of the example's sun, with the largest describable size.
 struct Example {
     const char *kind, *keys;
 };
@@ -62,7 +61,7 @@ Study study_with(const FaultKind& kind) {
     return *reading.study;
 }
 
-// What is wrong with the text once `from` is `to`.
+// Problems of the text with `from` replaced by `to`.
 std::string problems_of(const std::string& text, const std::string& from, const std::string& to) {
     return format(read_study_text(replaced(text, from, to), "fault.toml").problems);
 }
@@ -73,7 +72,7 @@ bool holds(const std::string& text, std::string_view words) {
 
 }  // namespace
 
-TEST_CASE("Every kind of fault has a name, words and a size of its own") {
+TEST_CASE("Every kind of fault has its own name, words and size") {
     std::set<std::string_view> names{"none"}, words, sizes;
     for (const FaultKind* kind : all_faults()) {
         INFO(kind->name());
@@ -150,7 +149,7 @@ TEST_CASE("Every kind of fault weakens the tooth of a study's gearbox") {
     }
 }
 
-TEST_CASE("What a user reads of a fault names its kind and its size") {
+TEST_CASE("Text about a fault names its kind and its size") {
     const Folder folder;
     for (const FaultKind* kind : all_faults()) {
         const std::string text = text_with(*kind), words(kind->words());
@@ -167,7 +166,7 @@ TEST_CASE("What a user reads of a fault names its kind and its size") {
         const FaultKind& other = *find_fault(kind->name() == "broken" ? "reduction" : "broken");
         const std::string misplaced =
             problems_of(text_with(other), "[fault]\n", "[fault]\n" + size + " = 0\n");
-        CHECK(holds(misplaced, "fault." + size + ": has no place"));
+        CHECK(holds(misplaced, "fault." + size + ": is not allowed"));
         CHECK(holds(misplaced, "only for " + name));
         const std::string without_member = problems_of(text, "member = \"sun\"\n", "");
         CHECK(
@@ -175,11 +174,11 @@ TEST_CASE("What a user reads of a fault names its kind and its size") {
 
         const std::string both =
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
-        CHECK(holds(both, "(" + words + " lies on one flank") == kind->shapes_tooth());
+        CHECK(holds(both, "(" + words + " is on one flank") == kind->shapes_tooth());
     }
 }
 
-TEST_CASE("Cracks follow the law that the study names, or else the one of its tooth profile") {
+TEST_CASE("Cracks follow the law given by the study, by default that of its tooth profile") {
     const auto law = [](const std::string& profile, const std::string& key) {
         std::string text = replaced(text_with(*find_fault("crack")), "[gearbox]\n",
                                     "[gearbox]\ntooth_profile = \"" + profile + "\"\n");
@@ -203,12 +202,12 @@ TEST_CASE("Cracks follow the law that the study names, or else the one of its to
     CHECK(holds(wrong, "fracture-mechanics"));
 }
 
-TEST_CASE("A crack's share of the critical section is named") {
+TEST_CASE("A crack's fraction of the critical section is reported") {
     const Study study = study_with(*find_fault("crack"));
     const double largest = max_crack_depth_m(study);
     const double sizes[] = {0.25 * largest, 0.5 * largest};
     const std::string origin = find_fault("crack")->origin(study, sizes);
     INFO(origin);
     CHECK(holds(origin, "root circle"));
-    CHECK(holds(origin, "mm takes 25, 50 % of that section"));
+    CHECK(holds(origin, "mm is 25, 50 % of that section"));
 }

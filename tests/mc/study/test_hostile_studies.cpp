@@ -1,4 +1,4 @@
-// Studies that are made to break what reads them: nesting, size, numbers at the edge.
+// Checks hostile studies: nesting, size, extreme numbers.
 #include <catch2/catch.hpp>
 
 #include "mc/input/nesting.hpp"
@@ -21,7 +21,7 @@ std::string repeated(int count, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("A study nested deeper than any can be is refused before a parser recurses into it") {
+TEST_CASE("A study nested too deeply is refused before a parser recurses into it") {
     constexpr int kDeep = 60000;
     const std::string dotted = "a" + repeated(kDeep, ".a");
     const std::string quoted = "\"a\"" + repeated(kDeep, " . 'a'");
@@ -41,7 +41,7 @@ TEST_CASE("A study nested deeper than any can be is refused before a parser recu
         const auto reading = read_study_text("# one\n" + text, "deep.toml");
         REQUIRE(reading.problems.size() == 1);
         CHECK(reading.problems[0].line == 2);
-        CHECK(reading.problems[0].what == "nested more than 32 deep");
+        CHECK(reading.problems[0].what == "nested deeper than 32 levels");
     }
     for (const std::string& set :
          {dotted + "=1", "fault.side={" + dotted + "=1}", "fault.side=" + repeated(kDeep, "[")}) {
@@ -52,7 +52,9 @@ TEST_CASE("A study nested deeper than any can be is refused before a parser recu
     }
 }
 
-TEST_CASE("What only looks nested is not: strings, comments, lists of numbers, many lines") {
+TEST_CASE(
+    "Text that only resembles nesting is accepted: strings, comments, lists of numbers, many "
+    "lines") {
     using gearpod::mc::line_nested_too_deep;
     CHECK(line_nested_too_deep("# " + repeated(100, ".a") + "\n") == 0);
     CHECK(line_nested_too_deep("x = \"" + repeated(100, "\\\".a[{") + "\"\ny = 1") == 0);
@@ -64,7 +66,7 @@ TEST_CASE("What only looks nested is not: strings, comments, lists of numbers, m
     CHECK(line_nested_too_deep("\n\na" + repeated(32, ".b") + " = 1\n") == 3);
 }
 
-TEST_CASE("Numbers whose products would overflow are refused, wherever a study has them") {
+TEST_CASE("Numbers whose products would overflow are refused in every key") {
     for (const char* set :
          {"operation.torque_N_m=1e300", "sensor.noise_m_s2=1e300", "sensor.noise_levels=[0,1e300]",
           "gearbox.planet_mass_kg=1e-300", "detection.confidence=1e-300",
@@ -78,7 +80,7 @@ TEST_CASE("Numbers whose products would overflow are refused, wherever a study h
     }
 }
 
-TEST_CASE("A long file that toml++ breaks at is answered at once, with its line") {
+TEST_CASE("A long file that makes toml++ fail is refused immediately, with its line") {
     const auto reading = read_study_text(repeated(20000, "# comment\n") + "[[[\n", "long.toml");
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].line == 20001);

@@ -1,4 +1,4 @@
-// A study file read, converted to SI, overridden and written back.
+// Checks a study file: read, converted to SI, overridden and written.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -81,7 +81,7 @@ TEST_CASE("Values of a study file are in SI units and radians") {
     CHECK(study.features.use.size() == 7);
 }
 
-TEST_CASE("The nominal value of a random input is the one given, else the median") {
+TEST_CASE("The nominal value of a random input is the given one, else the median") {
     const Study study = study_of(kExampleStudy);
     CHECK(*study.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 1e8);
     CHECK(fault_size(study) == Approx(0.002));
@@ -91,7 +91,7 @@ TEST_CASE("The nominal value of a random input is the one given, else the median
     CHECK(study.find_random("sensor.noise_m_s2") == nullptr);
 }
 
-TEST_CASE("Overrides replace what the file says and may leave strings unquoted") {
+TEST_CASE("Overrides replace values of the file and may omit quotes around strings") {
     const Study study = study_of(
         kExampleStudy,
         {"ensemble.seed=12", "fault.side=sun", "effects.motion='torsional'",
@@ -107,7 +107,7 @@ TEST_CASE("Overrides replace what the file says and may leave strings unquoted")
     CHECK(study.detection.confidence == 0.9);
 }
 
-TEST_CASE("An override of a key takes it out of [random], in whatever order both are overridden") {
+TEST_CASE("An override of a key removes it from [random], in any order of overrides") {
     const std::string stiffness = "gearbox.planet_bearing_stiffness_N_m";
     const Study fixed = study_of(kExampleStudy, {stiffness + "=3e8"});
     CHECK(fixed.find_random(stiffness) == nullptr);
@@ -118,8 +118,7 @@ TEST_CASE("An override of a key takes it out of [random], in whatever order both
                                    "encoder_sampling_Hz=5000, path_exponent=0.2}"})
               .find_random("sensor.path_exponent") == nullptr);
 
-    // An override of [random] leaves the section's value, which is nominal, and the other way
-    // round.
+    // An override of [random] keeps the section's nominal value, and vice versa.
     CHECK(study_of(kExampleStudy, {"random." + stiffness + ".cv=0.5"})
               .gearbox.bodies[Member::planet]
               .bearing_stiffness_N_m == 1e8);
@@ -152,13 +151,13 @@ TEST_CASE("By default the sun is driven, and the ring where the sun is fixed") {
               .operation.input == Member::ring);
 }
 
-TEST_CASE("Zero settling periods stand for a choice by the program and are the default") {
+TEST_CASE("Zero run-in periods mean the program's choice and are the default") {
     CHECK(study_of(kExampleStudy).numerics.max_meshes == 0);
     CHECK(study_of(kExampleStudy, {"numerics.max_meshes=1000000"}).numerics.max_meshes == 1000000);
     CHECK(study_of(kExampleStudy, {"operation.torque_N_m=0"}).operation.torque_N_m == 0.0);
 }
 
-TEST_CASE("An override switches off tones and pitch errors that the file asks for") {
+TEST_CASE("An override disables tones and pitch errors of the file") {
     const std::string toned =
         replaced(kFixedShaftStudy, "[sensor]",
                  "[sensor]\ntones = [{ frequency_Hz = 50, amplitude_m_s2 = 3 }]");
@@ -171,7 +170,7 @@ TEST_CASE("An override switches off tones and pitch errors that the file asks fo
     CHECK(study_of(kQuasiStaticStudy, smooth).errors.pitch_error_m == 0.0);
 }
 
-TEST_CASE("The resolved text reads back to the same study, bit for bit") {
+TEST_CASE("The resolved text gives the same study, bit for bit") {
     std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
         studies.push_back(study_of(text));
@@ -205,9 +204,9 @@ TEST_CASE("The resolved text reads back to the same study, bit for bit") {
     CHECK(resolved_text(studies[0]).find("module_mm = 3.175\n") != std::string::npos);
 }
 
-TEST_CASE("The resolved text spells out every key that may be given") {
+TEST_CASE("The resolved text contains every key that may be given") {
     const std::string text = resolved_text(study_of(kExampleStudy));
-    // Those that mean something by not being given.
+    // Keys whose absence has a meaning.
     const std::vector<std::string_view> without_default{"inertia",
                                                         "speed",
                                                         "size_edges_mm",
@@ -301,7 +300,8 @@ TEST_CASE("Each kind of fault has one size, with its unit") {
     CHECK(size_groups(study_of(kFixedShaftStudy)).front().high == 8 * 1e-3);
 }
 
-TEST_CASE("What a motion and a gearbox leave no room for is off by default") {
+TEST_CASE(
+    "Options that are impossible for some degrees of freedom or gearboxes are off by default") {
     const Study quasi = study_of(kQuasiStaticStudy), shaft = study_of(kFixedShaftStudy);
     CHECK(quasi.effects.path == nullptr);
     CHECK(shaft.effects.path == nullptr);
@@ -323,7 +323,7 @@ TEST_CASE("A study can name every path window, and none") {
     CHECK(choice_text(study_of(kQuasiStaticStudy), "effects", "path") == "none");
 }
 
-TEST_CASE("Lists of errors keep their order and come in SI units") {
+TEST_CASE("Lists of errors keep their order and are converted to SI units") {
     const Study study = study_of(kSpatialCrackStudy);
     CHECK(study.errors.sun_planet_m == std::vector<double>{10 * 1e-6, 2 * 1e-6});
     CHECK(study.errors.sun_planet_phase_rad[1] == Approx(M_PI / 2));
@@ -331,7 +331,7 @@ TEST_CASE("Lists of errors keep their order and come in SI units") {
     CHECK(study.gearbox.backlash_m == 0.1 * 1e-3);
 }
 
-TEST_CASE("Edit distances are those of the literature") {
+TEST_CASE("Edit distances match the literature") {
     CHECK(edit_distance("kitten", "sitting") == 3);
     CHECK(edit_distance("saturday", "sunday") == 3);
     CHECK(edit_distance("ca", "ac") == 1);

@@ -6,7 +6,7 @@
 using namespace gearpod;
 using namespace gearpod::mc;
 
-TEST_CASE("A grid has every combination once, the last key's values fastest") {
+TEST_CASE("A grid has every combination once; the last key varies fastest") {
     Problems problems;
     const auto keys = read_varied(
         {"sensor.gain=[1, 2.5]", "sensor.noise_levels=[[0, 1], [1]]", "effects.path=[\"none\"]"},
@@ -34,7 +34,7 @@ TEST_CASE("A point's file has the same name in a larger grid") {
     CHECK(few[1].name == more[2].name);
 }
 
-TEST_CASE("Keys of one name in two sections, and values that are no file names, stay apart") {
+TEST_CASE("Equal key names in two sections, and values that are no file names, stay distinct") {
     Problems problems;
     const auto same = grid_of(read_varied({"life.records=[1]", "x.records=[1, 2]"}, problems));
     CHECK(same[0].name != same[1].name);
@@ -48,7 +48,7 @@ TEST_CASE("Keys of one name in two sections, and values that are no file names, 
     CHECK(tables[0].name.size() < 120);
 }
 
-TEST_CASE("What is no list of values is refused with its key") {
+TEST_CASE("Malformed lists of values are refused with their key") {
     for (const char* bad : {"sensor.gain=3", "sensor.gain=[]", "sensor.gain", "sensor.gain=[1, 1]",
                             "sensor.gain=[1"}) {
         INFO(bad);

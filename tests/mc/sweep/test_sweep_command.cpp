@@ -1,4 +1,4 @@
-// gearpod sweep: a study at every combination of some values.
+// Checks gearpod sweep: a study at every combination of given values.
 #include <nlohmann/json.hpp>
 
 #include "tests/mc/lives/life_example.hpp"
@@ -26,13 +26,13 @@ std::string sweep(const Folder& folder, const std::string& rest, int instances =
 
 }  // namespace
 
-TEST_CASE("A sweep's points are runs with the same gearboxes, and are not computed twice") {
+TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed once") {
     const Folder folder;
     const std::string vary = "--vary sensor.noise_m_s2=[1,3] ";
     const Outcome first = program(sweep(folder, vary + "--json " + folder.file("s.json")));
     INFO(first.output);
     REQUIRE(first.code == 0);
-    CHECK(first.mentions("2 of 2, noise_m_s2=3: begins"));
+    CHECK(first.mentions("2 of 2, noise_m_s2=3: started"));
     const std::string one = folder.file("s/noise_m_s2=1.h5"),
                       three = folder.file("s/noise_m_s2=3.h5");
     for (const auto& [file, value] : {std::pair{one, "1"}, std::pair{three, "3"}}) {
@@ -41,7 +41,7 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are not comput
                     .code == 0);
         CHECK(bits(file) == bits(folder.file("run.h5")));
     }
-    // Paired as `compare` pairs them: the same seed, gearboxes and fault sizes.
+    // Paired as in `compare`: the same seed, gearboxes and fault sizes.
     CHECK(
         program("compare " + one + " " + three).mentions("22 graded gearboxes that are the same"));
 
@@ -69,14 +69,14 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are not comput
     const Outcome again = program(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] "));
     INFO(again.output);
     REQUIRE(again.code == 0);
-    CHECK(again.mentions("1 of 3, noise_m_s2=1: is finished"));
-    CHECK(again.mentions("2 of 3, noise_m_s2=2: begins"));
-    CHECK(again.mentions("3 of 3, noise_m_s2=3: is finished"));
+    CHECK(again.mentions("1 of 3, noise_m_s2=1: finished before"));
+    CHECK(again.mentions("2 of 3, noise_m_s2=2: started"));
+    CHECK(again.mentions("3 of 3, noise_m_s2=3: finished before"));
     CHECK(bytes_of(one) == before);
     CHECK(fs::exists(folder.file("s/noise_m_s2=2.h5")));
 }
 
-TEST_CASE("A sweep goes on where it was stopped, and adds gearboxes") {
+TEST_CASE("A stopped sweep resumes, and can be extended by gearboxes") {
     const Folder folder;
     const std::string vary = "--vary sensor.gain=[1,2] ";
     REQUIRE(program(sweep(folder, vary + "--quiet")).code == 0);
@@ -88,18 +88,18 @@ TEST_CASE("A sweep goes on where it was stopped, and adds gearboxes") {
     const Outcome on = program(sweep(folder, vary));
     INFO(on.output);
     CHECK(on.code == 0);
-    CHECK(on.mentions("1 of 2, gain=1: is finished"));
-    CHECK(on.mentions("2 of 2, gain=2: goes on"));
+    CHECK(on.mentions("1 of 2, gain=1: finished before"));
+    CHECK(on.mentions("2 of 2, gain=2: continued"));
     CHECK(bits(folder.file("s/gain=2.h5")) == whole);
 
     const Outcome more = program(sweep(folder, vary, 33));
     INFO(more.output);
     CHECK(more.code == 0);
-    CHECK(more.mentions("1 of 2, gain=1: goes on"));
+    CHECK(more.mentions("1 of 2, gain=1: continued"));
     CHECK(mc::read_results(folder.file("s/gain=1.h5")).status.size() == 53);
 }
 
-TEST_CASE("A sweep says every problem once before anything is computed") {
+TEST_CASE("A sweep reports every problem once before it starts") {
     const Folder folder;
     const Outcome bad =
         program(sweep(folder, "--vary sensor.nois=[1,2,3] --vary sensor.gain=[1,-2]"));
@@ -113,7 +113,7 @@ TEST_CASE("A sweep says every problem once before anything is computed") {
     CHECK(program("sweep " + kStudy).code == 2);
 }
 
-TEST_CASE("A sweep refuses a study without a scene, whatever is there of it") {
+TEST_CASE("A sweep refuses a study without a valid scene, even if its results exist") {
     const Folder folder;
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
     REQUIRE(program(sweep(folder, vary)).code == 0);
@@ -123,7 +123,7 @@ TEST_CASE("A sweep refuses a study without a scene, whatever is there of it") {
     CHECK(refused.mentions("numerics.steps_per_mesh: 1 steps are too few"));
 }
 
-TEST_CASE("A sweep does not write over another study's results") {
+TEST_CASE("A sweep does not overwrite another study's results") {
     const Folder folder;
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
     REQUIRE(program(sweep(folder, vary)).code == 0);
@@ -136,7 +136,7 @@ TEST_CASE("A sweep does not write over another study's results") {
     CHECK(bytes_of(folder.file("s/gain=1.h5")) != before);
 }
 
-TEST_CASE("A sweep of lives has the lives of the command, and goes on") {
+TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
     const Folder folder;
     std::string study = test::study("planet-crack-ideal.toml");
     for (const std::string& one : test::kLife) {
@@ -169,26 +169,26 @@ TEST_CASE("A sweep of lives has the lives of the command, and goes on") {
         CHECK(point["monitored"] == monitored);
         CHECK(point["lives"] == 3);
     }
-    // The same gearboxes and records: those before the crack hear the same at any interval.
+    // The same gearboxes and records: those before the crack have the same signals at any interval.
     const auto five = mc::read_results(folder.file("s/interval_h=5.h5")),
                ten = mc::read_results(folder.file("s/interval_h=10.h5"));
     CHECK(five.features[0].values[0] == ten.features[0].values[0]);
     const Outcome more = swept("[5,10,20]");
-    CHECK(more.mentions("1 of 3, interval_h=5: is finished"));
-    CHECK(more.mentions("3 of 3, interval_h=20: begins"));
+    CHECK(more.mentions("1 of 3, interval_h=5: finished before"));
+    CHECK(more.mentions("3 of 3, interval_h=20: started"));
 
     const Outcome text = program("sweep --lives " + study + "--quiet --out " + folder.file("s") +
                                  " --vary life.interval_h=[5,10]");
     CHECK(text.code == 0);
-    CHECK(text.mentions("which find most over all points"));
+    CHECK(text.mentions("which finds most cracks over all points"));
     CHECK(text.mentions("found before end"));
 }
 
-TEST_CASE("What a sweep of runs, or of lives, does not look at is refused") {
+TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
     const Folder folder;
     const Outcome runs = program(sweep(folder, "--vary life.interval_h=[1,2]"));
     CHECK(runs.code == 2);
-    CHECK(runs.mentions("--vary: life.interval_h: is looked at by `lives`, not by `run`"));
+    CHECK(runs.mentions("--vary: life.interval_h: is only used by `lives`, not by `run`"));
     const Outcome lives = program(sweep(folder, "--lives --vary sensor.gain=[1,2]"));
     CHECK(lives.code == 2);
     CHECK(lives.mentions("life.interval_h: missing"));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Computes some rows of the tables anew and holds them against what is stored (ctest fem-gear-pairs of
--C long). Exit code 77 where gmsh, CalculiX, numpy or scipy are not there."""
+"""Recomputes some rows of the tables and compares them with the stored ones (ctest fem-gear-pairs
+of -C long). Exits with 77 if gmsh, CalculiX, numpy or scipy are missing."""
 import csv
 import pathlib
 import shutil
@@ -37,7 +37,7 @@ def compare(what, found, row, columns, tolerance):
 
 
 def row_of(name, index):
-    """Case, touching pairs' positions, and phase as the tables print it."""
+    """Returns case, positions of the pairs in contact, and phase as printed in the tables."""
     pair = pairs_fem.CASES[name][0]()
     pairs, phase = pairs_fem.phases(pair.contact_ratio)[index]
     return pair, tuple(phase + i for i in range(pairs)), f"{phase:.6f}"

@@ -2,7 +2,7 @@
 """Mesh stiffness with a cracked tooth by plane finite elements: README.md.
 
 Usage: cracks_fem.py [--size F] [--folder DIR] [--only CASE ...]. Writes cracks.csv. A case is one
-gear of a set, the mate that pushes its cracked flank, and the profile of both.
+gear of a set, the mate that loads its cracked flank, and the profile of both.
 """
 import argparse
 import functools
@@ -15,7 +15,7 @@ from pairs_fem import CRACK_ANGLE, MODULE, STEEL, bell, gear_geometry, phases, p
 from plane_fem import many_compliances
 from teeth import Contact, Gear, Pair
 
-SHARES = (0.1, 0.25, 0.4, 0.6)  # of the critical section
+SHARES = (0.1, 0.25, 0.4, 0.6)  # relative to the critical section
 PHASES = (1, 3, 7)              # of phases(): two with two pairs, one with one
 FORCE = 450e3 / 4 / (19 * MODULE / 2 * math.cos(math.radians(20)))
 
@@ -33,7 +33,7 @@ def pair_of(mate, profile):
 
 
 # Cracked tooth: mate of the planet's pair, gear of the pair, its profiles. The shifted teeth of the
-# Bell 206B, 27/35/99, took no part in the calibration.
+# Bell 206B, 27/35/99, were not used in the calibration.
 BOTH = ("fillet", "root-circle")
 TEETH = {"sun": ("sun", 1, BOTH), "planet-sun": ("sun", 2, BOTH), "planet-ring": ("ring", 1, BOTH),
          "ring": ("ring", 2, BOTH), "bell-sun": ("bell-sun", 1, ("fillet",)),
@@ -41,12 +41,12 @@ TEETH = {"sun": ("sun", 1, BOTH), "planet-sun": ("sun", 2, BOTH), "planet-ring":
 
 
 def depth_of(gear, share):
-    """Along the crack, mm, of a share of the critical section."""
+    """Depth along the crack, in mm, for a fraction of the critical section."""
     return share * 2 * gear.critical_point()[1] / math.sin(CRACK_ANGLE)
 
 
 def touching(pair, chosen):
-    """(positions of the touching pairs, which of them is the cracked tooth's)."""
+    """Returns (positions of the pairs in contact, index of the cracked tooth's pair)."""
     for pairs, phase in (phases(pair.contact_ratio)[i] for i in chosen):
         for cracked in range(pairs):
             yield tuple(phase + i for i in range(pairs)), cracked
@@ -54,8 +54,8 @@ def touching(pair, chosen):
 
 @functools.lru_cache(maxsize=None)
 def gear_matrices(size, tooth, profile, which, depth, chosen=PHASES, plane_strain=True):
-    """For each of touching(): [i][j], the motion of flank i per force on flank j, mm/N. The cracked
-    pair's tooth is number 0."""
+    """For each of touching(): [i][j], the displacement of flank i per force on flank j, mm/N.
+    The cracked pair's tooth is number 0."""
     pair = pair_of(TEETH[tooth][0], profile)
     gear, contacts, groups = pair.gears[which - 1], {}, []
     for taus, cracked in touching(pair, chosen):
@@ -73,7 +73,8 @@ def gear_matrices(size, tooth, profile, which, depth, chosen=PHASES, plane_strai
 
 
 def rows(size, tooth, profile, share, chosen=PHASES, plane_strain=True):
-    """Phase, pairs in contact, which of them is cracked, mesh stiffness without and with the crack."""
+    """Phase, pairs in contact, index of the cracked one, mesh stiffness without and with the
+    crack."""
     mate, which, _ = TEETH[tooth]
     pair = pair_of(mate, profile)
     depth = depth_of(pair.gears[which - 1], share)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Helical pairs as solids against thin slices, by finite elements (gmsh, CalculiX's matrices, scipy's
-solution): README.md. Writes helical.csv.
+"""Helical pairs as solids against thin slices, by finite elements (gmsh, CalculiX's matrices,
+scipy's solver): README.md. Writes helical.csv.
 
 Usage: helical_fem.py [--size F] [--layers N] [--out helical.csv] [--only CASE]
-solid: the drawn gears; slices: the mean of their section's over the slices that touch; _weber: with
-Weber and Banaschek's contact instead of the linear one.
-Lengths in mm, forces in N; stiffness in N/m.
+
+solid: the drawn gears; slices: mean over the slices in contact; _weber: with Weber and Banaschek's
+contact instead of the linear one. Lengths in mm, forces in N; stiffness in N/m.
 """
 import argparse
 import math
@@ -32,12 +32,14 @@ class HelicalPair(Pair):
         self.base_lean = self.overlap * self.base_pitch / width  # tangent of the base helix angle
 
     def slice_tau(self, tau, z):
-        """Of the slice at z, 0 to the width; tau counts from the first slice's engagement."""
+        """Position tau of the slice at z, 0 to the width; tau counts from the first slice's
+        engagement."""
         return tau - self.overlap * z / self.material[2]
 
     def local_compliance(self, tau, width_in_contact):
-        """Of the contact, between the flanks and the teeth's centre lines, mm per N/mm, a pair of
-        slices touching at tau: linear, and Weber and Banaschek's for the load spread evenly."""
+        """Compliance of the contact, between the flanks and the teeth's centre lines, in mm
+        per N/mm, for a pair of slices in contact at tau: linear, and Weber and Banaschek's
+        for an evenly distributed load."""
         young, poisson, width = self.material
         lean = math.sqrt(1 + self.base_lean**2)
         rolls = self.rolls(tau)
@@ -59,7 +61,7 @@ def stage(helix, width, force):
     return HelicalPair((21, 39), 12.0, helix, width, (50.0, 135.0), force)
 
 
-# The pair, and the layers that it is drawn in.
+# The pair and the layers of its mesh.
 CASES = {"helix-8": (lambda: stage(8.0, 280.0, 3.9e5), 12),
          "helix-20": (lambda: stage(20.0, 120.0, 1.67e5), 12),
          "helix-20-wide": (lambda: stage(20.0, 240.0, 3.34e5), 14),
@@ -68,13 +70,13 @@ CASES = {"helix-8": (lambda: stage(8.0, 280.0, 3.9e5), 12),
 
 
 def section(size, gear, teeth):
-    """The transverse section: a disc of the root circle with some teeth, quadratic triangles."""
+    """Transverse section: a disc of the root circle with some teeth, quadratic triangles."""
     geo, loop = Geometry(size), []
     outlines = [tooth_outline(geo, gear, tooth) for tooth in teeth]
     for (curves, _, _, last), (_, _, following, _) in zip(outlines, outlines[1:]):
         loop += curves + [geo.curve("Circle", [last, (0, 0), following])]
     loop += outlines[-1][0]
-    # Back round the root circle, in parts below a half turn.
+    # Return along the root circle, in parts below a half turn.
     first, last = outlines[0][2], outlines[-1][3]
     begin = math.atan2(last[1], last[0])
     span = (math.atan2(first[1], first[0]) - begin) % (2 * math.pi)
@@ -92,8 +94,8 @@ def section(size, gear, teeth):
 
 
 class Solid:
-    """A section drawn along the axis with a twist, in layers of 15-node wedges; held at the bore.
-    plane: no motion along the axis (a slice in plane strain)."""
+    """A section extruded along the axis with a twist, in layers of 15-node wedges; fixed at the
+    bore. plane: no displacement along the axis (a slice in plane strain)."""
 
     def __init__(self, mesh, heights, twist, material, plane=False):
         self.mesh, self.heights, self.twist = mesh, heights, twist
@@ -120,7 +122,7 @@ class Solid:
 
     @staticmethod
     def keys(triangle, k):
-        """In CalculiX's order: bottom, top, bottom's edges, top's edges, between."""
+        """Node order of CalculiX: bottom, top, bottom's edges, top's edges, between."""
         a, b = triangle[:3], triangle[3:]
         return ([(n, 2 * k) for n in a] + [(n, 2 * k + 2) for n in a] + [(n, 2 * k) for n in b]
                 + [(n, 2 * k + 2) for n in b] + [(n, 2 * k + 1) for n in a])
@@ -149,7 +151,7 @@ class Solid:
                     options={"SymmetricMode": True}), dof
 
     def weights(self, point, z):
-        """Shape functions at a place of the untwisted section: {node: weight}."""
+        """Shape functions at a point of the untwisted section: {node: weight}."""
         a, b, c = self.corner[:, 0], self.corner[:, 1], self.corner[:, 2]
         cross = lambda u, v: u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
         area = cross(b - a, c - a)
@@ -167,7 +169,8 @@ class Solid:
         return zip([self.number[key] for key in self.keys(self.mesh.triangles[at], k)], shape)
 
     def put(self, column, point, z, vector, weight):
-        """Adds the force (or the measure of motion) `vector` of that weight, given untwisted."""
+        """Adds the force (or the measured displacement) `vector` with that weight, given
+        untwisted."""
         c, s = math.cos(self.twist(z)), math.sin(self.twist(z))
         turned = (c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2])
         for node, shape in self.weights(point, z):
@@ -185,12 +188,12 @@ class Segment:
         self.length = high - low
 
     def middle(self, pair):
-        """Mesh periods that its middle has been touched for."""
+        """Mesh periods since contact began at its middle."""
         return pair.slice_tau(self.tau, 0.5 * (self.low + self.high))
 
     def columns(self, solid, pair, which, lean):
-        """Unit load on the flank, and mean motion of the centre line beneath. lean 0: a slice,
-        touched at tau throughout."""
+        """Unit load on the flank, and mean displacement of the centre line beneath. lean 0:
+        a slice in contact at tau throughout."""
         load, seen = np.zeros(len(solid.dof)), np.zeros(len(solid.dof))
         for x, w in zip(*np.polynomial.legendre.leggauss(4)):
             z = 0.5 * (self.low + self.high) + 0.5 * self.length * x
@@ -211,7 +214,7 @@ def compliance(solid, pair, which, segments, lean):
 
 
 def line_segments(pair, tooth, tau, count):
-    """Of the stretch that touches at tau, about as long as a `count`th of the width."""
+    """Segments of the stretch in contact at tau, about as long as a `count`th of the width."""
     width = pair.material[2]
     low = max(0.0, (tau - pair.contact_ratio) / pair.overlap * width)
     high = min(width, tau / pair.overlap * width)
@@ -268,8 +271,8 @@ def solid_rows(pair, sections, layers, phases):
 
 
 def slice_curves(pair, sections):
-    """Stiffness per mm of the spur pairs that the slices are: functions of the phase (mesh) and of
-    tau (one pair), and of the length of all contact lines."""
+    """Stiffness per mm of the slices' spur pairs: functions of the phase (mesh) and of tau (one
+    pair), and of the length of all contact lines."""
     solids = [sliced(pair, which, sections[which - 1]) for which in (1, 2)]
     found = {}
 

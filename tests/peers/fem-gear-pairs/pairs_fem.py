@@ -21,7 +21,7 @@ CRACK_ANGLE = math.radians(45)
 
 
 def bell(which):
-    """Of studies/bell-206b.toml: 27/35 (sun) or 35/99 (ring), with fillets."""
+    """Stage of studies/bell-206b.toml: 27/35 (sun) or 35/99 (ring), with fillets."""
     distance, sun_shift = 100.0125, 0.3
     both = shifts_for(27, 35, MODULE, distance)
     planet_shift = both - sun_shift
@@ -36,15 +36,16 @@ def bell(which):
 
 @functools.lru_cache
 def liang_ring():
-    """Of studies/published/liang-fig-3-16.toml: 31/81, straight feet; bores of studies/real-teeth.toml."""
+    """Pair of studies/published/liang-fig-3-16.toml: 31/81, straight feet; bores of
+    studies/real-teeth.toml."""
     planet = Gear(31, MODULE, held=20.0, profile="root-circle")
     ring = Gear(81, MODULE, internal=True, held=155.0)
     return Pair(planet, ring, 25 * MODULE, STEEL, 450e3 / 4 / (19 * MODULE / 2 * math.cos(planet.angle)))
 
 
 def steel_discs(teeth, shifts, bore=1 / 3):
-    """External pair of the ISO 6336-1 table (tests/stiffness/test_iso_6336.cpp): m = 4 mm, 20 mm wide,
-    300 N/mm on the pitch circle. bore: over the root circle."""
+    """External pair of the ISO 6336-1 table (tests/stiffness/test_iso_6336.cpp): m = 4 mm, 20
+    mm wide, 300 N/mm on the pitch circle. bore: relative to the root circle."""
     module, material = 4.0, (2.06e5, 0.3, 20.0)
     sum_of_shifts, sum_of_teeth = sum(shifts), sum(teeth)
     distance = 0.5 * module * sum_of_teeth
@@ -92,8 +93,8 @@ LEVEL_CASES = ("discs-19-48", "rims-19-48", "discs-30-60", "discs-20-30", "turbi
 
 
 def loaded_side(geo, gear, at, contacts, until=None):
-    """Curves of the involute from the tip to its end (or the radius `until`), a node at each
-    contact; and for each contact those near it, which carry the pressure."""
+    """Curves of the involute from the tip to its end (or the radius `until`), with a node at
+    each contact, and for each contact those near it, which carry the pressure."""
     low = gear.lowest() if until is None else until
     inwards = -1 if gear.internal else 1
     stops, spans = [gear.tip], []
@@ -111,29 +112,29 @@ def loaded_side(geo, gear, at, contacts, until=None):
 
 
 class Slit:
-    """A crack from the critical point of the loaded side: at 45 degrees to the centre line into the
-    body, beyond the centre line at 45 degrees up again (Liang 2016, Fig. 3.9). An open wedge whose
-    lips are WIDTH apart at its mouth."""
+    """A crack from the critical point of the loaded side: at 45 degrees to the centre line into
+    the body, beyond the centre line at 45 degrees up again (Liang 2016, Fig. 3.9). An open
+    wedge with lips WIDTH apart at its mouth."""
 
     WIDTH = 0.01
 
     def __init__(self, gear, depth):
         self.gear, self.start = gear, gear.critical_point()
-        sign = 1 if gear.internal else -1  # of the direction into the body
+        sign = 1 if gear.internal else -1  # direction into the body
         x, y = self.start
         down, across = math.cos(CRACK_ANGLE), math.sin(CRACK_ANGLE)
         first = min(depth, y / across)
         bend = (x + sign * first * down, y - first * across)
         rest = depth - first
         self.tip = (bend[0] - sign * rest * down, bend[1] - rest * across)
-        self.lower, self.upper = [], []  # lips between tip and mouth
+        self.lower, self.upper = [], []  # points of the lips between tip and mouth
         if rest > 0:
             self.lower = [bend]
             self.upper = [(bend[0] - sign * 0.6 * self.WIDTH, bend[1])]
         self.involute_end = gear.root - self.WIDTH if gear.internal else gear.lowest()
 
     def foot(self):
-        """Pieces from the involute's end to the root circle, round the slit."""
+        """Pieces from the involute's end to the root circle, around the slit."""
         above, below = self.foot_parts()
         lips = [above[-1][-1] if above else self.gear.flank(self.involute_end), *self.upper,
                 self.tip, *self.lower, self.start]
@@ -160,9 +161,9 @@ class Slit:
 
 
 def tooth_outline(geo, gear, tooth, contacts=(), crack=0.0, chord=None):
-    """Curves of a tooth from its root on the far side round the tip to its root on the loaded one.
-    chord: radius of the involute at which it is cut off instead. Returns (curves, loaded curves by
-    contact, first point, last point)."""
+    """Curves of a tooth from its root on the unloaded side around the tip to its root on the
+    loaded one. chord: radius of the involute at which it is cut off instead. Returns (curves,
+    loaded curves by contact, first point, last point)."""
     at = lambda p: turned(p, 2 * math.pi * tooth / gear.teeth)
     mirrored = lambda p: at((p[0], -p[1]))
     low = gear.lowest() if chord is None else chord
@@ -195,7 +196,7 @@ def refine_teeth(geo, gear, contacts):
 
 
 def gear_geometry(size, gear, contacts, crack=0.0, cracked=None):
-    """A whole gear, held at its bore or outer circle, with nodes beneath the contacts."""
+    """A whole gear, fixed at its bore or outer circle, with nodes beneath the contacts."""
     geo, outlines = Geometry(size), []
     inner = [geo.point(c.beneath()) for c in contacts]
     for tooth in range(gear.teeth):
@@ -215,7 +216,7 @@ def gear_geometry(size, gear, contacts, crack=0.0, cracked=None):
 
 
 def tooth_geometry(size, gear, contact, chord=None):
-    """One tooth alone, held along the chord of its root or of the radius given."""
+    """One tooth alone, fixed along the chord of its root or of the radius given."""
     geo = Geometry(size)
     inner = [geo.point(contact.beneath())]
     curves, flank, first, last = tooth_outline(geo, gear, 0, [contact], chord=chord)
@@ -227,8 +228,8 @@ def tooth_geometry(size, gear, contact, chord=None):
 
 @functools.lru_cache(maxsize=None)
 def gear_compliance(size, pair, which, taus, crack=0.0, cracked=None, element="CPE6"):
-    """Flank and centre line: [i][j], the motion at contact i per force on contact j, mm/N.
-    cracked: which of the contacts stands on the cracked tooth."""
+    """Flank and centre line: [i][j], the displacement at contact i per force on contact j,
+    mm/N. cracked: index of the contact on the cracked tooth."""
     gear, contacts = pair.gears[which - 1], pair.contacts(which, taus)
     tooth = None if cracked is None else contacts[cracked].tooth % gear.teeth
     both = compliance(gear_geometry(size, gear, contacts, crack, tooth), contacts,
@@ -243,13 +244,13 @@ def linear_hertz(material):
 
 
 def stiffness(matrix):
-    """All pairs approach alike: N/m."""
+    """Stiffness with equal approach of all pairs, N/m."""
     return 1e3 * float(np.linalg.inv(matrix).sum())
 
 
 def mesh_row(size, pair, taus, crack=0.0, cracked=None, element="CPE6"):
-    """Stiffness of the mesh by the motion of the flanks under Hertz pressures, and by that of the
-    centre lines with a linear contact; the two gears' matrices."""
+    """Stiffness of the mesh by the displacement of the flanks under Hertz pressures, and by
+    that of the centre lines with a linear contact; the two gears' matrices."""
     gears = [gear_compliance(size, pair, which, taus, crack if which == 1 else 0.0,
                              cracked if which == 1 else None, element) for which in (1, 2)]
     flank, centre = gears[0][0] + gears[1][0], gears[0][1] + gears[1][1]
@@ -258,7 +259,8 @@ def mesh_row(size, pair, taus, crack=0.0, cracked=None, element="CPE6"):
 
 
 def phases(contact_ratio, count=5):
-    """(pairs, phase): so many with the more pairs, so many with the fewer."""
+    """Returns (pairs, phase): so many phases with the larger number of pairs, so many with the
+    smaller."""
     whole = math.floor(contact_ratio)
     part = contact_ratio - whole
     margin = min(0.04, 0.1 * part, 0.1 * (1 - part))
@@ -267,7 +269,7 @@ def phases(contact_ratio, count=5):
 
 
 def cracked_rows(size, name, pair, crack, mesh):
-    """The cracked tooth is that of each touching pair in turn."""
+    """The cracked tooth is that of each pair in contact in turn."""
     for pairs, phase in phases(pair.contact_ratio):
         taus = tuple(phase + i for i in range(pairs))
         mate = gear_compliance(size, pair, 2, taus)
@@ -299,14 +301,14 @@ def put(file, line):
 
 
 def alone(size, gear, contact, material, chord=None):
-    """One tooth: motion of flank and centre line, mm/N."""
+    """One tooth: displacement of flank and centre line, mm/N."""
     return compliance(tooth_geometry(size, gear, contact, chord), [contact],
                       [contact.point, contact.beneath()], material)[:, 0]
 
 
 def drop_row(size, pair, taus):
-    """Teeth held at their roots, no bodies: planet from the root circle and from the base circle;
-    by flanks and by centre lines with a linear contact."""
+    """Teeth fixed at their roots, no bodies: planet from the root circle and from the base
+    circle; by flanks and by centre lines with a linear contact."""
     found = np.zeros(4)
     for i, tau in enumerate(taus):
         planet, ring = [pair.contacts(w, taus)[i] for w in (1, 2)]
@@ -348,7 +350,7 @@ def tables(size, folder, names):
 
 
 def weber_check(name, pair):
-    """What lies between flank and centre line, over Weber and Banaschek's."""
+    """Compliance between flank and centre line, over Weber and Banaschek's."""
     young, poisson, width = pair.material
     for pairs, phase in phases(pair.contact_ratio)[7:8]:
         for which in (1, 2):
@@ -359,7 +361,7 @@ def weber_check(name, pair):
 
 
 def checks():
-    """The same rows with elements twice as large, as in the tables, and half as large."""
+    """Same rows with elements twice as large, as in the tables, and half as large."""
     for name, (make, crack) in CASES.items():
         pair = make()
         for pairs, phase in (phases(pair.contact_ratio)[i] for i in (2, 7)):

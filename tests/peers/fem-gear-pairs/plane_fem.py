@@ -30,7 +30,7 @@ class Geometry:
         return self.curves
 
     def circle(self, radius):
-        """About the origin, in quarters."""
+        """Circle about the origin, in quarters."""
         corners = [(radius, 0), (0, radius), (-radius, 0), (0, -radius)]
         return [self.curve("Circle", [corners[i], (0, 0), corners[(i + 1) % 4]]) for i in range(4)]
 
@@ -47,8 +47,8 @@ class Geometry:
                           f'Field[{self.fields}].F = "{self.size:.6g} * ({expression})";')
 
     def finish(self, loops, loaded, held, inner=(), order=2):
-        """The file's text: the surface within loops[0] and without the others; element sets 2
-        (held) and 3, 4, ... (loaded); `inner`: points that get a node."""
+        """Text of the file: the surface within loops[0] and without the others; element
+        sets 2 (held) and 3, 4, ... (loaded); `inner`: points that get a node."""
         text = self.lines
         for i, loop in enumerate(loops):
             text.append(f"Curve Loop({i + 1}) = {{{', '.join(map(str, loop))}}};")
@@ -168,7 +168,8 @@ def solve(mesh, load_cases, watched, folder, material, element="CPE6"):
 
 
 def stiffness_matrix(mesh, number, material, plane_strain=True):
-    """Of quadratic triangles with three Gauss points, rows 2 i and 2 i + 1 for the node numbered i."""
+    """Stiffness matrix of quadratic triangles with three Gauss points, rows 2 i and 2 i + 1 for
+    the node numbered i."""
     from scipy.sparse import coo_matrix
     young, poisson, width = material
     if not plane_strain:  # the same law with other constants
@@ -195,7 +196,7 @@ def stiffness_matrix(mesh, number, material, plane_strain=True):
 
 
 def many_compliances(geometry, contacts, places, material, plane_strain=True):
-    """As compliance(), by one factorisation for all loads."""
+    """Same as compliance(), by one factorisation for all loads."""
     from scipy.sparse.linalg import splu
     with tempfile.TemporaryDirectory() as folder:
         mesh = Mesh(geometry, folder)
@@ -219,8 +220,9 @@ def many_compliances(geometry, contacts, places, material, plane_strain=True):
 
 
 def compliance(geometry, contacts, places, material, element="CPE6"):
-    """[i][j]: motion of place i along the force of contact i per force on contact j, mm/N; places
-    beyond the contacts' number follow the contacts from the first again."""
+    """Returns [i][j]: displacement of place i along the force of contact i per force on contact
+    j, mm/N. Places beyond the number of contacts correspond to the contacts from the first
+    again."""
     with tempfile.TemporaryDirectory() as folder:
         mesh = Mesh(geometry, folder)
         cases = [hertz_load(mesh, mesh.edges[3 + i], c) for i, c in enumerate(contacts)]

@@ -2,8 +2,8 @@
 """Geometry factors of an edge crack in a strip by plane finite elements: README.md.
 
 Usage: strip_fem.py [--size F] [--folder DIR]. Writes strip.csv. The energy release rate is the
-central difference of the strain energy between two crack lengths, K = sqrt(E' G); by symmetry half
-of the strip is modelled, its ligament held across. Width, stress and modulus 1.
+central difference of the strain energy between two crack lengths, K = sqrt(E' G). By symmetry half
+of the strip is modelled, with its ligament fixed across. Width, stress and modulus are 1.
 """
 import argparse
 import math
@@ -53,7 +53,7 @@ def energies(size, crack):
 
 
 def factors(size, share):
-    """Of tension and bending."""
+    """Factors in tension and in bending."""
     rate = (energies(size, share + STEP) - energies(size, share - STEP)) / STEP
     return np.sqrt(rate / (1 - POISSON**2) / (math.pi * share))
 

@@ -1,5 +1,5 @@
-"""Outlines of external and internal involute teeth, shifted or not, and where pairs of them touch:
-from ISO 21771 and DIN 3960, apart from the program's own. Lengths in mm, angles in rad."""
+"""Outlines of external and internal involute teeth, with and without shift, and their contact
+points, from ISO 21771 and DIN 3960, independent of the program's own. Lengths in mm, angles in rad."""
 import math
 
 import numpy as np
@@ -25,9 +25,10 @@ def turned(point, angle):
 
 
 class Gear:
-    """profile: 'fillet' (an arc between involute, or the radius below the base circle, and root
-    circle) or 'root-circle' (sides parallel to the centre line below the base circle). Internal
-    teeth end on their root circle. held: radius of the circle on which the body is held."""
+    """Gear geometry. profile: 'fillet' (an arc between involute, or the radius below the base
+    circle, and root circle) or 'root-circle' (sides parallel to the centre line below the base
+    circle). Internal teeth end on their root circle. held: radius of the circle on which the
+    body is fixed."""
 
     def __init__(self, teeth, module, shift=0.0, internal=False, shortening=0.0, held=0.0,
                  profile="fillet", angle=TRANSVERSE_ANGLE, addendum=1.0, dedendum=1.25):
@@ -44,7 +45,7 @@ class Gear:
         return math.sqrt(radius**2 - self.base**2)
 
     def flank(self, radius):
-        """Of the loaded side, the tooth's centre line lying along x."""
+        """Point of the loaded flank; the tooth's centre line is the x axis."""
         inv = involute(math.acos(min(1.0, self.base / radius)))
         angle = self.half_base + (inv if self.internal else -inv)
         return radius * math.cos(angle), radius * math.sin(angle)
@@ -59,7 +60,7 @@ class Gear:
         return math.hypot(self.base, max(0.0, roll))
 
     def fillet_centre(self):
-        """Of the arc on the loaded side, external teeth with fillets."""
+        """Centre of the arc on the loaded side of external teeth with fillets."""
         reach = self.root + self.arc
         roll = math.sqrt(max(0.0, reach**2 - self.base**2)) - self.arc
         tangent = self.half_base - max(0.0, roll) / self.base
@@ -71,8 +72,9 @@ class Gear:
         return start + self.arc * np.array([-math.sin(tangent), math.cos(tangent)])
 
     def critical_point(self):
-        """Start of a root crack on the loaded side: where the tangent to the fillet lies at 30
-        degrees to the tooth's centre line, or, without a fillet, the end of the root chord."""
+        """Start of a root crack on the loaded side: where the tangent to the fillet is at
+        30 degrees to the tooth's centre line, or, without a fillet, the end of the root
+        chord."""
         if self.profile == "fillet" and not self.internal:
             return tuple(self.fillet_centre() - self.arc * np.array([0.5, math.sqrt(0.75)]))
         foot = self.foot()
@@ -85,11 +87,11 @@ class Gear:
             return []
         if self.profile == "root-circle":
             return [[start, (math.sqrt(self.root**2 - start[1]**2), start[1])]]
-        reach = self.root + self.arc  # of the arc's centre
+        reach = self.root + self.arc  # relative to the arc's centre
         roll = math.sqrt(max(0.0, reach**2 - self.base**2)) - self.arc
         pieces = []
         if roll >= 0:
-            tangent = self.half_base - roll / self.base  # where the normal touches the base circle
+            tangent = self.half_base - roll / self.base  # where the normal is tangent to the base circle
             normal = np.array([-math.sin(tangent), math.cos(tangent)])
         else:
             normal = np.array([-math.sin(self.half_base), math.cos(self.half_base)])
@@ -108,7 +110,8 @@ class Gear:
 
 
 class Contact:
-    """Of one tooth with a mate: tooth number, counted against the force, and roll distance."""
+    """Contact of one tooth with a mate: tooth number, counted against the force, and roll
+    distance."""
 
     def __init__(self, gear, tooth, roll, half_width):
         self.tooth, self.half_width, self.gear = tooth, half_width, gear
@@ -120,7 +123,7 @@ class Contact:
                       - sign * roll * self.direction)
 
     def beneath(self):
-        """Where the force crosses the tooth's centre line."""
+        """Intersection of the force with the tooth's centre line."""
         turn = 2 * math.pi * self.tooth / self.gear.teeth
         across = np.array([-math.sin(turn), math.cos(turn)])
         along = -(self.point @ across) / (self.direction @ across)
@@ -128,8 +131,8 @@ class Contact:
 
 
 def weber(contact, poisson):
-    """How far a flank under the pressure of a Hertz contact moves towards the tooth's centre line,
-    times pi E L / (2 (1 - poisson^2)) over the force: Weber and Banaschek (1953)."""
+    """Displacement of a flank under the pressure of a Hertz contact towards the tooth's centre
+    line, times pi E L / (2 (1 - poisson^2)) over the force: Weber and Banaschek (1953)."""
     depth = np.hypot(*(contact.point - contact.beneath()))
     return math.log(2 * depth / contact.half_width) - poisson / (2 * (1 - poisson))
 
@@ -153,7 +156,7 @@ class Pair:
         return first, (self.line + first if self.gears[1].internal else self.line - first)
 
     def contacts(self, which, taus):
-        """Of gear 1 or 2: pairs a mesh period apart; tooth 0 is that of taus[0]."""
+        """Contacts of gear 1 or 2: pairs a mesh period apart; tooth 0 is that of taus[0]."""
         young, poisson, width = self.material
         found = []
         for i, tau in enumerate(taus):
@@ -168,7 +171,7 @@ class Pair:
 
 
 def shifts_for(teeth_1, teeth_2, module, distance, internal=False):
-    """Sum of the shifts with which teeth fit at a distance."""
+    """Sum of the shifts for zero backlash at a distance."""
     signed = teeth_1 + (-teeth_2 if internal else teeth_2)
     cosine = abs(signed) * module * math.cos(TRANSVERSE_ANGLE) / 2 / distance
     return ((involute(math.acos(cosine)) - involute(TRANSVERSE_ANGLE)) * signed

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mesh stiffness of Liang (2016), Table 3.4, by plane-strain finite elements (gmsh, CalculiX).
 
-Writes table.csv (README.md says what its columns are) and prints the checks. Lengths in mm, forces
-in N. Usage: gear_fem.py [--size F] [--out table.csv] [--only checks|table]
+Writes table.csv (README.md explains its columns) and prints the checks. Lengths in mm, forces in N.
+Usage: gear_fem.py [--size F] [--out table.csv] [--only checks|table]
 """
 import argparse
 import math
@@ -19,7 +19,7 @@ TEETH, MODULE, PRESSURE_ANGLE = 23, 6.0, math.radians(20)
 YOUNG, POISSON, WIDTH = MATERIAL = 69e3, 0.33, 15.0
 CRACK, CRACK_ANGLE = 4.7, math.radians(45)
 BORE = 25.0  # the thesis gives none
-TORQUE = 60e3  # N mm; sets the width of the contact only
+TORQUE = 60e3  # N mm; affects the width of the contact only
 
 PITCH_RADIUS = MODULE * TEETH / 2
 BASE = PITCH_RADIUS * math.cos(PRESSURE_ANGLE)
@@ -69,7 +69,7 @@ class Contact:
 
 
 def tooth_outline(geo, turn, contact, cracked):
-    """Curves of one tooth from its root on the -side round the tip to the root on the + side.
+    """Curves of one tooth from its root on the -side around the tip to the root on the + side.
     The +side is the loaded one. Returns (curves, loaded curves, first point, last point)."""
     at = lambda p: turned(p, turn)
     low, base = (math.sqrt(ROOT**2 - HALF_ROOT**2), HALF_ROOT), flank_point(BASE, 1)
@@ -109,7 +109,7 @@ def refine_teeth(geo, contacts):
 
 
 def gear_geometry(size, contacts, cracked_tooth):
-    """A whole gear, held at its bore."""
+    """A whole gear, fixed at its bore."""
     geo, curves, loaded, roots = Geometry(size), [], [], []
     for tooth in range(TEETH):
         contact = next((c for c in contacts if c.tooth == tooth), None)
@@ -130,13 +130,13 @@ def gear_geometry(size, contacts, cracked_tooth):
 
 
 def beneath(contact):
-    """Where the line of action crosses the tooth's centre line (tooth 0)."""
+    """Intersection of the line of action with the tooth's centre line (tooth 0)."""
     along = -contact.point[1] / contact.direction[1]
     return np.array(contact.point) + along * contact.direction
 
 
 def tooth_geometry(size, contact):
-    """One tooth, held along its root chord, with a node beneath the contact."""
+    """One tooth, fixed along its root chord, with a node beneath the contact."""
     geo = Geometry(size)
     inner = geo.point(tuple(beneath(contact)))
     outline, flank, first, last = tooth_outline(geo, 0.0, contact, False)
@@ -147,21 +147,23 @@ def tooth_geometry(size, contact):
 
 
 def gear_compliance(size, taus, force, cracked=None):
-    """Of a gear driven from the root side: contacts at taus[0] (tooth 0), taus[1] (tooth 1)."""
+    """Compliance of a gear driven from the root side: contacts at taus[0] (tooth 0), taus[1]
+    (tooth 1)."""
     contacts = [Contact(i, roll(tau), force) for i, tau in enumerate(taus)]
     return compliance(gear_geometry(size, contacts, cracked), contacts,
                       [c.point for c in contacts], MATERIAL)
 
 
 def tooth_compliance(size, tau, force):
-    """Of one tooth held at its root: at the flank, and at the centre line beneath the contact."""
+    """Compliance of one tooth fixed at its root: at the flank, and at the centre line beneath
+    the contact."""
     contact = Contact(0, roll(tau), force)
     return compliance(tooth_geometry(size, contact), [contact],
                       [contact.point, beneath(contact)], MATERIAL)[:, 0]
 
 
 def mesh_stiffness(matrix):
-    """All pairs approach alike: N/m."""
+    """Stiffness with equal approach of all pairs, N/m."""
     return 1e3 * float(np.linalg.inv(matrix).sum())
 
 
@@ -197,14 +199,15 @@ def table(size, out):
 
 def beam_check(length, height):
     """A cantilever against Timoshenko's beam in plane strain: finite elements over closed form.
-    The held end cannot warp or narrow, which stiffens it by a share of height over length."""
+    The fixed end cannot warp or contract, which stiffens it by a fraction of height over
+    length."""
     geo = Geometry(1.0)
     corners = [(0.0, 0.0), (length, 0.0), (length, height), (0.0, height)]
     sides = [geo.curve("Line", [corners[i], corners[(i + 1) % 4]]) for i in range(4)]
     geo.background("0.5")
     with tempfile.TemporaryDirectory() as folder:
         mesh = Mesh(geo.finish([sides], [[sides[1]]], [sides[3]]), folder)
-        # A parabolic shear over the end.
+        # Parabolic shear over the end.
         loads = {node: np.array([0.0, v]) for node, v in
                  edge_loads(mesh, mesh.edges[3], lambda x: x[1] * (height - x[1])).items()}
         middle = mesh.nearest(np.array([length, height / 2]))

@@ -2,7 +2,9 @@
 """Runs `gearpod simulate` and planetary.py on the same gearboxes and prints relative differences of motions, mesh
 deflections, mesh forces and shares of time out of contact.
 
-Usage: compare.py GEARPOD [CASE ...] [--onset abrupt|extended] [--set key=value ...]"""
+Usage: compare.py GEARPOD [CASE ...] [--onset abrupt|extended] [--slices N] [--set key=value ...]
+
+--slices: slices of helical teeth in both programs (gearpod's default is 8, the case's 64)."""
 import argparse
 import json
 import pathlib
@@ -87,7 +89,7 @@ ONSET = {"abrupt": 'contact_onset = "abrupt"', "extended": 'contact_onset = "ext
 
 
 def gearpod_run(program, case, onset, settings, folder):
-    """Motions by `gearpod simulate`, rows of samples, and what the HDF5 file says of contact."""
+    """Motions by `gearpod simulate`, rows of samples, mesh forces, and contact loss of each mesh."""
     study, out = pathlib.Path(folder) / "case.toml", pathlib.Path(folder) / "case.h5"
     study.write_text(study_text(case, onset, SAMPLES))
     command = [program, "simulate", str(study), "--instance", "0", "--meshes", str(case["meshes"]), "--out", str(out)]
@@ -98,7 +100,7 @@ def gearpod_run(program, case, onset, settings, folder):
         raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
     with h5py.File(out) as file:
         signals = {name: data[:] for name, data in file["signals"].items()}
-        extra = {name: np.array(value) for name, value in file.attrs.items() if "contact" in name}
+        extra = {name: float(value[0]) for name, value in file["contact_loss"].items()}
     names = [f"{b}_{axis}" for b in list(BODIES) + [f"planet{p + 1}" for p in range(case["planets"])]
              for axis in "xyu"]
     if names[9] not in signals:
@@ -114,8 +116,11 @@ def difference(ours, theirs):
     return np.sqrt(np.mean((ours - theirs)**2)) / scale, np.abs(ours - theirs).max() / np.ptp(ours)
 
 
-def compare(program, name, onset, settings):
+def compare(program, name, onset, settings, slices=None):
     case = json.loads((HERE / "cases" / f"{name}.json").read_text())
+    if slices and "slices" in case:
+        case["slices"] = slices
+        settings = settings + [f"numerics.face_slices={slices}"]
     box = Planetary(case, onset)
     with tempfile.TemporaryDirectory() as folder:
         phase, q, force, extra, signals = gearpod_run(program, case, onset, settings, folder)
@@ -144,11 +149,12 @@ def main():
     options.add_argument("gearpod")
     options.add_argument("cases", nargs="*", default=["relief", "helical", "heavy"])
     options.add_argument("--onset", choices=("abrupt", "extended"))
+    options.add_argument("--slices", type=int)
     options.add_argument("--set", action="append", default=[])
     given = options.parse_args()
     for name in given.cases:
         for onset in (given.onset,) if given.onset else ("abrupt", "extended"):
-            compare(given.gearpod, name, onset, given.set)
+            compare(given.gearpod, name, onset, given.set, given.slices)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Marches the gearboxes of a problem file (solver_settings write) by scipy's BDF and writes what their
-sensor and encoders see of the fault's pattern. README.md has the commands and the results.
+"""Integrates the gearboxes of a problem file (solver_settings write) by scipy's BDF and writes the
+signals of sensor and encoders over the fault's pattern. README.md has the commands and the results.
 
     python3 solve.py PROBLEM.json RELATIVE ABSOLUTE SIGNALS.f64 [--stop-at-transitions]
 
-scipy's BDF is the numerical differentiation formulas of Shampine and Reichelt (1997) with quasi-constant
-steps: the algorithm of MATLAB's ode15s."""
+scipy's BDF is the numerical differentiation formulas of Shampine and Reichelt (1997) with
+quasi-constant steps: the algorithm of MATLAB's ode15s.
+"""
 import json
 import sys
 import time
@@ -14,8 +15,8 @@ import numpy as np
 from scipy.integrate import BDF
 from scipy.linalg import expm
 
-SETTLE = {"ratio": 4, "proportional": 24}   # mesh periods marched before the fault passes
-FILTER_STEPS = 8                            # a sample
+SETTLE = {"ratio": 4, "proportional": 24}  # mesh periods before the fault's passage
+FILTER_STEPS = 8  # per sample
 GAUSS = 0.5 + np.sqrt(0.15) * np.array([-1, 0, 1]), np.array([5, 8, 5]) / 18
 
 
@@ -26,7 +27,7 @@ class Gearbox:
             np.array(box[key]) for key in ("mass", "damping", "stiffness", "force", "mesh_rows",
                                            "mesh_damping", "source_rows", "rigid_rotation"))
         self.proportional = problem["mesh_damping_law"] == "proportional"
-        # The free turning of the whole train is taken out, as gearpod does after every mesh period.
+        # Removes the rigid rotation of the whole train, as gearpod does after every mesh period.
         keep = np.eye(len(rigid)) - np.outer(rigid, rigid @ self.mass) / (rigid @ self.mass @ rigid)
         self.inverse = keep @ np.linalg.inv(self.mass)
         self.start = np.array(problem["transitions"])
@@ -39,7 +40,7 @@ class Gearbox:
             values = np.reshape(p["stiffness"], (-1, self.nodes))
             table[p["first"]:p["first"] + len(values), :, p["pair"]] = values
         self.settle = SETTLE[problem["mesh_damping_law"]]
-        self.inside = None   # mesh period and stretch between transitions, while a march stops there
+        self.inside = None  # mesh period and stretch between transitions, if integration stops there
 
     def meshes(self, mesh, phase, step=None):
         """Stiffness and damping of the pairs at some phases in [0, 1] of a mesh period."""
@@ -57,7 +58,7 @@ class Gearbox:
         return k, self.damping * shape
 
     def accelerations(self, q, v, k, c):
-        """A row for each time."""
+        """Accelerations, one row per time."""
         mesh = (k * (q @ self.rows.T) + c * (v @ self.rows.T)) @ self.rows
         return (self.force - q @ self.k0.T - v @ self.c0.T - mesh) @ self.inverse.T
 
@@ -88,7 +89,8 @@ class Gearbox:
                                np.zeros(len(self.force))])
 
     def heard(self, q, v, k, c):
-        """Absolute accelerations of the sources along x, y, as in dynamics/effects/inertial_terms.hpp."""
+        """Absolute accelerations of the sources along x, y, as in
+        dynamics/effects/inertial_terms.hpp."""
         a = self.accelerations(q, v, k, c)
         out, w = a @ self.sources.T, self.speed
         x, vel = q @ self.sources.T, v @ self.sources.T
@@ -98,7 +100,8 @@ class Gearbox:
 
 
 class Sensor:
-    """lockstep/integrators/sensor_filter.hpp's low-pass, exact but for the input between Gauss's points."""
+    """Low-pass of lockstep/integrators/sensor_filter.hpp, exact except for the input between
+    Gauss's points."""
 
     def __init__(self, problem, box):
         w = problem["low_pass_rad_s"]
@@ -112,7 +115,7 @@ class Sensor:
         cuts = np.unique(np.concatenate([grid, box.start]))
         self.cuts = cuts[np.append(True, np.diff(cuts) > 1e-12)]
         self.length = np.diff(self.cuts)
-        # Rounded, so that the few lengths that occur share their matrices.
+        # Rounds lengths, so that the few that occur share their matrices.
         self.kinds, self.kind = np.unique(np.round(self.length, 13), return_inverse=True)
         self.maps = [self.step(h * box.period) for h in self.kinds]
 
@@ -139,7 +142,8 @@ class Sensor:
 
 
 def march(problem, description, relative, absolute, stops):
-    """Samples of all mesh periods of the pattern, the solver's seconds and steps a mesh period."""
+    """Samples of all mesh periods of the pattern, the solver's seconds and steps per mesh
+    period."""
     box = Gearbox(problem, description)
     sensor = Sensor(problem, box)
     meshes = box.settle + problem["meshes"]

@@ -1,8 +1,8 @@
-// The pilot of `gearpod accuracy` as matrices for another solver, and its motion graded like a
-// rung.
-//   solver_settings write STUDY > problem.json
-//   solver_settings grade STUDY name=signals.f64 ... > peers.csv
-// README.md says what stands in the files.
+// Writes the pilot of `gearpod accuracy` as matrices for another solver, and evaluates that
+// solver's response like a solver setting.
+// Usage: solver_settings write STUDY > problem.json
+// Usage: solver_settings grade STUDY name=signals.f64 ... > peers.csv
+// README.md describes the files.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -24,7 +24,7 @@ using nlohmann::json;
 
 namespace {
 
-// Between two transitions the stiffness is given at so many equal distances.
+// Number of equidistant stiffness values between two transitions.
 constexpr int kNodes = 257;
 
 mc::Study study_of(const std::string& path) {
@@ -35,7 +35,7 @@ mc::Study study_of(const std::string& path) {
     return *reading.study;
 }
 
-// Steps from transition to transition.
+// Plan with steps from transition to transition.
 lockstep::MarchPlan table_plan(const mc::Scene& scene) {
     lockstep::MarchPlan plan = scene.plan();
     if (plan.mesh_law != dynamics::MeshLaw::linear) {
@@ -63,7 +63,7 @@ std::vector<double> list(const Eigen::VectorXd& row) {
     return {row.begin(), row.end()};
 }
 
-// Matrices without the meshes, which come on top as k v v^T and c v v^T.
+// Matrices without the meshes, which are added as k v v^T and c v v^T.
 json matrices(const lockstep::MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
     const int pairs = dynamics::pairs(plan.layout);
     const dynamics::GearboxMatrices m = dynamics::assemble(
@@ -141,7 +141,7 @@ struct Signals {
     lockstep::TileResult tile;
 };
 
-// [gearbox][mesh][sample][channel.., te] behind the seconds of a gearbox and of a mesh period.
+// Layout [gearbox][mesh][sample][channel.., te] after the seconds per gearbox and mesh period.
 Signals read_signals(const mc::Scene& scene, const std::string& argument) {
     const std::size_t equals = argument.find('=');
     if (equals == std::string::npos) {

@@ -1,5 +1,5 @@
-// What a solver's records are worth: the same signals and features as the program makes of its own
-// march, against the converged reference.
+// Error of a solver's records: signals and features computed as from the program's own integration,
+// against the converged reference.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace gearpod::peers {
 
-// The features that the records give of gearboxes first to last - 1, against those of `reference`.
-// The records are the fault's whole pattern.
+// Error of the features of gearboxes first to last - 1 from the records, against those of
+// `reference`. The records contain the fault's whole pattern.
 mc::PilotError error_of(const mc::Scene& scene, const std::vector<lockstep::MeshRecord>& records,
                         int first, int last, const mc::PilotRecord& reference);
 
-// A reference with those gearboxes alone.
+// Reference reduced to those gearboxes.
 mc::PilotRecord some_of(const mc::PilotRecord& all, int first, int last);
 
 }  // namespace gearpod::peers

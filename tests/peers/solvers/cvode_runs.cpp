@@ -41,7 +41,8 @@ class Cvode {
         check(CVodeInit(memory_, rates_at, 0.0, y_), "CVodeInit");
         check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
         check(CVodeSVtolerances(memory_, 0.0, absolute_), "CVodeSVtolerances");
-        check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");  // or every look is an error
+        // Without this every interruption prints an error.
+        check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");
         check(CVodeSetMaxNumSteps(memory_, kStepsBetweenLooks), "CVodeSetMaxNumSteps");
         if (method == Multistep::bdf) {
             matrix_ = SUNDenseMatrix(kSensing, kSensing, context_);
@@ -96,7 +97,7 @@ class Cvode {
     }
 
   private:
-    static constexpr long kStepsBetweenLooks = 2000;  // at the clock
+    static constexpr long kStepsBetweenLooks = 2000;  // between readings of the clock
 
     double phase_of(int step) const {
         const auto& steps = task_.fine.grid().steps;
@@ -168,8 +169,8 @@ class Cvode {
 
     using Column = std::array<double, kSensing>;
 
-    // The equations are linear: a column of the Jacobian is y' of a unit state less y' of none.
-    // take(i, column).
+    // The equations are linear: a column of the Jacobian is y' of a unit state minus y' of the zero
+    // state. Calls take(i, column).
     template <class Take>
     void each_column(const Meshes<double>& m, Take take) const {
         Gearbox<double> box = box_;
@@ -187,7 +188,7 @@ class Cvode {
         }
     }
 
-    // With the difference that a step of every state makes to y', in the middle of mesh 0.
+    // Compares with the change of y' due to a step of every state, in the middle of mesh 0.
     void compare_jacobian() const {
         Meshes<double> m;
         task_.fine.at_phase(0, 0.5, 0, static_cast<int>(task_.fine.grid().steps.size()), gearbox_,
@@ -213,7 +214,7 @@ class Cvode {
         }
     }
 
-    // Where the Jacobian has entries, and its diagonal, column by column.
+    // Finds the nonzero entries of the Jacobian, and its diagonal, column by column.
     void find_pattern() {
         Meshes<double> all;
         std::fill_n(all.k, kPairs, 1.0);
@@ -269,7 +270,7 @@ class Cvode {
     SUNMatrix matrix_ = nullptr;
     SUNLinearSolver linear_ = nullptr;
     SUNNonlinearSolver fixed_point_ = nullptr;
-    std::vector<sunindextype> begin_, row_;  // the sparse Jacobian's columns
+    std::vector<sunindextype> begin_, row_;  // columns of the sparse Jacobian
 };
 
 }  // namespace

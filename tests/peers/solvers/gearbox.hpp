@@ -1,9 +1,7 @@
-// Liang's gearbox with four planets as a user of a general solver would write it: y' = f(t, y) with
-// y the 21 motions, their velocities and, if there is a sensor, the 32 states of its low-pass on
-// the eight channels. T is a number, or eight of them for as many gearboxes.
-//
-// Liang (2016), Eqs. 4.2.1-4.2.4. The kernels in src/ have forms of their own; this one shares
-// nothing with them but the inputs.
+// Liang's gearbox with four planets as a user of a general solver would write it: y' = f(t, y). The
+// state y holds the 21 displacements, their velocities and, with a sensor, the 32 states of its
+// low-pass on the eight channels. T is a number, or eight of them for as many realizations.
+// Source: Liang (2016), Eqs. 4.2.1-4.2.4. Independent of the kernels in src/ apart from the inputs.
 #pragma once
 
 #include <array>
@@ -21,7 +19,7 @@ inline constexpr int kSensing = kMoving + 4 * kChannels;  // with it
 
 enum Body { carrier, ring, sun, planet };
 
-// Shared by all gearboxes.
+// Directions shared by all realizations.
 struct Directions {
     double cos_psi[kPlanets], sin_psi[kPlanets];
     double cos_sun[kPlanets], sin_sun[kPlanets];
@@ -29,7 +27,7 @@ struct Directions {
     double low_pass_rad_s;
 };
 
-// SI units, J / r^2 in place of J.
+// Parameters in SI units, with J / r^2 in place of J.
 template <class T>
 struct Gearbox : Directions {
     T inverse_mass[4], inverse_inertia[4];
@@ -44,8 +42,8 @@ struct Meshes {
     T k[kPairs], c[kPairs];
 };
 
-// The functions are of a build (CMakeLists.txt): no program may hold one of them twice, made with
-// different options.
+// The inline namespace separates builds (CMakeLists.txt): a program must not contain a function
+// twice with different options.
 inline namespace GEARPOD_PEERS_BUILD {
 
 template <class T>
@@ -104,7 +102,7 @@ inline void accelerations(const Gearbox<T>& g, const Meshes<T>& m, const T* q, c
     }
 }
 
-// Butterworth, order 4, as two sections; u: the channel's acceleration; z: x, x', y, y'.
+// Butterworth filter of order 4 as two sections. u: the channel's acceleration; z: x, x', y, y'.
 template <class T>
 inline void low_pass(double w, const T& u, const T* z, T* rate) {
     const double w2 = w * w;
@@ -116,7 +114,7 @@ inline void low_pass(double w, const T& u, const T* z, T* rate) {
     rate[3] = w2 * (z[0] - z[2]) - b2 * z[3];
 }
 
-// y' of `Size` states: kMoving or kSensing.
+// Derivative y' of `Size` states: kMoving or kSensing.
 template <int Size, class T>
 inline void rates(const Gearbox<T>& g, const Meshes<T>& m, const T* y, T* dy) {
     const T *q = y, *v = y + kMotions;

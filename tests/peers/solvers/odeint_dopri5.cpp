@@ -13,7 +13,7 @@ namespace odeint = boost::numeric::odeint;
 
 using Sensing = std::array<double, static_cast<std::size_t>(kSensing)>;
 
-// The largest error over the states, each against its size.
+// Largest error over the states, each relative to its scale.
 class ErrorAgainstSize {
   public:
     ErrorAgainstSize(const Task& task, double tolerance) {
@@ -34,7 +34,7 @@ class ErrorAgainstSize {
     double inverse_[kSensing];
 };
 
-// One gearbox by Dormand and Prince's pair.
+// Integrates one realization by Dormand and Prince's pair.
 class Dopri5 {
   public:
     Dopri5(const Task& task, double tolerance, int gearbox)
@@ -45,7 +45,7 @@ class Dopri5 {
 
     double steps() const { return steps_; }
 
-    // Whether it came to the end in time.
+    // Returns true if it reached the end in time.
     bool march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
         const double give_up_at_s = mc::thread_processor_s() + extent.most_s;
         Sensing y;
@@ -80,7 +80,7 @@ class Dopri5 {
         stepper_.initialize(y, phase * task_.mesh_period_s, step_s_);
     }
 
-    // Steps first to last - 1 of the fine grid; times are mesh periods times the period.
+    // Integrates steps first to last - 1 of the fine grid; times are mesh periods times the period.
     void stretch(int k, int first, int last, bool stops, lockstep::MeshRecord* record) {
         const double period = task_.mesh_period_s;
         const double from = k + phase_of(first), to = k + phase_of(last);

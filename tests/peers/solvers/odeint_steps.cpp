@@ -1,5 +1,5 @@
-// The classical Runge-Kutta method, built twice: as any release build would, and without automatic
-// vectorization (GEARPOD_PEERS_BUILD, CMakeLists.txt).
+// The classical Runge-Kutta method, built twice: with the options of a release build, and without
+// automatic vectorization (GEARPOD_PEERS_BUILD, CMakeLists.txt).
 #include <array>
 #include <boost/numeric/odeint.hpp>
 
@@ -15,8 +15,8 @@ namespace odeint = boost::numeric::odeint;
 template <int Size, class T>
 using State = std::array<T, static_cast<std::size_t>(Size)>;
 
-// y' for a step of the grid: the method asks for it at the step's start, twice in its middle, and
-// at its end.
+// Derivative y' for a step of the grid: the method evaluates it at the step's start, twice in its
+// middle, and at its end.
 template <int Size, class T, class MeshesAt>
 class StepRates {
   public:

@@ -10,7 +10,7 @@
 namespace gearpod::peers {
 namespace {
 
-// Positions, velocities, and x, x', y, y' of the filter.
+// Kind of state: position, velocity, or x, x', y, y' of the filter.
 int kind(int i) {
     return i < kMotions ? 0 : i < kMoving ? 1 : 2 + (i - kMoving) % 4;
 }
@@ -40,7 +40,7 @@ double OwnMarch::tile_mesh_s() {
     return seconds;
 }
 
-// From rest to the orbit; the states' sizes on the way.
+// Integrates from rest to the periodic orbit and records the scales of the states.
 void OwnMarch::start() {
     march_ = lockstep::make_mesh_march<kGearboxes>(scene_.plan(), boxes_.inputs);
     rotation_ = std::make_unique<lockstep::RigidRotation>(scene_.plan().layout, boxes_.inputs);

@@ -1,4 +1,4 @@
-// The study's gearboxes on gearpod's own march, and all that the other solvers need of them.
+// Integrates the study's realizations by gearpod, and provides all data for the other solvers.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class OwnMarch {
     const Task& task() const { return task_; }
     const mc::Scene& scene() const { return scene_; }
 
-    // Processor seconds that a mesh period of the tile takes, in doubles by the scene's rk4.
+    // Processor seconds per mesh period of the tile, in doubles by the scene's rk4.
     double tile_mesh_s();
 
   private:

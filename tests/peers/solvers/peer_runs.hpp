@@ -1,4 +1,5 @@
-// One gearbox after another, or eight abreast, through the fault's pattern by other solvers.
+// Integrates one realization after another, or eight in parallel, through the fault's pattern by
+// other solvers.
 #pragma once
 
 #include <iterator>
@@ -11,35 +12,40 @@
 
 namespace gearpod::peers {
 
-// What all solvers march.
+// Problem that all solvers integrate.
 struct Task {
     const mc::Scene& scene;
     const Boxes& boxes;
-    const StiffnessTables& steps;  // of the fixed steps
+    const StiffnessTables& steps;  // for fixed steps
     const StiffnessTables& fine;   // for solvers that choose their steps
-    lockstep::TileState start;     // of all eight, near the orbit, at an integer phase
+    lockstep::TileState start;     // of all eight, near the periodic orbit, at an integer phase
     double mesh_period_s = 0.0;    // the same in all gearboxes
-    // Sizes of the states: an adaptive solver's tolerance is relative to them where a state is
+    // Scales of the states: an adaptive solver's tolerance is relative to them where a state is
     // small.
     double scale[kSensing] = {};
 };
 
-// How much of the task: mesh periods before the record, and recorded ones from mesh 0 of the
-// pattern on. The pattern repeats, so those before are its last.
+// Part of the task: mesh periods before the record, and recorded ones from mesh 0 of the pattern
+// on. The pattern repeats, so those before are its last.
 struct Extent {
     int run_in = 2, recorded = 1;
-    // Processor time after which a solver that chooses its steps gives up a gearbox.
+    // Processor time after which a solver with adaptive steps gives up a realization.
     double most_s = std::numeric_limits<double>::infinity();
 };
 
 struct PeerRun {
-    std::vector<lockstep::MeshRecord> records;  // of eight lanes; only the marched ones are filled
-    double march_s = 0.0;                       // of processor time, over all mesh periods marched
-    double steps = 0.0;                         // a mesh period and gearbox
-    bool late = false, failed = false;          // gave up; or the solver did
+    // Records with eight lanes, of which only the integrated ones are filled.
+    std::vector<lockstep::MeshRecord> records;
+    double march_s = 0.0;               // of processor time, over all integrated mesh periods
+    double steps = 0.0;                 // per mesh period and realization
+    bool late = false, failed = false;  // stopped by the time limit, or by the solver
 };
 
-// Gearboxes first to last - 1 march one by one, wide ones all eight together.
+// Realizations first to last - 1 are integrated one by one, wide ones all eight together.
+// Classical Runge-Kutta on the steps of the task's grid. With `motion_only` it runs without the
+// sensor's low-pass and leaves the records' accelerations zero. The first namespace has the options
+// of a release build, whose compiler vectorizes over one realization's states where it can; the
+// second disables this.
 
 // Classical Runge-Kutta on the steps of the task's grid. `motion_only`: without the sensor's
 // low-pass, which leaves the records' accelerations zero. Of a release build, whose compiler makes
@@ -52,7 +58,7 @@ namespace scalar {
 PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only);
 }  // namespace scalar
 
-// Dormand and Prince's pair with dense output. `stops`: starts anew at every transition of the
+// Dormand and Prince's pair with dense output. With `stops` it restarts at every transition of the
 // stiffness, instead of finding it by rejected steps.
 PeerRun odeint_dopri5(const Task& task, const Extent& extent, int first, int last, double tolerance,
                       bool stops);
@@ -67,13 +73,13 @@ PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multi
 Gearbox<double> gearbox_of(const Task& task, int gearbox);
 template <class T>
 Gearbox<T> all_gearboxes(const Task& task);  // T has x[8]
-// A gearbox's share of the start: motion, velocity, filter.
+// One realization's part of the start: displacements, velocities, filter.
 void copy_start(const Task& task, int gearbox, double* y);
-// From one gearbox's state into its lane of a record.
+// Copies one realization's state into its lane of a record.
 void record_sample(const Task& task, const double* y, bool sensing, int lane, int sample,
                    lockstep::MeshRecord& record);
 std::vector<lockstep::MeshRecord> empty_records(const Task& task, int meshes);
-// The mesh of the pattern that mesh k of a march shows; k may be negative.
+// Mesh of the pattern for mesh k of an integration; k may be negative.
 int pattern_mesh(const Task& task, int k);
 
 template <class T>

@@ -9,9 +9,9 @@ namespace gearpod::peers {
 
 namespace {
 
-// The basic ones but window_z, which without noise divides by the differences of teeth that are
-// alike: a solver whose steps differ from mesh period to mesh period has another value of it until
-// its error is far below the differences that any sensor sees.
+// The basic features except window_z, which without noise divides by the differences of equal
+// teeth. A solver whose steps differ between mesh periods changes its value until its error is far
+// below any measurable difference.
 constexpr const char* kFeatures =
     R"(features.use=["te_rms","te_kurtosis","te_fc","te_fm0","sensor_rms","window_ratio"])";
 

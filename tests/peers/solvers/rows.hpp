@@ -1,4 +1,4 @@
-// What the tables share: a way to march, its times by round, and their ratios.
+// Shared by the tables: a solver with its settings, its times by round, and ratios of times.
 #pragma once
 
 #include <optional>
@@ -22,18 +22,18 @@ struct Options {
     bool steps_only = false;
 };
 
-// The study with the features that are compared, its numerics resolved. Throws std::runtime_error
-// with its problems.
+// The study with the compared features and resolved numerics. Throws std::runtime_error with its
+// problems.
 mc::ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides);
 
-// A way to march. `times`: seconds a gearbox, over the span or a step, by round.
+// A solver with its settings. `times`: seconds per realization, over the span or a step, by round.
 struct Row {
     std::string name;
     std::vector<double> times;
-    double meshes = 0.0;  // that those times are of; 0: a step
+    double meshes = 0.0;  // mesh periods of these times; 0: one step
     std::optional<mc::PilotError> error;
     double tolerance = 0.0, steps = 0.0;
-    bool within = true;  // the error asked for
+    bool within = true;  // meets the requested error
 };
 
 // Median and range of a row's times over another's, round by round.

@@ -1,6 +1,5 @@
-// The same gearbox by gearpod and by other solvers: time and error side by side (README.md).
-//
-//     peer_solvers [STUDY] [--rounds N] [--error E] [--try-s S] [--csv FILE] [--steps-only]
+// Compares time and error of gearpod and other solvers on the same gearbox (README.md).
+// Usage: peer_solvers [STUDY] [--rounds N] [--error E] [--try-s S] [--csv FILE] [--steps-only]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -11,7 +11,7 @@ namespace gearpod::peers {
 namespace {
 
 constexpr int kRunIn = 2;
-// Rounds that a solver takes part in whose round takes longer than kSlow_s.
+// Number of rounds for a solver whose round takes longer than kSlow_s.
 constexpr std::size_t kSlowRounds = 3;
 constexpr double kSlow_s = 1.0;
 

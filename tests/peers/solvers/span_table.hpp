@@ -1,4 +1,5 @@
-// What a gearbox costs over the whole span, each way at the loosest tolerance that keeps the error.
+// Cost of a realization over the whole span, for each solver at the loosest tolerance that meets
+// the error.
 #pragma once
 
 #include <functional>
@@ -14,11 +15,11 @@ class SpanTable {
     SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pilot,
               const mc::Reference& reference);
 
-    // Finds the tolerances of all solvers, saying so on stderr.
+    // Finds the tolerances of all solvers and prints progress to stderr.
     void add_all();
     void round();
     void print() const;
-    // As `gearpod accuracy --peers` reads it.
+    // Writes the file that `gearpod accuracy --peers` reads.
     void write(const std::string& path) const;
 
   private:
@@ -33,10 +34,10 @@ class SpanTable {
     const mc::Pilot& pilot_;
     const mc::Reference& reference_;
     const mc::ResolvedStudy resolved_;
-    const mc::Scene chosen_;  // for the error allowed
+    const mc::Scene chosen_;  // for the allowed error
     double span_ = 0.0;       // mesh periods
     std::vector<Row> rows_;
-    std::vector<Way> ways_;  // of the rows but the first two
+    std::vector<Way> ways_;  // of the rows except the first two
 };
 
 }  // namespace gearpod::peers

@@ -1,5 +1,5 @@
-// A step of the classical Runge-Kutta method, by gearpod and by Boost.odeint, on the same grid; and
-// what share of the fused multiply-adds that this core does at most each of them makes of it.
+// Cost of a step of the classical Runge-Kutta method, by gearpod and by Boost.odeint, on the same
+// grid, as a share of this core's peak of fused multiply-adds.
 #pragma once
 
 #include <functional>
@@ -21,22 +21,22 @@ class StepTable {
 
   private:
     using Way = std::function<PeerRun(const Task&, const Extent&)>;
-    // Operations of a step, and the registers that its code works in.
+    // Operations of a step, and the registers used by its code.
     struct Work {
         double flop = 0.0;
         bench::Width width = bench::Width::bits_512;
         bool no_sensor = false;
     };
     void add(const std::string& name, Work work, Way way);
-    double peak(bench::Width width) const;  // fused multiply-adds a second
+    double peak(bench::Width width) const;  // fused multiply-adds per second
     double share(std::size_t row) const;    // of the peak
     void print_limit() const;
 
     OwnMarch& own_;
     const mc::Reference& reference_;
     std::vector<Row> rows_;
-    std::vector<Work> work_;  // of the rows
-    std::vector<Way> ways_;   // of the rows but the first
+    std::vector<Work> work_;  // for the rows
+    std::vector<Way> ways_;   // for the rows except the first
     std::map<bench::Width, std::vector<double>> peaks_;
 };
 

@@ -1,5 +1,5 @@
 // The pairs' stiffness over the fault's pattern, from the study's own curves: by step and stage
-// node for solvers with fixed steps, by time for those that choose their own.
+// node for solvers with fixed steps, by time for those with adaptive steps.
 #pragma once
 
 #include <span>
@@ -11,7 +11,8 @@
 
 namespace gearpod::peers {
 
-// Eight, of the scene's graded group; where they march one by one, the one with the largest crack.
+// Eight realizations of the scene's graded group; where they are integrated one by one, the one
+// with the largest crack.
 inline constexpr int kGearboxes = 8, kLargestCrack = 6;
 
 struct Boxes {
@@ -23,15 +24,15 @@ Boxes boxes_of(const mc::Scene& scene);
 
 class StiffnessTables {
   public:
-    // Nodes on the steps of `plan`, which must outlive the tables.
+    // Values at the nodes of the steps of `plan`, which must outlive the tables.
     StiffnessTables(const mc::Scene& scene, const lockstep::MarchPlan& plan, const Boxes& boxes);
 
     const lockstep::PhaseGrid& grid() const { return plan_.grid; }
     int meshes() const { return static_cast<int>(overrides_.size()); }
 
-    // Stage node 0, 1 or 2 (start, middle, end) of a step of mesh k of the pattern.
+    // Values at stage node 0, 1 or 2 (start, middle, end) of a step of mesh k of the pattern.
     void at_node(int mesh, int step, int node, int gearbox, Meshes<double>& m) const;
-    // The same for all eight, with T::load().
+    // Same for all eight, with T::load().
     template <class T>
     void at_node(int mesh, int step, int node, Meshes<T>& m) const {
         const std::size_t row = row_of(step, node);
@@ -50,8 +51,8 @@ class StiffnessTables {
         }
     }
 
-    // At `phase` in [0, 1] of mesh k, linear between nodes, from steps first to last - 1 alone: so
-    // that a stretch between two transitions never sees beyond them.
+    // Values at `phase` in [0, 1] of mesh k, linear between nodes of steps first to last - 1 only,
+    // so that a stretch between two transitions does not depend on values beyond them.
     void at_phase(int mesh, double phase, int first, int last, int gearbox,
                   Meshes<double>& m) const;
 
@@ -72,7 +73,7 @@ class StiffnessTables {
     std::vector<std::vector<lockstep::PairOverride>> overrides_;  // by mesh
     double factor_[2][kGearboxes];
     std::vector<int> stretches_;
-    std::vector<int> first_of_cell_;  // of equal parts of the mesh period: the step it begins in
+    std::vector<int> first_of_cell_;  // first step of each of equal parts of the mesh period
 };
 
 }  // namespace gearpod::peers

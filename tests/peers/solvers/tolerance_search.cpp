@@ -5,7 +5,7 @@
 namespace gearpod::peers {
 namespace {
 
-// In half decades: 10^(-n / 2).
+// Limits in half decades: 10^(-n / 2).
 constexpr int kLoosest = 2, kFirst = 6, kTightest = 18;
 
 }  // namespace
@@ -24,7 +24,7 @@ std::optional<Attempt> loosest_tolerance(const Trial& trial) {
     } else {
         while (best && !good(best) && n + 2 <= kTightest) {
             const std::optional<Attempt> tighter = at(n + 2);
-            if (!tighter) {  // one tighter still would take longer
+            if (!tighter) {  // a tighter one would take longer
                 break;
             }
             n += 2;

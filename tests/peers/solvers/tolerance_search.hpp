@@ -1,4 +1,4 @@
-// The loosest tolerance at which a solver that chooses its steps keeps an error.
+// Finds the loosest tolerance at which a solver with adaptive steps meets an error.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,19 @@
 
 namespace gearpod::peers {
 
-// One tolerance tried.
+// Result at one tolerance.
 struct Attempt {
     double tolerance = 0.0;
-    double steps = 0.0;  // a mesh period
+    double steps = 0.0;  // per mesh period
     mc::PilotError error;
-    bool within = false;  // the error asked for
+    bool within = false;  // meets the requested error
 };
 
-// Marches at a tolerance; nothing if it did not come to the end.
+// Integrates at a tolerance; returns nothing if it did not reach the end.
 using Trial = std::function<std::optional<Attempt>(double tolerance)>;
 
-// By decades from 1e-3 on, between 1e-1 and 1e-9, and then half a decade back: the loosest
-// tolerance found that keeps the error; if none does, the tightest that came to the end, if any.
+// Searches by decades from 1e-3 on, between 1e-1 and 1e-9, and then half a decade back. Returns the
+// loosest tolerance that meets the error; if none does, the tightest that reached the end, if any.
 std::optional<Attempt> loosest_tolerance(const Trial& trial);
 
 }  // namespace gearpod::peers

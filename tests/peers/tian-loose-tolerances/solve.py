@@ -2,8 +2,9 @@
 """Tian (2004), Eqs. 4.3-4.8 with Table 4.1 by BDF of variable order and step at several tolerances:
 the largest harmonics of 570 Hz in the pinion's acceleration. README.md has the command and results.
 
-The thesis used MATLAB's ode15s, which is of the same family, with default tolerances 1e-3 (relative)
-and 1e-6 (absolute). Rotations include the gears' turning, as in the thesis."""
+The thesis used MATLAB's ode15s, a method of the same family, with default tolerances 1e-3
+(relative) and 1e-6 (absolute). Rotations include the rigid rotation, as in the thesis.
+"""
 import sys
 
 import numpy as np

@@ -1,5 +1,5 @@
-// Kolmogorov-Smirnov statistics, scaled by the square root of the (effective) sample size:
-// above 1.95 only once in a thousand samples from the right distribution.
+// Kolmogorov-Smirnov statistics, scaled by the square root of the (effective) sample size. They
+// exceed 1.95 only once in a thousand samples from the right distribution.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,9 @@ namespace {
 
 using std::numbers::pi;
 
-// The integral over f from 0 of cos(2 pi f tau) / (1 + f^8), f in corners, by the trapezoidal rule,
-// which converges exponentially for an even analytic function; beyond 20 corners lie 1e-10.
+// Integral over f from 0 of cos(2 pi f tau) / (1 + f^8), f in corner frequencies, by the
+// trapezoidal rule, which converges exponentially for an even analytic function. The part beyond 20
+// corner frequencies is 1e-10.
 double spectrum_integral(double tau) {
     constexpr double kStep = 0.02;
     double sum = 0.5;
@@ -26,7 +27,7 @@ double spectrum_integral(double tau) {
     return sum * kStep;
 }
 
-// What each independent normal does to each sample: [normal][sample].
+// Response of each sample to each independent normal: [normal][sample].
 std::vector<std::vector<double>> responses(const LowPassNoise& noise, std::size_t samples) {
     std::vector<std::vector<double>> all;
     for (std::size_t i = 0; i < samples; ++i) {
@@ -50,8 +51,8 @@ TEST_CASE("The noise bandwidth of the low-pass is the integral of its squared ga
           Approx(800.0 * spectrum_integral(0.0)).epsilon(1e-9));
 }
 
-// The covariance of any two samples, of the first ones too, is the spectrum's transform (Wiener,
-// Khinchin); so the sampled spectrum has its aliases as a sampled signal has.
+// The covariance of any two samples, including the first ones, is the spectrum's transform (Wiener,
+// Khinchin). The sampled spectrum therefore has its aliases like a sampled signal.
 TEST_CASE("Samples of low-pass noise have the covariance of the filtered white noise") {
     constexpr std::size_t kSamples = 130;
     for (const double per_sample : {0.45, 800.0 / 2048.0, 0.16, 0.06, 0.02}) {
@@ -73,7 +74,7 @@ TEST_CASE("Samples of low-pass noise have the covariance of the filtered white n
     }
 }
 
-TEST_CASE("Low-pass noise begins alike however long it is") {
+TEST_CASE("Low-pass noise begins with the same values for any length") {
     const LowPassNoise noise(0.16);
     std::mt19937_64 one(3), other(3);
     std::vector<double> shorter(1003), longer(5000);
@@ -82,12 +83,12 @@ TEST_CASE("Low-pass noise begins alike however long it is") {
     CHECK(std::equal(shorter.begin(), shorter.end(), longer.begin()));
 }
 
-TEST_CASE("Low-pass noise that is sampled too finely is refused") {
+TEST_CASE("Low-pass noise at too high a sampling rate is refused") {
     CHECK_THROWS_AS(LowPassNoise(0.001), std::invalid_argument);
     CHECK_THROWS_AS(LowPassNoise(0.0), std::invalid_argument);
 }
 
-TEST_CASE("The draw of a noise of any colour folds as the noisy signal does, at every level") {
+TEST_CASE("Random noise of any colour folds as the noisy signal does, at every level") {
     constexpr std::size_t kBins = 24, kTurns = 17;
     std::vector<double> signal = normals(kBins * kTurns, 1), noise = normals(kBins * kTurns, 2);
     LowPassNoise(0.1).colour(noise);

@@ -14,7 +14,7 @@ using namespace gearpod::signals;
 
 namespace {
 
-// Random words, and in both places of the pairs those at the ends.
+// Random words, with extreme words in both positions of the pairs.
 std::vector<std::uint64_t> some_words() {
     std::mt19937_64 engine(3);
     std::vector<std::uint64_t> words(kNormalBlock * 4000);
@@ -47,7 +47,7 @@ std::vector<double> drawn(std::size_t count, unsigned seed) {
     return values;
 }
 
-TEST_CASE("Normal values are those of Box and Muller's formula in 80 bits") {
+TEST_CASE("Normal values match Box and Muller's formula in 80 bits") {
     const auto words = some_words();
     const auto values = normals(words);
     long double worst = 0.0L;
@@ -58,8 +58,8 @@ TEST_CASE("Normal values are those of Box and Muller's formula in 80 bits") {
             const auto rounded = static_cast<double>(words[first] | 1);
             const long double radius =
                 std::sqrt(-2.0L * std::log(static_cast<long double>(rounded) * 0x1p-64L));
-            // Steps of a quarter turn in the word's upper 52 bits; two more bits turn it over, so
-            // that every step of a whole turn has its words.
+            // Steps of a quarter turn in the word's upper 52 bits; two more bits give the quadrant,
+            // so that every step of a whole turn has its words.
             const std::uint64_t word = words[second];
             const long double quarter =
                 (static_cast<long double>(word >> 12) + 0.5L) * 0x1p-52L - 0.5L;
@@ -68,7 +68,7 @@ TEST_CASE("Normal values are those of Box and Muller's formula in 80 bits") {
             turn = (word & 2) != 0 ? 0.25L - turn : turn;
             const long double angle = 2.0L * std::numbers::pi_v<long double> * turn;
             const auto error = [&](double value, long double expected) {
-                const long double slack = 2e-19L * radius;  // the angle's own rounding
+                const long double slack = 2e-19L * radius;  // rounding of the angle
                 return std::max(0.0L, std::abs(value - expected) - slack) / std::abs(expected);
             };
             if (radius > 0.0L) {
@@ -83,7 +83,7 @@ TEST_CASE("Normal values are those of Box and Muller's formula in 80 bits") {
     }
     INFO("worst " << static_cast<double>(worst) << ", largest " << largest);
     CHECK(worst < 2e-15L);
-    CHECK(largest > 9.42 / std::numbers::sqrt2);  // of the word 0, sqrt(128 ln 2) off the axes
+    CHECK(largest > 9.42 / std::numbers::sqrt2);  // for the word 0, sqrt(128 ln 2) from the axes
     CHECK(largest < 9.42);
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("Normal values have the same bits on every instruction set") {
     CHECK_THROWS_AS(normals_from_words(words, few), std::invalid_argument);
 }
 
-TEST_CASE("Fewer normal values are the first of more") {
+TEST_CASE("Fewer normal values are the first of a longer sequence") {
     const auto many = drawn(3000, 8);
     for (const int count : {0, 1, 15, 16, 17, 511, 512, 513, 2999}) {
         CHECK(drawn(count, 8) == std::vector<double>(many.begin(), many.begin() + count));
@@ -134,7 +134,7 @@ TEST_CASE("Normal values have the moments, the distribution and the tails of the
             CHECK(std::abs(seen - expected) < 4.0 * std::sqrt(expected));
         }
     }
-    // The two values of a pair share their radius, neighbours and blocks nothing at all: neither
+    // The two values of a pair share their radius; neighbours and blocks are independent: neither
     // the values nor their squares are correlated.
     for (const std::size_t lag : {std::size_t{1}, kNormalBlock / 2, kNormalBlock}) {
         double sum = 0.0;

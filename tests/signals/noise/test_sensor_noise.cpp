@@ -46,7 +46,7 @@ TEST_CASE("The chi-squared transform gives the quantile of the normal distributi
             const double expected = z < 0.0 ? quantile(chi, cdf(normal, z))
                                             : quantile(complement(chi, cdf(complement(normal, z))));
             worst_quantile = std::max(worst_quantile, std::abs(g / expected - 1.0));
-            // The way back, by the incomplete gamma function itself and not its inverse.
+            // Inverse check by the incomplete gamma function itself.
             const double ratio = z < 0.0 ? cdf(chi, g) / cdf(normal, z)
                                          : cdf(complement(chi, g)) / cdf(complement(normal, z));
             worst_probability = std::max(worst_probability, std::abs(ratio - 1.0));
@@ -94,7 +94,7 @@ TEST_CASE("A noisy folded bin is distributed as the sum of its noisy samples' sq
         shortcut[b] = noisy_bin(folded, draw, b, sigma);
     }
 
-    // Noncentral chi-square: mean and variance in closed form.
+    // Closed forms of mean and variance of the noncentral chi-square law.
     const double mean = folded + kTurns * sigma * sigma;
     const double variance = 2.0 * sigma * sigma * (kTurns * sigma * sigma + 2.0 * folded);
     for (const auto& sample : {direct, shortcut}) {
@@ -147,7 +147,8 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
 
     const boost::math::normal standard;
     CHECK(kolmogorov(noise, [&](double x) { return cdf(standard, x); }) < 1.95);
-    // Uncorrelated with itself at any lag and with the signal: 4 standard errors of 1/sqrt(n).
+    // Correlations with itself at any lag and with the signal are zero: 4 standard errors of
+    // 1/sqrt(n).
     const double limit = 4.0 / std::sqrt(static_cast<double>(noise.size()));
     for (const std::size_t lag : {std::size_t{1}, std::size_t{2}, kBins, 2 * kBins}) {
         double sum = 0.0;

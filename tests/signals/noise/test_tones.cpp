@@ -15,7 +15,8 @@ namespace {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
 
-// Two of Liang's tones (2016, Table 5.1) and a low one, on gearboxes of different speeds.
+// Two of Liang's tones (2016, Table 5.1) and one of low frequency, on gearboxes of different
+// speeds.
 Tones rig_tones() {
     Tones tones;
     for (int lane = 0; lane < 8; ++lane) {
@@ -85,13 +86,15 @@ TEST_CASE("Folded squares with tones equal the sums over all samples of the span
                 worst = std::max(worst, std::abs(folded[b * 8 + lane] / expected[b] - 1.0));
             }
         }
-        // 360 Hz over 2511 meshes is 75,000 turns: the product f T_m alone is rounded to 1e-11.
+        // A tone of 360 Hz over 2511 meshes is 75,000 periods: the product f T_m alone is rounded
+        // to 1e-11.
         CHECK(worst < 1e-10);
     }
 }
 
 TEST_CASE("A tone alone folds to the closed form of its sum of squared sines") {
-    // Sum over i < n of sin^2(a + i b) = n/2 - sin(n b) cos(2 a + (n - 1) b) / (2 sin b).
+    // Closed form: sum over i < n of sin^2(a + i b) = n/2 - sin(n b) cos(2 a + (n - 1) b) / (2 sin
+    // b).
     RandomTile tile(1, 4, 6, 1);
     std::fill(tile.accel[0].begin(), tile.accel[0].end(), 0.0);
     const SpanLayout layout{31, 81, 81};
@@ -151,7 +154,9 @@ TEST_CASE(
     machine::use_instruction_set(best);
 }
 
-TEST_CASE("The synthesized time signal has the tones, whole and in parts, and folds to the bits") {
+TEST_CASE(
+    "The synthesized time signal contains the tones, whole and in parts, and folds to the same "
+    "bits") {
     const RandomTile tile(8, 4, 6, 5);
     const SpanLayout layout{31, 81, 81};
     const Timeline timeline = event_timeline(31, 4, 4);

@@ -41,8 +41,8 @@ class Butterworth {
     Section sections_[2];
 };
 
-// Relative rms difference between filtering each planet's acceleration before the path and
-// filtering the resultant after it, over the second of two carrier turns.
+// Relative rms difference between two orders: filtering each planet's acceleration before the path,
+// and filtering the resultant after it. Evaluated over the second of two carrier turns.
 double difference_of_orders(double carrier_rpm, double cutoff_Hz, double sampling_Hz) {
     constexpr int kPlanets = 4;
     constexpr double kAlpha = 0.1;
@@ -59,7 +59,8 @@ double difference_of_orders(double carrier_rpm, double cutoff_Hz, double samplin
         double early = 0.0;
         double raw = 0.0;
         for (int n = 0; n < kPlanets; ++n) {
-            // A decaying 570 Hz oscillation after each engagement, on a steady pull inwards.
+            // A decaying 570 Hz oscillation after each engagement, with a steady inward
+            // acceleration.
             const double since = std::fmod(mesh_Hz * t + 0.25 * n, 1.0) / mesh_Hz;
             const double burst =
                 50.0 * std::exp(-200.0 * since) * std::cos(2 * kPi * 570.0 * since);
@@ -81,13 +82,13 @@ double difference_of_orders(double carrier_rpm, double cutoff_Hz, double samplin
     return std::sqrt(difference / total);
 }
 
-TEST_CASE("The low-pass may act before the path: they commute to the ratio of their rates") {
+TEST_CASE("The low-pass may be applied before the path: they commute to the ratio of their rates") {
     const double ratio = (8.87 / 60.0) / 800.0;  // Omega / omega_c
     const double difference = difference_of_orders(8.87, 800.0, 20000.0);
     WARN("filter before against after the path at 8.87 rpm, 800 Hz: relative rms difference "
          << difference << ", Omega/omega_c " << ratio);
     CHECK(difference < 5.0 * ratio);
-    // It is this ratio that counts: four times the speed, four times the difference.
+    // The ratio determines the difference: four times the speed, four times the difference.
     CHECK(difference_of_orders(4 * 8.87, 800.0, 20000.0) / difference == Approx(4.0).epsilon(0.3));
 }
 

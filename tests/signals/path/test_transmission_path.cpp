@@ -14,8 +14,8 @@ double farthest(double alpha) {
     return std::exp(alpha * pi * pi) * path_window("hamming").weight(0.0);
 }
 
-TEST_CASE("The farthest planet keeps the share that Liang states for each path exponent") {
-    // Liang (2016), section 4.3: 0.21, 0.08, 0.03; the last belongs to -0.1, not -1 (PHYSICS, 5.6).
+TEST_CASE("The farthest planet keeps the weight that Liang states for each path exponent") {
+    // Source: Liang (2016), section 4.3, 0.21, 0.08, 0.03; the last belongs to -0.1, not -1.
     CHECK(farthest(0.1) == Approx(0.21).margin(0.01));
     CHECK(farthest(0.0) == Approx(0.08).margin(0.001));
     CHECK(farthest(-0.1) == Approx(0.03).margin(0.001));
@@ -36,7 +36,7 @@ TEST_CASE("The path grid holds the angles of every sample of a carrier turn") {
             worst = std::max({worst, std::abs(grid.sine()[place] - std::sin(theta)),
                               std::abs(grid.cosine()[place] - std::cos(theta))});
             for (int n = 0; n < planets; ++n) {
-                // Through a cosine, to which the side of the wrap does not matter.
+                // Compared through a cosine, which does not depend on the side of the wrap.
                 const double angle = theta + 2.0 * pi * n / planets;
                 const int steps = (c - grid.centre()[p * planets + n] + 81 + 40) % 81 - 40;
                 const double from_sensor =
@@ -50,7 +50,7 @@ TEST_CASE("The path grid holds the angles of every sample of a carrier turn") {
     CHECK(worst < 1e-13);
 }
 
-TEST_CASE("With the carrier standing still the planets keep their places") {
+TEST_CASE("With the carrier fixed the planets keep their positions") {
     const PathGrid grid(path_window("hamming"), 4, 10, {31, 81, 1});
     for (int p = 0; p < 10; ++p) {
         CHECK(grid.sine()[p] == 0.0);
@@ -61,8 +61,8 @@ TEST_CASE("With the carrier standing still the planets keep their places") {
     }
 }
 
-TEST_CASE("The path grid holds the angles of planets at given places, whichever way they go") {
-    // 16/26/68 with planets at places 0, 25 and 51 of 84.
+TEST_CASE("The path grid holds the angles of planets at given positions, for both directions") {
+    // Planets of 16/26/68 at positions 0, 25 and 51 of 84.
     const SpanLayout layout{26, 68, 68};
     const gears::PlanetPlaces places{{0, 25, 51}, 84};
     const double pi = std::numbers::pi;
@@ -83,7 +83,7 @@ TEST_CASE("The path grid holds the angles of planets at given places, whichever 
                     const int steps = (c - grid.centre()[p * 3 + n] + 68 + 34) % 68 - 34;
                     const double h = 2.0 * pi / 68.0;
                     const double from_sensor = h * (steps + grid.fraction()[p * 3 + n]);
-                    // g depends on x - pi by its square: its sign does not matter.
+                    // Weight g depends on x - pi by its square: its sign does not matter.
                     worst = std::max(
                         {worst, std::abs(std::cos(from_sensor) + std::cos(angle)),
                          std::abs(grid.window()[place * 3 + n] - (0.5 - 0.5 * std::cos(angle)))});
@@ -95,7 +95,7 @@ TEST_CASE("The path grid holds the angles of planets at given places, whichever 
     }
 }
 
-TEST_CASE("Every path window is found by its name and hears a planet best at the sensor") {
+TEST_CASE("Every path window is found by its name and weights a planet most at the sensor") {
     const double pi = std::numbers::pi;
     for (const PathWindow& window : path_windows()) {
         INFO(window.name);
@@ -106,7 +106,7 @@ TEST_CASE("Every path window is found by its name and hears a planet best at the
             const double x = 2.0 * pi * i / 100;
             CHECK(window.weight(x) >= 0.0);
             CHECK(window.weight(x) <= window.weight(pi));
-            // The path in front of the sensor and behind it are alike.
+            // The path is symmetric about the sensor.
             CHECK(window.weight(x) == Approx(window.weight(2.0 * pi - x)).margin(1e-15));
         }
     }

@@ -1,5 +1,4 @@
-// What the sensors hear of meshes that come one by one, against what is computed of meshes that are
-// kept.
+// Checks sensor signals recorded mesh by mesh against those computed from stored meshes.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -19,7 +18,7 @@ namespace {
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
 constexpr int kPlanets = 4, kPhases = 6, kTePhases = 3;
 constexpr SpanLayout kLayout{7, 9, 9};
-constexpr int kBeyond = 5;  // meshes of the signal behind the span
+constexpr int kBeyond = 5;  // meshes of the signal after the span
 constexpr int kMeshes = 7 * 9 + kBeyond;
 
 Timeline every_mesh() {
@@ -32,7 +31,7 @@ PathGrid path_to_sensor() {
     return {path_window("hamming"), kPlanets, kPhases, kLayout};
 }
 
-// One of a lane's own for each lane.
+// Tones that differ between lanes.
 Tones tones_of(int first, int lanes) {
     Tones tones;
     for (int lane = first; lane < first + lanes; ++lane) {
@@ -57,7 +56,8 @@ HeardSpan heard(const RandomTile& tile, const PathGrid& path, std::span<const do
 
 }  // namespace
 
-TEST_CASE("Heard meshes give the samples and the averaged transmission error of kept ones") {
+TEST_CASE(
+    "Meshes recorded one by one give the samples and averaged transmission error of stored ones") {
     const RandomTile tile(8, kPlanets, kPhases, kMeshes);
     const PathGrid path = path_to_sensor();
     for (const Tones& tones : {Tones{}, tones_of(0, 8)}) {
@@ -84,7 +84,7 @@ TEST_CASE("Heard meshes give the samples and the averaged transmission error of 
     }
 }
 
-TEST_CASE("A gearbox is heard with the same bits alone, among others and on every processor") {
+TEST_CASE("A gearbox's signals have the same bits alone, among others and on every processor") {
     const RandomTile tile(8, kPlanets, kPhases, kMeshes);
     const PathGrid path = path_to_sensor();
     const HeardSpan all = heard(tile, path, kExponents, tones_of(0, 8), kMeshes);
@@ -103,7 +103,7 @@ TEST_CASE("A gearbox is heard with the same bits alone, among others and on ever
     machine::use_instruction_set(best);
 }
 
-TEST_CASE("Samples that nobody asked for are not kept") {
+TEST_CASE("Samples that are not requested are not stored") {
     const RandomTile tile(8, kPlanets, kPhases, kMeshes);
     const PathGrid path = path_to_sensor();
     const HeardSpan none = heard(tile, path, kExponents, {}, 0),

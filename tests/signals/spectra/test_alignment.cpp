@@ -1,4 +1,5 @@
-// Where a record lies in another: known shifts come back, noise and other signals show.
+// Checks the alignment of one record in another: known shifts are recovered, and noise and other
+// signals lower the correlation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -11,7 +12,7 @@ using namespace gearpod::signals;
 
 namespace {
 
-// A period of n samples of some lines, begun `shift` samples late.
+// A period of n samples of some lines, with a delay of `shift` samples.
 std::vector<double> lines(std::size_t n, double shift) {
     std::vector<double> signal(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -33,7 +34,7 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-TEST_CASE("A shift, whole or not, is found again and undone") {
+TEST_CASE("An integer or fractional shift is found and removed") {
     for (const std::size_t n : {279U, 512U, 31U * 27U}) {
         for (const double shift : {0.0, 17.0, 100.37, static_cast<double>(n) - 0.25}) {
             const auto signal = lines(n, 0.0), other = lines(n, -shift);
@@ -46,7 +47,7 @@ TEST_CASE("A shift, whole or not, is found again and undone") {
     }
 }
 
-TEST_CASE("Noise lowers the correlation as its energy says, and moves the shift little") {
+TEST_CASE("Noise lowers the correlation according to its energy, and changes the shift little") {
     std::mt19937 engine(4);
     std::normal_distribution<double> normal;
     auto signal = lines(2790, 0.0);
@@ -62,7 +63,7 @@ TEST_CASE("Noise lowers the correlation as its energy says, and moves the shift 
           Approx(found.correlation).margin(1e-9));
 }
 
-TEST_CASE("What cannot be aligned has no correlation") {
+TEST_CASE("Signals that cannot be aligned have no correlation") {
     const std::vector<double> constant(100, 2.0), ramp{1, 2, 3};
     CHECK(align(constant, lines(100, 0.0)).correlation == 0.0);
     CHECK(correlation(constant, constant) == 0.0);

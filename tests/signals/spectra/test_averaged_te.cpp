@@ -11,7 +11,7 @@ using namespace gearpod::signals;
 
 namespace {
 
-// The average over turns of the whole signal, sample by sample, its mean removed.
+// Average over turns of the whole signal, sample by sample, with its mean removed.
 std::vector<double> direct_average(const RandomTile& tile, int lane, const Timeline& timeline,
                                    const SpanLayout& layout, int te_phases) {
     const int stride = tile.signals.phases / te_phases;
@@ -48,12 +48,13 @@ TEST_CASE("The averaged transmission error is the mean over all turns of the spa
                 worst = std::max(worst, std::abs(turn[i * 8 + lane] - expected[i]));
             }
         }
-        CHECK(worst < 1e-19);  // of 1e-5 rad
+        CHECK(worst < 1e-19);  // relative to 1e-5 rad
     }
 }
 
 TEST_CASE(
-    "A gearbox's averaged transmission error does not ask which mesh periods are one record") {
+    "A gearbox's averaged transmission error does not depend on which mesh periods share a "
+    "record") {
     const RandomTile tile(8, 4, 12, 5);
     RandomTile twice(8, 4, 12, 12);
     for (std::size_t record = 0; record < twice.te.size(); ++record) {
@@ -73,7 +74,7 @@ TEST_CASE("Encoders must divide the samples of a mesh") {
     CHECK_THROWS_AS(average_te(tile.signals, {0}, {31, 81, 81}, 5, turn), std::invalid_argument);
 }
 
-TEST_CASE("Encoder noise falls with the root of the number of averaged turns") {
+TEST_CASE("Encoder noise decreases with the root of the number of averaged turns") {
     std::mt19937_64 engine(11);
     std::vector<double> noise(200000);
     draw_encoder_noise(engine, 81, noise);
@@ -84,7 +85,7 @@ TEST_CASE("Encoder noise falls with the root of the number of averaged turns") {
         square += value * value;
     }
     CHECK(std::abs(sum) < 1e-9);
-    // Standard error of a variance: sqrt(2/n) of it, 0.3 %.
+    // The relative standard error of a variance is sqrt(2/n), 0.3 %.
     CHECK(square / 200000.0 == Approx(1.0 / 81.0).epsilon(0.015));
 }
 

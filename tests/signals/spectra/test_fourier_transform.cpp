@@ -29,7 +29,7 @@ std::vector<Complex> transformed(const std::vector<Complex>& signal, FourierTran
     return out;
 }
 
-// By definition, in 80 bits.
+// Definition of the transform, in 80 bits.
 std::complex<long double> direct(const std::vector<Complex>& signal, std::size_t k, int sign) {
     const std::size_t n = signal.size();
     std::complex<long double> sum = 0.0L;
@@ -46,7 +46,8 @@ TEST_CASE("Fourier transforms of any length are the sums that define them, both 
     for (const int points :
          {1, 2, 5, 7, 31, 36, 62, 7 * 7, 7 * 31, 13 * 8, 31 * 108, 97 * 20, 2 * 1009}) {
         const auto signal = random_signal(points);
-        const double limit = 1e-14 * std::sqrt(points);  // results are some sqrt(2 n) large
+        // Results have a magnitude of some sqrt(2 n).
+        const double limit = 1e-14 * std::sqrt(points);
         for (const auto way : {FourierTransform::Way::forward, FourierTransform::Way::back}) {
             const int sign = way == FourierTransform::Way::back ? 1 : -1;
             const auto spectrum = transformed(signal, way);
@@ -62,7 +63,7 @@ TEST_CASE("Fourier transforms of any length are the sums that define them, both 
     }
 }
 
-TEST_CASE("There and back is the signal times its length") {
+TEST_CASE("The transform and its inverse give the signal times its length") {
     const auto signal = random_signal(31 * 432);
     const auto again = transformed(transformed(signal, FourierTransform::Way::forward),
                                    FourierTransform::Way::back);

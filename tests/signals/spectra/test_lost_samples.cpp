@@ -1,4 +1,4 @@
-// Samples that are missing without a trace, in signals whose losses are known.
+// Checks the detection of missing samples in signals whose losses are known.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@ namespace {
 constexpr int kPerMesh = 12, kTurnMeshes = 20, kTurns = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// Two mesh harmonics that swell once a turn, a speed that is a little off, and noise.
+// Two mesh harmonics with amplitude modulation once per turn, a small speed error, and noise.
 std::vector<double> signal(double ratio, double noise) {
     std::mt19937 engine(5);
     std::normal_distribution<double> draw;
@@ -28,7 +28,7 @@ std::vector<double> signal(double ratio, double noise) {
     return samples;
 }
 
-TEST_CASE("Samples lost in a turn are found there, to a twentieth of a mesh period") {
+TEST_CASE("Samples lost in a turn are located there, to a twentieth of a mesh period") {
     for (const long lost : {1L, 2L, 4L, 7L, 15L}) {
         auto samples = signal(1.0002, 0.2);
         samples.erase(samples.begin() + 1300, samples.begin() + 1300 + lost);
@@ -36,7 +36,7 @@ TEST_CASE("Samples lost in a turn are found there, to a twentieth of a mesh peri
         INFO(lost);
         REQUIRE(found);
         CHECK(found->found);
-        // Give or take whole mesh periods.
+        // Unique up to whole mesh periods.
         CHECK(found->meshes ==
               Approx(std::remainder(static_cast<double>(lost) / kPerMesh, 1.0)).margin(0.05));
         CHECK(found->first_mesh <= 1300 / kPerMesh);
@@ -44,7 +44,7 @@ TEST_CASE("Samples lost in a turn are found there, to a twentieth of a mesh peri
     }
 }
 
-TEST_CASE("Repeated samples are as many too many") {
+TEST_CASE("Repeated samples count as surplus") {
     auto samples = signal(1.0, 0.1);
     samples.insert(samples.begin() + 900, {samples[900], samples[900], samples[900]});
     const auto found = lost_samples(samples, kPerMesh, kTurnMeshes);
@@ -53,7 +53,7 @@ TEST_CASE("Repeated samples are as many too many") {
     CHECK(found->meshes == Approx(-3.0 / kPerMesh).margin(0.05));
 }
 
-TEST_CASE("Whole recordings lack nothing, at a speed that is a little off and in noise, too") {
+TEST_CASE("Complete recordings lack nothing, also with a small speed error and in noise") {
     for (const double ratio : {1.0, 1.0005, 0.999}) {
         for (const double noise : {0.0, 0.3, 1.0}) {
             const auto found = lost_samples(signal(ratio, noise), kPerMesh, kTurnMeshes);
@@ -63,7 +63,7 @@ TEST_CASE("Whole recordings lack nothing, at a speed that is a little off and in
     }
 }
 
-TEST_CASE("Nothing is said of few turns, of noise alone and of silence") {
+TEST_CASE("Few turns, noise alone and silence give no result") {
     const auto samples = signal(1.0, 0.1);
     CHECK(
         !lost_samples(std::span(samples).first(5 * kTurnMeshes * kPerMesh), kPerMesh, kTurnMeshes));

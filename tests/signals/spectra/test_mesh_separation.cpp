@@ -61,7 +61,7 @@ TEST_CASE("The envelope of a modulated mesh harmonic is its modulation") {
         return 1.0 + 0.5 * std::cos(x) + 0.2 * std::sin(3 * x);
     };
     MeshSeparation separation(kPoints, kTeeth);
-    // The second harmonic, the mean and what is slower than the band do not matter.
+    // The second harmonic, the mean and components below the band have no influence.
     separation.load(sampled(kPoints, [&](double x) {
         return modulation(x) * std::cos(20 * x + 0.7) + std::cos(40 * x) + 3.0 + std::sin(4 * x);
     }));

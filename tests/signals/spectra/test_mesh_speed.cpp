@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kPerMesh = 24;
 
-// Lines of a planetary gearbox at multiples of the carrier's turn of `turn_meshes`, in noise,
-// running at `ratio` times the speed that its samples are placed by.
+// Lines of a planetary gearbox at multiples of the carrier frequency (`turn_meshes` meshes per
+// turn), in noise, at `ratio` times the speed assumed by its samples.
 std::vector<double> gearbox(int turn_meshes, int planets, double ratio, double noise, int meshes,
                             unsigned seed) {
     std::mt19937 engine(seed);
@@ -28,7 +28,7 @@ std::vector<double> gearbox(int turn_meshes, int planets, double ratio, double n
     }
     for (int k = 1; k <= 6; ++k) {
         for (int j = -5; j <= 5; ++j) {
-            // Planets in sequence leave the lines whose order is a multiple of their number.
+            // Evenly phased planets leave the lines whose order is a multiple of their number.
             if ((k * turn_meshes + j) % planets != 0) {
                 continue;
             }
@@ -44,7 +44,7 @@ std::vector<double> gearbox(int turn_meshes, int planets, double ratio, double n
     return samples;
 }
 
-TEST_CASE("A speed that is wrong by 2 % shows in the mesh lines, a right one does not") {
+TEST_CASE("A speed error of 2 % is found from the mesh lines, a right speed is confirmed") {
     for (const int turn_meshes : {35, 81, 99}) {
         for (const double ratio : {0.96, 0.98, 0.995, 1.0, 1.02, 1.05}) {
             for (const unsigned seed : {1U, 2U}) {
@@ -60,9 +60,8 @@ TEST_CASE("A speed that is wrong by 2 % shows in the mesh lines, a right one doe
     }
 }
 
-TEST_CASE(
-    "Where three harmonics do not tell which tooth of the comb is which, both ratios are told") {
-    // Alone at +1, -1 and 0 turns of the carrier from the mesh's harmonics.
+TEST_CASE("Where three harmonics leave the mesh line ambiguous, both ratios are reported") {
+    // Isolated lines at +1, -1 and 0 carrier orders from the mesh's harmonics.
     std::vector<double> samples(static_cast<std::size_t>(400) * kPerMesh);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         for (const int line : {35 + 1, 2 * 35 - 1, 3 * 35}) {
@@ -78,7 +77,7 @@ TEST_CASE(
                       [](double ratio) { return std::abs(ratio - 1.02) < 2e-3; }));
 }
 
-TEST_CASE("Noise, a single tone and short records say nothing of the speed") {
+TEST_CASE("Noise, a single tone and short records give no speed") {
     std::mt19937 engine(7);
     std::normal_distribution<double> normal;
     std::vector<double> noise(static_cast<std::size_t>(400) * kPerMesh), tone = noise;

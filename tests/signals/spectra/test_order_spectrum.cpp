@@ -62,7 +62,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A sine of one order shows its amplitude at that order alone") {
+TEST_CASE("A sine of one order has its amplitude at that order alone") {
     const int points = 31 * 16;
     std::vector<double> signal(points);
     for (int i = 0; i < points; ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("A sine of one order shows its amplitude at that order alone") {
     CHECK(*std::max_element(amplitudes.begin(), amplitudes.end()) < 1e-13);
 }
 
-TEST_CASE("Noise that is zero throughout leaves the signal's spectrum as it is") {
+TEST_CASE("Noise that is zero throughout leaves the signal's spectrum unchanged") {
     std::vector<double> signal(62);
     for (std::size_t i = 0; i < signal.size(); ++i) {
         signal[i] = std::cos(0.3 * static_cast<double>(i * i));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-TEST_CASE("Samples on the grid, or on a multiple of it, are taken as they are") {
+TEST_CASE("Samples on the grid, or on a multiple of it, are used unchanged") {
     std::vector<double> phase, signal;
     for (int i = 0; i < 96; ++i) {
         phase.push_back(2.0 + i / 12.0);
@@ -26,8 +26,8 @@ TEST_CASE("Samples on the grid, or on a multiple of it, are taken as they are") 
     }
 }
 
-TEST_CASE("A speed that rises by half is followed") {
-    // phase(t) = 20 t + t^2 over 10 s, sampled at 1 kHz; the signal has orders 1 and 3.
+TEST_CASE("A speed that rises by half is tracked") {
+    // Phase phi(t) = 20 t + t^2 over 10 s, sampled at 1 kHz; the signal has orders 1 and 3.
     const auto of_phase = [](double phase) {
         return std::sin(kTwoPi * phase) + 0.3 * std::cos(3.0 * kTwoPi * phase);
     };
@@ -48,9 +48,8 @@ TEST_CASE("A speed that rises by half is followed") {
 }
 
 // The interpolant of exp(2 pi i f n) has the line f with weight 1 / (1 + S) and its images f - k
-// with the rest, S = sum over k != 0 of (f / (f - k))^4: at worst they are 2 S / (1 + S) off
-// together.
-TEST_CASE("A sine at a tenth and at a fifth of the sampling rate is off by what theory says") {
+// with the rest, S = sum over k != 0 of (f / (f - k))^4. The total error is at most 2 S / (1 + S).
+TEST_CASE("The error of a sine at a tenth and at a fifth of the sampling rate matches the theory") {
     for (const double share : {0.1, 0.2}) {
         double images = 0.0;
         for (int k = 1; k < 200; ++k) {
@@ -74,7 +73,7 @@ TEST_CASE("A sine at a tenth and at a fifth of the sampling rate is off by what 
     }
 }
 
-TEST_CASE("Phases that do not rise and recordings that are too short are refused") {
+TEST_CASE("Decreasing phases and recordings that are too short are refused") {
     CHECK_THROWS_AS(OrderTracking({0.0}), std::invalid_argument);
     CHECK_THROWS_AS(OrderTracking({0.0, 1.0, 1.0}), std::invalid_argument);
     const OrderTracking tracking({0.0, 0.5, 1.0, 1.5});

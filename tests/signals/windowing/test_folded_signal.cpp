@@ -23,8 +23,7 @@ std::vector<double> direct_fold(const std::vector<double>& signal, std::size_t b
     return folded;
 }
 
-// Largest relative difference between the folded squares of the tile and of the sample-by-sample
-// sum.
+// Largest relative difference between the folded squares of the tile and the sample-by-sample sum.
 double fold_error(const RandomTile& tile, const Timeline& timeline, const SpanLayout& layout,
                   const char* window) {
     const int phases = tile.signals.phases;
@@ -45,7 +44,7 @@ double fold_error(const RandomTile& tile, const Timeline& timeline, const SpanLa
     return worst;
 }
 
-TEST_CASE("Folded squares equal the sums over all samples of the span, whoever is cracked") {
+TEST_CASE("Folded squares equal the sums over all samples of the span, for any cracked member") {
     const RandomTile tile(8, 4, 6, 5);
     const SpanLayout ring_fixed{31, 81, 81};
     CHECK(fold_error(tile, event_timeline(31, 12, 4), ring_fixed, "hamming") < 1e-12);
@@ -54,12 +53,12 @@ TEST_CASE("Folded squares equal the sums over all samples of the span, whoever i
     CHECK(fold_error(tile, {0}, ring_fixed, "hamming") < 1e-12);
 }
 
-TEST_CASE("Folded squares follow the member that is held and the number of planets") {
+TEST_CASE("Folded squares are right for any fixed member and number of planets") {
     const RandomTile three(8, 3, 4, 3, 7);
     const RandomTile five(8, 5, 4, 3, 8);
     CHECK(fold_error(three, event_timeline(31, 0, 2), {31, 81, 19}, "hamming") < 1e-12);
     CHECK(fold_error(five, event_timeline(31, 30, 2), {31, 81, 1}, "hamming") < 1e-12);
-    // Z_p and M_c with a common factor: the planet's teeth see different carrier angles.
+    // Common factor of Z_p and M_c: the planet's teeth meet different carrier angles.
     CHECK(fold_error(three, event_timeline(30, 3, 2), {30, 84, 84}, "hamming") < 1e-12);
 }
 
@@ -99,9 +98,9 @@ TEST_CASE(
     machine::use_instruction_set(best);
 }
 
-// In a tile whose other lanes take longer to settle, places of the timeline that are alike for this
-// lane have records of their own, numbered in another order.
-TEST_CASE("A gearbox folds to the same bits whichever of its mesh periods are recorded twice") {
+// Tile whose other lanes converge more slowly: places of the timeline that are equal for this lane
+// have separate records, numbered in another order.
+TEST_CASE("A gearbox folds to the same bits regardless of duplicate records of its mesh periods") {
     const RandomTile tile(8, 4, 6, 5);
     RandomTile twice(8, 4, 6, 12);
     const std::vector<int> original{0, 4, 3, 2, 1, 0, 0, 0, 0, 0, 0, 0};
@@ -126,7 +125,8 @@ TEST_CASE("A gearbox folds to the same bits whichever of its mesh periods are re
     }
 }
 
-TEST_CASE("The synthesized time signal is the path equation's and folds to the folded squares") {
+TEST_CASE(
+    "The synthesized time signal satisfies the path equation and folds to the folded squares") {
     const RandomTile tile(8, 4, 6, 5);
     const SpanLayout layout{31, 81, 81};
     const Timeline timeline = event_timeline(19, 4, 4);
@@ -157,7 +157,8 @@ TEST_CASE("The synthesized time signal is the path equation's and folds to the f
     CHECK(std::accumulate(bins.begin(), bins.end(), 0.0) == Approx(sum).epsilon(1e-12));
 }
 
-TEST_CASE("A planet crack costs one sum per distinct mesh, a ring crack shows in no tooth alone") {
+TEST_CASE(
+    "A planet crack costs one sum per distinct mesh; a ring crack affects no single planet tooth") {
     const SpanLayout layout{31, 81, 81};
     CHECK(FoldPlan(event_timeline(31, 3, 4), layout).sums().first.size() == 5 + 1);
     const FoldPlan ring(event_timeline(81, 3, 4), layout);

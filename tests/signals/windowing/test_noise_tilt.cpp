@@ -1,4 +1,4 @@
-// Means of tilted and weighted noise against the closed forms of plain noise.
+// Checks means over exponentially tilted, weighted noise against the closed forms of plain noise.
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr int kPhases = 24;
 constexpr std::size_t kBins = 5 * kPhases;
 constexpr double kSigma = 0.7;
 
-// A tooth, the third, louder than the others by a share.
+// Folded squares in which the third tooth is louder than the others by a factor.
 std::vector<double> folded_of(double louder) {
     std::vector<double> folded(kBins);
     for (std::size_t b = 0; b < kBins; ++b) {
@@ -35,7 +35,7 @@ NoiseDraw tilted_draw(const NoiseTilt& tilt, std::size_t record, std::mt19937_64
     return draw;
 }
 
-// Mean and its standard error of weight x indicator.
+// Mean of weight x indicator and its standard error.
 struct Mean {
     double mean = 0.0, error = 0.0;
 };
@@ -53,7 +53,7 @@ Mean weighted(const NoiseTilt& tilt, int records, std::uint64_t seed, Indicator 
     return {mean, std::sqrt((squares / n - mean * mean) / n)};
 }
 
-// Of a stretch of bins, over sigma^2.
+// Energy of a stretch of bins over sigma^2.
 double energy(const std::vector<double>& folded, const NoiseDraw& draw, std::size_t first,
               std::size_t length) {
     double sum = 0.0;
@@ -65,7 +65,8 @@ double energy(const std::vector<double>& folded, const NoiseDraw& draw, std::siz
     return sum;
 }
 
-TEST_CASE("Weighted tilted noise has the tail of a noncentral chi-square down to 1e-8") {
+TEST_CASE(
+    "Weighted, exponentially tilted noise has the tail of a noncentral chi-square down to 1e-8") {
     const std::vector<double> folded = folded_of(0.5), sigmas{0.0, kSigma, 2.0 * kSigma};
     NoiseTilt tilt(kLayout, kPhases, 0.0);  // stretches of a whole mesh period
     tilt.load(folded, sigmas, NoiseTilt::Towards::loud);
@@ -83,13 +84,13 @@ TEST_CASE("Weighted tilted noise has the tail of a noncentral chi-square down to
         CHECK(std::abs(found.mean - rate) < 4.0 * found.error);
         CHECK(found.error < 0.15 * rate);
     }
-    // And all together are plain noise again.
+    // The mixture of all is plain noise again.
     const Mean whole = weighted(tilt, 20000, 4, [](const NoiseDraw&) { return true; });
     CHECK(std::abs(whole.mean - 1.0) < 4.0 * whole.error);
     CHECK(whole.error < 0.02);
 }
 
-TEST_CASE("Weighted quiet noise has the lower tail of the loudest stretch") {
+TEST_CASE("Noise exponentially tilted to low energy has the lower tail of the loudest stretch") {
     const std::vector<double> folded = folded_of(0.5), sigmas{kSigma};
     NoiseTilt tilt(kLayout, kPhases, 0.0);
     tilt.load(folded, sigmas, NoiseTilt::Towards::quiet);
@@ -118,7 +119,7 @@ double ratio(Windowing& windowing, const std::vector<double>& folded, const Nois
     return rms[4] / rms[2];
 }
 
-TEST_CASE("Rates of the largest over the median tooth are those of counted alarms") {
+TEST_CASE("Rates of the largest over the median tooth agree with those of counted alarms") {
     const std::vector<double> folded = folded_of(0.0), sigmas{kSigma};
     constexpr double kTaper = 0.2;
     NoiseTilt tilt(kLayout, kPhases, kTaper);
@@ -146,7 +147,7 @@ TEST_CASE("Rates of the largest over the median tooth are those of counted alarm
     }
 }
 
-TEST_CASE("Without noise nothing is tilted, and bins must be those of the layout") {
+TEST_CASE("Without noise there is no tilting, and bins must match the layout") {
     NoiseTilt tilt(kLayout, kPhases, 0.1);
     const std::vector<double> folded = folded_of(0.0), none{0.0}, few(7);
     tilt.load(folded, none, NoiseTilt::Towards::loud);

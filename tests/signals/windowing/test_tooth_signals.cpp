@@ -24,8 +24,8 @@ std::vector<double> normal_samples(std::size_t count, unsigned seed) {
     return samples;
 }
 
-TEST_CASE("Turns of a gear fill whole turns of the carrier") {
-    // Liang's 19/31/81 with the ring held: 81 meshes a carrier turn.
+TEST_CASE("The turns of a gear fill whole turns of the carrier") {
+    // Liang's 19/31/81 with the ring fixed: 81 meshes per carrier turn.
     const GearTurns sun = turns_of_span(19, 81, 31 * 81);
     CHECK(sun.turns == 81);
     CHECK(turns_of_span(81, 81, 31 * 81).turns == 31);
@@ -33,10 +33,10 @@ TEST_CASE("Turns of a gear fill whole turns of the carrier") {
     CHECK(turns_of_span(40, 81, 31 * 81).turns == 0);  // 3240 meshes do not fit
     CHECK(fewest_turns(40, 81).meshes() == 40 * 81);
     CHECK(fewest_turns(36, 81).turns == 9);
-    CHECK(turns_of_span(19, 1, 100).turns == 5);  // a carrier that stands still
+    CHECK(turns_of_span(19, 1, 100).turns == 5);  // fixed carrier
 }
 
-TEST_CASE("A tooth's RMS is that of the folded squares") {
+TEST_CASE("A tooth's RMS matches the folded squares") {
     const int phases = 12;
     const GearTurns gear{7, 5};
     const auto samples = normal_samples(gear.meshes() * phases + 40, 1);  // and some more
@@ -51,8 +51,8 @@ TEST_CASE("A tooth's RMS is that of the folded squares") {
     }
 }
 
-TEST_CASE("A shock once a turn of a gear shows on one tooth of that gear only") {
-    // 13/11/35 teeth. The sun's tooth 4 rings once in 13 meshes, over 13 x 35 meshes.
+TEST_CASE("A shock once per turn of a gear affects one tooth of that gear only") {
+    // Teeth 13/11/35. The sun's tooth 4 has a shock once in 13 meshes, over 13 x 35 meshes.
     const int phases = 16;
     auto samples = normal_samples(13 * 35 * phases, 2);
     for (int k = 4; k < 13 * 35; k += 13) {
@@ -69,16 +69,16 @@ TEST_CASE("A shock once a turn of a gear shows on one tooth of that gear only") 
         return std::max_element(teeth.begin(), teeth.end()) - teeth.begin();
     };
     CHECK(worst(sun.m8a) == 4);
-    // The planet's teeth share the shocks: two in 35 windows, or three.
+    // The shocks are distributed over the planet's teeth: two in 35 windows, or three.
     for (const double rms : planet.rms) {
         CHECK(rms > 1.1);
         CHECK(rms < 1.45);
     }
 }
 
-TEST_CASE("Statistics of a tooth's signal are those of its samples") {
-    // A sine sampled at eight phases, with a rectangular window: crest sqrt 2, kurtosis 1.5, M8A
-    // 35/8 (eighth moment 35/128 over (1/2)^4).
+TEST_CASE("Statistics of a tooth's signal match its samples") {
+    // Sine sampled at eight phases with a rectangular window: crest sqrt 2, kurtosis 1.5, M8A 35/8
+    // (eighth moment 35/128 over (1/2)^4).
     std::vector<double> samples(3 * 4 * 8);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         samples[i] = std::sin(kTwoPi * static_cast<double>(i) / 8.0);
@@ -98,7 +98,7 @@ TEST_CASE("Statistics of a tooth's signal are those of its samples") {
                     std::invalid_argument);
 }
 
-TEST_CASE("What varies smoothly along the path goes, a single tooth stays") {
+TEST_CASE("Smooth variation along the path is removed, a single tooth remains") {
     std::vector<double> values(81);
     for (std::size_t j = 0; j < values.size(); ++j) {
         const double x = kTwoPi * static_cast<double>(j) / 81.0;
@@ -116,7 +116,7 @@ TEST_CASE("What varies smoothly along the path goes, a single tooth stays") {
     }
 }
 
-TEST_CASE("The average over turns keeps what repeats, the rest is what it leaves") {
+TEST_CASE("The average over turns keeps the repeating part, the rest is the residual") {
     const int bins = 30, turns = 400;
     auto samples = normal_samples(bins * turns + 11, 5);
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The window as printed in Liang (2016), section 5.3.1.
+// Window as printed in Liang (2016), section 5.3.1.
 double printed_tukey(int n, int points, double alpha) {
     const double last = points - 1;
     if (n < alpha * last / 2.0) {
@@ -25,9 +25,9 @@ double printed_tukey(int n, int points, double alpha) {
     return 0.5 * (1.0 + std::cos(kPi * (2.0 * n / (alpha * last) - 2.0 / alpha + 1.0)));
 }
 
-// Liang (2016), section 5.3, step by step on a time signal of Z_p Z_r meshes that repeats: cut the
-// windows of tooth S every Z_p meshes, put the n-th on ring tooth mod((n-1) Z_p + 1, Z_r), and take
-// the RMS of the assembled tooth signal.
+// Liang (2016), section 5.3, step by step on a repeating time signal of Z_p Z_r meshes. Cuts the
+// windows of tooth S every Z_p meshes, puts the n-th on ring tooth mod((n-1) Z_p + 1, Z_r), and
+// takes the RMS of the assembled tooth signal.
 std::vector<double> window_and_map(const std::vector<double>& signal, const SpanLayout& layout,
                                    int phases, double taper, int offset) {
     std::vector<double> rms;
@@ -66,7 +66,9 @@ std::vector<double> fold(const std::vector<double>& signal, std::size_t bins) {
     return folded;
 }
 
-TEST_CASE("The Tukey window is the printed one and ends in the rectangular and the Hann window") {
+TEST_CASE(
+    "The Tukey window matches the printed one and its limits are the rectangular and the Hann "
+    "window") {
     for (const double taper : {0.1, 0.35, 1.0}) {
         for (const int points : {17, 432}) {
             const std::vector<double> window = tukey_window(points, taper);
@@ -90,7 +92,7 @@ std::vector<double> random_values(std::size_t count, unsigned seed, double low, 
     return values;
 }
 
-// The noisy bins one by one and each window's sum as it is printed, in 80 bits.
+// Sums the noisy bins one by one for each window as printed, in 80 bits.
 struct DirectWindows {
     int offset = 0;
     std::vector<double> rms;
@@ -159,7 +161,7 @@ TEST_CASE("Tooth RMS from the folded squares equals windowing and mapping of the
     }
 }
 
-TEST_CASE("Every noise level's windows are those of its noisy bins, faint noise or faint signal") {
+TEST_CASE("Every noise level's windows match its noisy bins, for faint noise or faint signal") {
     for (const int teeth : {2, 7, 8, 9, 16, 31}) {
         for (const int phases : {2, 13, 40}) {
             const SpanLayout layout{teeth, 12, 12};
@@ -190,7 +192,7 @@ TEST_CASE("Every noise level's windows are those of its noisy bins, faint noise 
     }
 }
 
-TEST_CASE("Noise that cancels the signal leaves nothing, not less") {
+TEST_CASE("Noise that cancels the signal leaves zero, not less") {
     const SpanLayout layout{9, 12, 12};
     const int phases = 20;
     const double sigma = 0.7;
@@ -206,12 +208,12 @@ TEST_CASE("Noise that cancels the signal leaves nothing, not less") {
     windowing.search(0.0, clean);
     for (int j = 0; j < 9; ++j) {
         CHECK(rms[j] >= 0.0);
-        CHECK(rms[j] < 1e-7 * clean[j]);  // the root of the rounding
+        CHECK(rms[j] < 1e-7 * clean[j]);  // root of the rounding error
     }
     CHECK(windowing.mean_square(sigma) >= 0.0);
 }
 
-TEST_CASE("Without noise the windows are the same whether some was loaded, and none is made up") {
+TEST_CASE("Without noise the windows do not depend on previously loaded noise") {
     const SpanLayout layout{31, 81, 81};
     const std::vector<double> folded = random_values(31 * 50, 3, 0.0, 1.0);
     const NoiseDraw noise{random_values(folded.size(), 6, -2.0, 2.0),
@@ -233,7 +235,7 @@ TEST_CASE("Without noise the windows are the same whether some was loaded, and n
     CHECK_THROWS_AS(windowing.load(folded, NoiseDraw{few, few}), std::invalid_argument);
 }
 
-TEST_CASE("Equal teeth have bit-equal RMS and the earliest of equal offsets is taken") {
+TEST_CASE("Equal teeth have bit-equal RMS and the earliest of equal offsets is used") {
     const SpanLayout layout{31, 81, 81};
     const int phases = 50;
     std::vector<double> folded = random_values(31 * phases, 4, 0.0, 1.0);

@@ -1,4 +1,4 @@
-// Growth by Paris' law against closed integrals, and against cycles counted one by one.
+// Checks growth by Paris' law against closed integrals and against cycle-by-cycle summation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@ using namespace gearpod::stiffness;
 
 namespace {
 
-// A crack with the same factor at all depths: K = Y sigma sqrt(pi a), load sigma.
+// A crack with the same factor at all depths: K = Y sigma sqrt(pi a) for load sigma.
 constexpr double kFactor = 1.12;
 double same_factor(double depth) {
     return kFactor * std::sqrt(std::numbers::pi * depth);
@@ -24,7 +24,7 @@ double closed_cycles(const ParisLaw& law, double stress, double a, double b) {
     return (p == 0.0 ? std::log(b / a) : (std::pow(b, p) - std::pow(a, p)) / p) / rate;
 }
 
-TEST_CASE("Growth with one geometry factor is the closed integral's", "[growth]") {
+TEST_CASE("Growth with one geometry factor matches the closed integral", "[growth]") {
     const double first = 0.2e-3, last = 4e-3, stress = 150e6;
     for (const double m : {2.0, 2.7, 3.0, 4.0}) {
         INFO(m);
@@ -42,12 +42,12 @@ TEST_CASE("Growth with one geometry factor is the closed integral's", "[growth]"
     }
 }
 
-TEST_CASE("C in mm a cycle at 1 MPa m^1/2 is that rate", "[growth]") {
+TEST_CASE("C in mm per cycle at 1 MPa m^1/2 is that rate", "[growth]") {
     const ParisLaw law = paris_law_mm_MPa(6.9e-9, 3.0);
     CHECK(law.factor * std::pow(20e6, 3.0) == Approx(1e-3 * 6.9e-9 * 8000.0));
 }
 
-TEST_CASE("Loads in any order do what they do cycle by cycle", "[growth]") {
+TEST_CASE("Loads in any order have the effect of cycle-by-cycle summation", "[growth]") {
     const ParisLaw law = paris_law_mm_MPa(5e-7, 3.2);
     const auto range = [](double a) { return same_factor(a) * (1.0 + 200.0 * a); };
     const ParisGrowth growth(law, range, 0.5e-3, 5e-3);
@@ -58,12 +58,12 @@ TEST_CASE("Loads in any order do what they do cycle by cycle", "[growth]") {
         damage += growth.damage_of(stress, 1.0);
     }
     REQUIRE(depth > 1e-3);
-    // A cycle's step is a thousandth of the depth at most: so is what counting takes beside the
+    // Growth per cycle is at most a thousandth of the depth, and so is the difference to the
     // integral.
     CHECK(growth.depth_after(damage) == Approx(depth).epsilon(2e-3));
 }
 
-TEST_CASE("Growth needs depths and a load that opens the crack", "[growth]") {
+TEST_CASE("Growth requires depths and a load that opens the crack", "[growth]") {
     const ParisLaw law = paris_law_mm_MPa(1e-8, 3.0);
     CHECK_THROWS_AS(ParisGrowth(law, same_factor, 0.0, 1e-3), std::invalid_argument);
     CHECK_THROWS_AS(ParisGrowth(law, same_factor, 1e-3, 1e-3), std::invalid_argument);

@@ -1,4 +1,4 @@
-// Stress intensities at a cracked tooth's root.
+// Checks stress intensities at a cracked tooth's root.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -15,8 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-TEST_CASE("Geometry factors of an edge crack are the published ones", "[growth]") {
-    // Kaya and Erdogan (1987): a / w, tension, bending.
+TEST_CASE("Geometry factors of an edge crack match published ones", "[growth]") {
+    // Source: Kaya and Erdogan (1987); a / w, tension, bending.
     struct Row {
         double share, tension, bending;
     };
@@ -28,8 +28,8 @@ TEST_CASE("Geometry factors of an edge crack are the published ones", "[growth]"
         CHECK(edge_crack_tension(row.share) == Approx(row.tension).epsilon(1.5e-3));
         CHECK(edge_crack_bending(row.share) == Approx(row.bending).epsilon(1.5e-3));
     }
-    // The polynomials of B. Gross and J. E. Srawley in W. F. Brown, J. E. Srawley, ASTM STP 410
-    // (1966), a / w up to 0.6: within 0.5 % (tension) and 0.2 % (bending) by their own account.
+    // Polynomials of B. Gross and J. E. Srawley in W. F. Brown, J. E. Srawley, ASTM STP 410 (1966),
+    // a / w up to 0.6, with a stated accuracy of 0.5 % (tension) and 0.2 % (bending).
     for (double a = 0.0; a < 0.61; a += 0.05) {
         INFO(a);
         const double bending = 1.122 + a * (-1.40 + a * (7.33 + a * (-13.08 + a * 14.0)));
@@ -37,22 +37,22 @@ TEST_CASE("Geometry factors of an edge crack are the published ones", "[growth]"
         CHECK(edge_crack_bending(a) == Approx(bending).epsilon(5e-3));
         CHECK(edge_crack_tension(a) == Approx(tension).epsilon(7e-3));
     }
-    // A small ligament b feels the moment M on it: K_I = 3.975 M / b^(3/2). Bending has sigma w^2 /
-    // 6, tension acts w / 2 away.
+    // Limit of a small ligament b under the moment M: K_I = 3.975 M / b^(3/2). Bending has sigma
+    // w^2 / 6; tension acts at a distance of w / 2.
     const double b = 1e-4, limit = 3.975 / std::sqrt(pi) * std::pow(b, -1.5);
     CHECK(edge_crack_bending(1.0 - b) == Approx(limit / 6.0).epsilon(2e-3));
     CHECK(edge_crack_tension(1.0 - b) == Approx(limit / 2.0).epsilon(2e-3));
 }
 
-TEST_CASE("Geometry factors of an edge crack are those of finite elements", "[growth]") {
-    // tests/peers/fem-gear-pairs/strip_fem.py.
+TEST_CASE("Geometry factors of an edge crack match finite elements", "[growth]") {
+    // Source: tests/peers/fem-gear-pairs/strip_fem.py.
     double handbook_low = 0.0;
     for (const finite_elements::Row& row : finite_elements::table("strip.csv")) {
         const double share = row.number("share"), half = 0.5 * pi * share;
         INFO(share);
         CHECK(edge_crack_tension(share) == Approx(row.number("tension")).epsilon(2.5e-3));
         CHECK(edge_crack_bending(share) == Approx(row.number("bending")).epsilon(2.5e-3));
-        // The closed form printed under Tada's name for bending is low by up to 2.4 %.
+        // The closed form printed under Tada's name for bending is up to 2.4 % too low.
         const double printed = std::sqrt(std::tan(half) / half) *
                                (0.923 + 0.199 * std::pow(1.0 - std::sin(half), 4)) / std::cos(half);
         handbook_low = std::max(handbook_low, 1.0 - printed / row.number("bending"));
@@ -62,15 +62,15 @@ TEST_CASE("Geometry factors of an edge crack are those of finite elements", "[gr
 
 TEST_CASE("A shallow edge crack in shear has the factor of a half plane", "[growth]") {
     CHECK(edge_crack_shear(0.0) == Approx(1.1215).epsilon(1e-3));
-    // A small ligament b under the shear force Q has 1.30 times 2 Q / sqrt(pi b): the limit of the
+    // Limit of a small ligament b under the shear force Q: 1.30 times 2 Q / sqrt(pi b), from the
     // handbook's solution for a pair of forces Q at the mouth.
     const double b = 1e-4;
     CHECK(edge_crack_shear(1.0 - b) == Approx(1.30 * 2.0 / pi / std::sqrt(b)).epsilon(5e-3));
 }
 
-// A force on a tooth of half thickness h at the root, cracked square to its centre line: the beam's
-// stresses times the factors.
-TEST_CASE("A square root crack opens as a cracked beam", "[growth]") {
+// A force on a tooth of half thickness h at the root, cracked perpendicular to its centre line: the
+// beam's stresses times the factors.
+TEST_CASE("A perpendicular root crack opens as a cracked beam", "[growth]") {
     const auto pair = gears::MeshGeometry(test_pairs::external(31), test_pairs::internal(81));
     const double width = 38.1e-3, force = 5000.0, tau = 0.7;
     const RootCrack crack(pair, Profile::root_circle, 1, pi / 2, width);
@@ -92,7 +92,8 @@ TEST_CASE("A square root crack opens as a cracked beam", "[growth]") {
     CHECK(crack.intensity(0.0, force, tau) == 0.0);
 }
 
-TEST_CASE("An inclined crack's plane has the equilibrium of the tooth above it", "[growth]") {
+TEST_CASE("The loads on an inclined crack's plane are in equilibrium with the tooth above it",
+          "[growth]") {
     const auto pair = gears::MeshGeometry(test_pairs::external(31), test_pairs::internal(81));
     const double width = 38.1e-3, v = pi / 4, tau = 0.7, depth = 1e-3;
     const RootCrack crack(pair, Profile::root_circle, 1, v, width);
@@ -100,7 +101,7 @@ TEST_CASE("An inclined crack's plane has the equilibrium of the tooth above it",
     const double a = pair.contact_angle(1, tau);
     const ToothSection contact = tooth.section(tooth.involute_angle(a));
     const double h = tooth.root_half_thickness(), w = 2.0 * h / std::sin(v);
-    // Vectors: the plane from the root at (0, h) along -(cos v, sin v), the force of 1 N.
+    // Vector form: the plane from the root at (0, h) along -(cos v, sin v), the force of 1 N.
     const double middle[2] = {-0.5 * w * std::cos(v), h - 0.5 * w * std::sin(v)};
     const double at[2] = {contact.axial - tooth.root_axial(), contact.half_thickness};
     const double push[2] = {-std::sin(a), -std::cos(a)};
@@ -114,7 +115,7 @@ TEST_CASE("An inclined crack's plane has the equilibrium of the tooth above it",
     CHECK(crack.intensity(depth, 1.0, tau) == Approx(expected));
 }
 
-TEST_CASE("The intensity of fracture mechanics is the crack path's", "[growth]") {
+TEST_CASE("The stress intensity of fracture mechanics matches the crack path's", "[growth]") {
     const auto pair = gears::MeshGeometry(test_pairs::external(31), test_pairs::internal(81));
     const double width = 38.1e-3, force = 5000.0, tau = 0.7;
     for (const int which : {1, 2}) {
@@ -136,7 +137,9 @@ TEST_CASE("The intensity of fracture mechanics is the crack path's", "[growth]")
     }
 }
 
-TEST_CASE("The largest intensity is where one pair bears all, and grows with depth", "[growth]") {
+TEST_CASE(
+    "The largest intensity occurs where one pair carries the whole load, and grows with depth",
+    "[growth]") {
     const auto pair = gears::MeshGeometry(test_pairs::external(19), test_pairs::external(31));
     const RootCrack crack(pair, Profile::root_circle, 2, pi / 4, 38.1e-3);
     const double ratio = pair.contact_ratio();

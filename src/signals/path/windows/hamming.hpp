@@ -1,4 +1,4 @@
-// Liang (2016), Eq. 4.3.1: 8 % of the farthest planet is left.
+// Hamming window: 8 % of the signal of the farthest planet remains. Liang (2016), Eq. 4.3.1.
 #pragma once
 
 #include <cmath>

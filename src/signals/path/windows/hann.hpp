@@ -1,4 +1,5 @@
-// Hann window, nothing left of the farthest planet: Liang (2016), section 4.3, case 3 of Fig. 4.10.
+// Hann window: nothing of the signal of the farthest planet remains. Liang (2016), section 4.3,
+// case 3 of Fig. 4.10.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Every planet is heard alike wherever it is: a sensor that turns with the carrier.
+// Rectangular window: every planet counts the same at every angle, as for a sensor that turns with
+// the carrier.
 #pragma once
 
 namespace gearpod::signals {
