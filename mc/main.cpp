@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "mc/help/manual.hpp"
+#include "mc/help/reference.hpp"
 #include "mc/options/options.hpp"
 #include "mc/options/program.hpp"
 #include "mc/results/provenance.hpp"
@@ -24,8 +25,8 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
-// Adds the options that print the command line as a man page and as bash completion, used at
-// installation.
+// Adds the options that print the program's own description: man page, bash completion and JSON.
+// The build and the documentation call the program for them.
 void add_descriptions(CLI::App& app) {
     const auto print = [](const std::string& text) {
         fmt::print("{}", text);
@@ -37,6 +38,9 @@ void add_descriptions(CLI::App& app) {
     app.add_flag_callback(
         "--completion", [&app, print] { print(bash_completion(app)); },
         "print the bash completion (source <(gearpod --completion))");
+    app.add_flag_callback(
+        "--reference", [&app, print] { print(reference_json(app, version_text())); },
+        "print commands, study keys, distributions and features as JSON");
 }
 
 int run_program(int argc, char** argv) {

@@ -6,7 +6,7 @@ import hashlib
 import pathlib
 import zipfile
 
-VERSION = "0.1.0"
+VERSION = "0.3.0"
 NAME = f"gearpod-{VERSION}"
 HERE = pathlib.Path(__file__).parent
 METADATA = f"""Metadata-Version: 2.1

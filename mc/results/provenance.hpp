@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// For example "gearpod 0.1.0 (git 0123abc)".
+// For example "gearpod 0.3.0 (git 0123abc)".
 std::string version_text();
 
 // The same for the attributes code_version and git_hash of a results file.

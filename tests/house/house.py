@@ -46,7 +46,7 @@ class Tree:
 
     def found(self):
         """Yields all files except build folders and hidden ones."""
-        tops = [self.root / name for name in PARTS + ("tests", "studies")]
+        tops = [self.root / name for name in PARTS + ("tests", "studies", "docs")]
         yield from sorted(path for path in self.root.glob("*") if path.is_file()
                           and not path.name.startswith("."))
         for top in tops:

@@ -22,6 +22,10 @@ check_program() {
     [ -x "$prefix/share/gearpod/studies/slurm.sh" ] || fail "no slurm.sh"
     [ -x "$prefix/share/gearpod/studies/slurm-array.sh" ] || fail "no slurm-array.sh"
 
+    for documents in "$prefix/share/doc/gearpod" "$prefix/share/gearpod/studies"; do
+        /usr/bin/python3 -Bs "$here/../docs/check_links.py" "$documents" >links || fail "$(cat links)"
+    done
+
     if /usr/bin/python3 -c "import h5py" 2>/dev/null; then
         PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -Bc \
             'import gearpod, sys; assert len(gearpod.open("r.h5")) == 64

@@ -1,0 +1,217 @@
+#include "mc/help/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "features/feature.hpp"
+#include "mc/study/distributions/parameters.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json option_json(const CLI::Option& option) {
+    const bool takes_value = option.get_items_expected_max() > 0;
+    Json json = Json::object();
+    json["name"] = option.get_name(option.get_positional(), true);
+    json["positional"] = option.get_positional();
+    json["required"] = option.get_required();
+    json["type"] = takes_value ? option.get_type_name() : std::string();
+    json["several"] = option.get_items_expected_max() > 1;
+    json["meaning"] = option.get_description();
+    return json;
+}
+
+Json command_json(const CLI::App& command) {
+    Json options = Json::array();
+    for (const CLI::Option* option : command.get_options(
+             [](const CLI::Option* shown) { return !shown->get_group().empty(); })) {
+        options.push_back(option_json(*option));
+    }
+    Json json = Json::object();
+    json["name"] = command.get_name();
+    json["meaning"] = command.get_description();
+    json["options"] = std::move(options);
+    return json;
+}
+
+// A value of the file's unit without the rounding error of the conversion from SI.
+double rounded(double value) {
+    return std::stod(fmt::format("{:.12g}", value));
+}
+
+// Studies that give nothing but the kind of gearbox.
+struct EmptyStudies {
+    Study planetary, fixed_shaft;
+
+    EmptyStudies() { fixed_shaft.gearbox.kind = GearboxKind::fixed_shaft; }
+};
+
+// Type, allowed values and default of a key, written into `json`. The default is the value in a
+// study that does not give the key; there is none where the program derives the value.
+class ValueForm {
+  public:
+    ValueForm(const Key& key, const Study& defaults, Json& json)
+        : key_(key), defaults_(defaults), json_(json) {}
+
+    void operator()(const NumberAccess& access) const {
+        json_["type"] = "number";
+        const std::optional<double> value = access.get(defaults_);
+        if (value && std::isfinite(*value)) {
+            add_default(rounded(*value / key_.unit.to_si));
+        }
+    }
+    void operator()(const IntegerAccess& access) const {
+        json_["type"] = "integer";
+        if (const std::optional<std::int64_t> value = access.get(defaults_)) {
+            add_default(*value);
+        }
+    }
+    void operator()(const BooleanAccess& access) const {
+        json_["type"] = "boolean";
+        if (const std::optional<bool> value = access.get(defaults_)) {
+            json_["default"] = *value;
+        }
+    }
+    void operator()(const ChoiceAccess& access) const {
+        json_["type"] = "choice";
+        Json choices = Json::array();
+        const std::optional<int> value = access.get(defaults_);
+        for (const ChoiceName& choice : access.names) {
+            choices.push_back(std::string(choice.text));
+            if (value == choice.value) {
+                json_["default"] = std::string(choice.text);
+            }
+        }
+        json_["choices"] = std::move(choices);
+    }
+    void operator()(const NumbersAccess& access) const {
+        json_["type"] = "numbers";
+        json_["ascending"] = access.ascending;
+        Json values = Json::array();
+        for (const double value : access.get(defaults_)) {
+            values.push_back(rounded(value / key_.unit.to_si));
+        }
+        if (!values.empty()) {
+            json_["default"] = std::move(values);
+        }
+    }
+    void operator()(const TextsAccess& access) const {
+        json_["type"] = "texts";
+        const std::vector<std::string> values = access.get(defaults_);
+        if (!values.empty()) {
+            json_["default"] = values;
+        }
+    }
+    void operator()(const TonesAccess&) const { json_["type"] = "tones"; }
+
+  private:
+    // A number outside the key's range stands for "not given".
+    template <class Value>
+    void add_default(Value value) const {
+        if (key_.range.contains(static_cast<double>(value))) {
+            json_["default"] = value;
+        }
+    }
+
+    const Key& key_;
+    const Study& defaults_;
+    Json& json_;
+};
+
+// Adds whether the key must be given, and the condition under which it may or must be.
+void add_presence(const Key& key, const EmptyStudies& empty, Json& json) {
+    const Presence planetary = key.presence(empty.planetary);
+    const Presence fixed_shaft = key.presence(empty.fixed_shaft);
+    const bool required = planetary.need == Need::required || fixed_shaft.need == Need::required;
+    if (required) {
+        json.erase("default");
+    }
+    json["required"] = required;
+    json["condition"] = planetary.why.empty() ? fixed_shaft.why : planetary.why;
+}
+
+Json bound(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json key_json(const Key& key, const EmptyStudies& empty) {
+    Json json = Json::object();
+    json["section"] = std::string(key.section);
+    json["name"] = std::string(key.name);
+    json["unit"] = std::string(key.unit.name);
+    std::visit(ValueForm(key, empty.planetary, json), key.access);
+    add_presence(key, empty, json);
+    json["low"] = bound(key.range.low);
+    json["high"] = bound(key.range.high);
+    json["low_open"] = key.range.low_open;
+    json["high_open"] = key.range.high_open;
+    json["range"] = key.range.text();
+    json["random"] = key.may_be_random();
+    json["meaning"] = std::string(key.doc);
+    return json;
+}
+
+Json feature_json(const features::Feature& feature) {
+    Json json = Json::object();
+    json["name"] = std::string(feature.name);
+    json["unit"] = std::string(feature.unit);
+    json["alarm"] = feature.alarm == features::AlarmSide::high ? "high" : "low";
+    json["basic"] = feature.basic();
+    json["from_sensor"] = feature.from_sensor;
+    json["compared"] = feature.compared == features::Compared::nothing  ? "nothing"
+                       : feature.compared == features::Compared::change ? "change"
+                                                                        : "baseline";
+    json["definition"] = std::string(feature.doc);
+    return json;
+}
+
+}  // namespace
+
+std::string reference_json(const CLI::App& app, const std::string& version) {
+    Json json = Json::object();
+    json["program"] = app.get_description();
+    json["version"] = version;
+    json["commands"] = Json::array();
+    for (const CLI::App* command :
+         app.get_subcommands([](const CLI::App* shown) { return !shown->get_group().empty(); })) {
+        json["commands"].push_back(command_json(*command));
+    }
+    json["exit_codes"] = {
+        {"0", "done"},
+        {"2", "bad input; every problem is reported, and nothing is written"},
+        {"3", "some gearboxes failed; they are counted, and the results are written"},
+        {"4", "stopped before the end, with a checkpoint from which --resume continues"}};
+    json["sections"] = Json::array();
+    for (const std::string_view section : section_names()) {
+        json["sections"].push_back(std::string(section));
+    }
+    json["keys"] = Json::array();
+    const EmptyStudies empty;
+    for (const Key& key : schema()) {
+        json["keys"].push_back(key_json(key, empty));
+    }
+    json["distributions"] = Json::array();
+    for (const DistributionHelp& distribution : distribution_help()) {
+        json["distributions"].push_back(
+            {{"name", distribution.name}, {"parameters", distribution.parameters}});
+    }
+    json["features"] = Json::array();
+    for (const features::Feature& feature : features::all_features()) {
+        json["features"].push_back(feature_json(feature));
+    }
+    return json.dump(1) + "\n";
+}
+
+}  // namespace gearpod::mc
