@@ -19,12 +19,12 @@ COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 
 
 def draw_rungs(axes, report, styles):
-    for rung in report["rungs"]:
-        if "refused" in rung or rung["integrator"] == "auto":
+    for setting in report["rungs"]:
+        if "refused" in setting or setting["integrator"] == "auto":
             continue
-        colour, mark = styles[rung["integrator"]]
-        time, error = 1e6 * rung["gearbox_s"], rung["error"]
-        tight = rung["settle_tolerance"] <= 1e-10
+        colour, mark = styles[setting["integrator"]]
+        time, error = 1e6 * setting["gearbox_s"], setting["error"]
+        tight = setting["settle_tolerance"] <= 1e-10
         style = {"marker": mark, "color": colour, "ms": 5 if tight else 3,
                  "alpha": 1.0 if tight else 0.45, "ls": "none"}
         if error["worst_feature"]:
@@ -49,15 +49,15 @@ def draw_others(axes, report):
             if error:
                 axis.plot(1e6 * seconds, error, mark, color="k", ms=9, mfc="none", label=label)
 
-    for rung in report["rungs"]:
-        if "refused" in rung:
+    for setting in report["rungs"]:
+        if "refused" in setting:
             continue
-        error = rung["error"]
-        if rung["name"] == report["own"]:
-            place("setting of the study", rung["gearbox_s"], error["worst_feature"],
+        error = setting["error"]
+        if setting["name"] == report["own"]:
+            place("setting of the study", setting["gearbox_s"], error["worst_feature"],
                   error["sensor"], "s")
-        elif any("horizon=march" in key for key in rung["overrides"]):
-            place("the same, full integration", rung["gearbox_s"], error["worst_feature"],
+        elif any("horizon=march" in key for key in setting["overrides"]):
+            place("the same, full integration", setting["gearbox_s"], error["worst_feature"],
                   error["sensor"], "D")
     for peer, mark in zip(report.get("peers", []), "ov^<>"):
         place(peer["name"], peer["gearbox_s"], peer["worst_feature"], peer["sensor"], mark)
@@ -71,9 +71,9 @@ def draw_others(axes, report):
 def main():
     report = json.load(open(sys.argv[1]))
     names = []
-    for rung in report["rungs"]:
-        if rung["integrator"] not in names and rung["integrator"] != "auto" and "refused" not in rung:
-            names.append(rung["integrator"])
+    for setting in report["rungs"]:
+        if setting["integrator"] not in names and setting["integrator"] != "auto" and "refused" not in setting:
+            names.append(setting["integrator"])
     styles = {name: (COLOURS[i % 8], MARKS[i % 8]) for i, name in enumerate(names)}
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 5), sharex=True)
@@ -83,8 +83,8 @@ def main():
     for choice in report.get("choices", []):
         axes[0].axhline(choice["tolerance"], color="0.85", lw=0.8, zorder=0)
         if "chosen" in choice:
-            rung = next(r for r in report["rungs"] if r["name"] == choice["chosen"])
-            axes[0].plot(1e6 * rung["gearbox_s"], rung["error"]["worst_feature"], "o", ms=12,
+            setting = next(r for r in report["rungs"] if r["name"] == choice["chosen"])
+            axes[0].plot(1e6 * setting["gearbox_s"], setting["error"]["worst_feature"], "o", ms=12,
                          mfc="none", color="#C00000")
     for name, (colour, mark) in styles.items():
         axes[0].plot([], [], mark, color=colour, label=name)

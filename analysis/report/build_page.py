@@ -28,9 +28,9 @@ def missing_packages():
 def state_banner(report):
     state = report.data["provenance"].get("state", "complete")
     if state == "running" or state.startswith("interrupted"):
-        asked = report.data["provenance"].get("gearboxes_asked_for", "?")
+        requested = report.data["provenance"].get("gearboxes_asked_for", "?")
         return (f'<p class="banner" role="note">Incomplete study: {report.data["gearboxes"]} of '
-                f"{asked} gearboxes ({state}).</p>")
+                f"{requested} gearboxes ({state}).</p>")
     return ""
 
 
@@ -60,7 +60,7 @@ def page_html(data, figures=None):
                      "lives-sweep": ("sweep", lives_sweep_page.parts),
                      "lives": ("lives", lives_page.parts)}.get(
                          data.get("kind"), ("report", study_parts))
-    title, sentence, answer, body = make(data, page)
+    title, sentence, summary, body = make(data, page)
     contents = "".join(f'<li><a href="#{name}">{escape(title_)}</a></li>'
                        for name, title_ in page.sections)
     style = (pathlib.Path(__file__).parent / "page.css").read_text(encoding="utf-8")
@@ -81,7 +81,7 @@ def page_html(data, figures=None):
 <header><p class="product">gearpod report</p><h1>{escape(title)}</h1></header>
 <main id="main" tabindex="-1">
 <section id="answer" aria-label="Answer">
-{answer}
+{summary}
 </section>
 <nav aria-label="Contents"><h2>Contents</h2><ul>{contents}</ul></nav>
 {body}

@@ -374,7 +374,7 @@ def over_time(report, page, groups):
     names = [report.names[f] for f in report.order(report.reference)[:3]]
     middle = [0.5 * (group["first"] + group["last"]) for group in groups]
 
-    def said(group, name):
+    def caption_text(group, name):
         alarms = group["alarms"][name]
         return "-" if alarms is None else f"{alarms} of {group['values'][name]}"
 
@@ -388,11 +388,11 @@ def over_time(report, page, groups):
     axes.set_xlabel("Time")
     axes.set_ylabel("Share of recordings that alarm")
     legend_below(axes, 1)
-    about = "; ".join(f"{name}: {said(groups[-1], name)} at the end" for name in names)
+    about = "; ".join(f"{name}: {caption_text(groups[-1], name)} at the end" for name in names)
     svg = to_svg(figure, "Alarms over time", about, page.names)
     rows = [[number(group["first"]) if group["first"] == group["last"]
              else f"{number(group['first'])} to {number(group['last'])}", str(group["recordings"])]
-            + [f"{said(group, name)} ({number(group['medians'][name])})" for name in names]
+            + [f"{caption_text(group, name)} ({number(group['medians'][name])})" for name in names]
             for group in groups]
     return page.figure("Alarms over time", [svg], "All recordings with a value of the "
                        "feature, against the thresholds that the healthy recordings set.",

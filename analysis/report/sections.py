@@ -106,7 +106,7 @@ def _costs(report):
 
 
 def thresholds(report, page):
-    rows, extrapolated, tilted = [], [], []
+    rows, extrapolated, weighted = [], [], []
     for f, feature in enumerate(report.detection):
         sign = ">" if feature["alarm"] == "high" else "<"
         for level in feature["levels"]:
@@ -120,7 +120,7 @@ def thresholds(report, page):
                 extrapolated += [_tail_row(feature, level, choice)
                                  for choice in level["tail"]["choices"]]
             if level["tilted"]:
-                tilted.append([feature["name"], f"× {number(level['noise_level'])}",
+                weighted.append([feature["name"], f"× {number(level['noise_level'])}",
                                count(level["tilted"]["gearboxes"]),
                                number(level["tilted"]["carrying"], 3),
                                f"{number(level['tilted']['extrapolation'], 2)} times"])
@@ -146,13 +146,13 @@ def thresholds(report, page):
                           "fitted above", "shape", "threshold",
                           "expected rate of the threshold used"], extrapolated)
                  + "</details>")
-    if tilted:
+    if weighted:
         body += (note("Thresholds by importance sampling (exponential tilting): in most records "
                       "part of the noise is drawn towards an alarm, and a weight corrects for it.")
                  + "<details><summary>Which, and from how many gearboxes</summary>"
                  + table("Thresholds by importance sampling",
                          ["feature", "noise", "healthy gearboxes", "effective number",
-                          "rate rarer than one in these"], tilted)
+                          "rate rarer than one in these"], weighted)
                  + "</details>")
     body += '<details><summary>What the features are</summary>' + table(
         "Features", ["feature", "unit", "alarms when", "definition"],

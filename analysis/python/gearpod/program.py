@@ -53,10 +53,10 @@ def call(arguments: Sequence[str], progress: bool = False) -> subprocess.Complet
                               stdout=sys.stderr if progress else subprocess.PIPE,
                               stderr=None if progress else messages)
         messages.seek(0)
-        said = messages.read()
+        output = messages.read()
     if done.returncode not in (0, SOME_FAILED):
-        raise Failed(done.returncode, said)
-    done.stderr = said
+        raise Failed(done.returncode, output)
+    done.stderr = output
     return done
 
 

@@ -103,13 +103,13 @@ def _features(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, Lis
             at = at[np.argsort(x[at], kind="stable")]
             label = figure["line"].format(1 - group) if "lines" in figure else "gearpod"
             _line(axes, n, x[at], values[at], label, True)
-            said: Dict[float, float] = {k: v for k, v in panel.get("published", [])}
-            group_said = f", {label}," if "lines" in figure else ""
+            published_text: Dict[float, float] = {k: v for k, v in panel.get("published", [])}
+            group_text = f", {label}," if "lines" in figure else ""
             for place, value in zip(x[at], values[at]):
-                known = next((v for k, v in said.items() if abs(k - place) < 1e-6), None)
-                if known is not None or not said:
+                known = next((v for k, v in published_text.items() if abs(k - place) < 1e-6), None)
+                if known is not None or not published_text:
                     table.append(Row(
-                        figure["name"], f"{panel['feature']}{group_said} at {place:g} "
+                        figure["name"], f"{panel['feature']}{group_text} at {place:g} "
                         f"({figure['axis']})", known, float(value)))
         if panel.get("published"):
             axes.plot(*zip(*panel["published"]), "s", color=PUBLISHED, markersize=6,
@@ -184,12 +184,12 @@ def _motion(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[
         axes.plot(phase, away, color=COLOURS[n - 1], linewidth=0.8, label=label)
         table.append(Row(figure["name"], f"largest at {label} ({figure['axis']})", None,
                          float(np.max(away))))
-    (what, said), = figure["published"].items()
+    (what, published_text), = figure["published"].items()
     at = _spikes(away, figure["peaks"])
     for k in range(figure["peaks"]):
-        axes.axvline(phase[at[0]] + k * said, color=PUBLISHED, linewidth=1, linestyle="--",
+        axes.axvline(phase[at[0]] + k * published_text, color=PUBLISHED, linewidth=1, linestyle="--",
                      label="published distance" if k == 0 else None)
-    table.append(Row(figure["name"], what, said, float(np.mean(np.diff(phase[at])))))
+    table.append(Row(figure["name"], what, published_text, float(np.mean(np.diff(phase[at])))))
     axes.set(xlabel="mesh periods", ylabel=figure["axis"])
     axes.legend(fontsize=8)
     return drawing, table
@@ -200,14 +200,14 @@ def _orders(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[
     values = _signals(figure, folder, work, figure["row"])[figure["signal"]]
     lines = 2 * figure["scale"] * np.abs(np.fft.rfft(values))[:figure["shown"] + 1] / len(values)
     lines[0] = 0.0
-    (what, said), = figure["published"].items()
+    (what, published_text), = figure["published"].items()
     drawing, (axes,) = _panels(1)
     axes.vlines(np.arange(len(lines)), 0, lines, color=COLOURS[0], linewidth=1.4, label="gearpod")
-    axes.axvline(said, color=PUBLISHED, linewidth=1, linestyle="--", label="published largest")
+    axes.axvline(published_text, color=PUBLISHED, linewidth=1, linestyle="--", label="published largest")
     axes.set(xlabel=figure["axis"], ylabel=figure["value"])
     axes.set_ylim(bottom=0)
     axes.legend(fontsize=8)
-    return drawing, [Row(figure["name"], what, said, float(np.argmax(lines)))]
+    return drawing, [Row(figure["name"], what, published_text, float(np.argmax(lines)))]
 
 
 KINDS = {"features": _features, "stiffness": _stiffness, "motion": _motion, "orders": _orders}
@@ -230,8 +230,8 @@ def draw(figure: Figure) -> Tuple[Any, List[Row]]:
 
 
 def _text(row: Row) -> str:
-    said = "-" if row.published is None else f"{row.published:g}"
-    return f"{row.figure:<16}{said:>10}{row.ours:>12.4g}  {row.what}"
+    published_text = "-" if row.published is None else f"{row.published:g}"
+    return f"{row.figure:<16}{published_text:>10}{row.ours:>12.4g}  {row.what}"
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:

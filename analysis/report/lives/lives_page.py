@@ -6,7 +6,7 @@ from lives.campaign_data import CampaignData
 from words import count, escape, number, percent
 
 
-def _answers(campaign):
+def _summaries(campaign):
     rows = []
     for one in campaign.data["monitored"]:
         alarms = one["false_alarms"]
@@ -68,8 +68,8 @@ def parts(data, page):
     body += page.section("warning", "Warning times", lives_figures.warning_times(campaign, page))
     body += page.section("trade-off", "False alarms and depth",
                          lives_figures.trade_off(campaign, page))
-    body += page.section("all", "Features and detectors", _answers(campaign))
+    body += page.section("all", "Features and detectors", _summaries(campaign))
     body += page.section("about", "Basis of the results", _about(campaign))
-    answer = "\n".join(f'<p class="answer">{escape(text)}</p>'
+    summary = "\n".join(f'<p class="answer">{escape(text)}</p>'
                        for text in (sentence, data["assumptions"]) if text)
-    return data["title"], sentence, answer, body
+    return data["title"], sentence, summary, body

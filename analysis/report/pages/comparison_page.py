@@ -166,13 +166,13 @@ def _other_levels(compared, k):
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     compared = Compared(data)
-    answer = "".join(f'<p class="answer">{escape(text)}</p>'
+    verdict = "".join(f'<p class="answer">{escape(text)}</p>'
                      for text in [*compared.shortages(), compared.sentence()])
-    answer += blocks.table("Files", ["", "file", "study", "gearboxes"],
+    verdict += blocks.table("Files", ["", "file", "study", "gearboxes"],
                            [[letter(k), f["path"], f["title"], count(f["gearboxes"])]
                             for k, f in enumerate(compared.files)])
     if data.get("first_records"):
-        answer += ('<p class="small">The differences use thresholds set by the first record of '
+        verdict += ('<p class="small">The differences use thresholds set by the first record of '
                    "each healthy gearbox; the smallest faults use all records.</p>")
     unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
     body = page.section("sizes", "Sizes and areas", _forest(
@@ -185,4 +185,4 @@ def parts(data, page):
                              _about(compared, k) + _rates(compared, page, k)
                              + _other_levels(compared, k))
     title = " against ".join(letter(k) for k in range(len(compared.files) - 1, -1, -1))
-    return f"Comparison: {title}", compared.sentence(), answer, body
+    return f"Comparison: {title}", compared.sentence(), verdict, body

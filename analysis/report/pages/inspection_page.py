@@ -177,14 +177,14 @@ def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     inspection = Inspection(data)
     pod = inspection.pod
-    answer = f'<p class="answer">{escape(inspection.sentence())}</p>'
+    verdict = f'<p class="answer">{escape(inspection.sentence())}</p>'
     if not pod["refusal"]:
         rows = [[name, inspection.size(pod[name]["estimate"]), inspection.size(pod[name]["lower"]),
                  inspection.size(pod[name]["upper"])] for name in ("a50", "a90")]
-        answer += blocks.table("Sizes with their bounds", ["", "estimate", "lower", "upper"], rows)
+        verdict += blocks.table("Sizes with their bounds", ["", "estimate", "lower", "upper"], rows)
         for doubt in pod.get("doubts", []) + (["the goodness-of-fit test rejects the curve"]
                                               if pod.get("doubtful") else []):
-            answer += blocks.note(f"Warning: {doubt}")
+            verdict += blocks.note(f"Warning: {doubt}")
     body = ""
     if not pod["refusal"]:
         figures = _curve(inspection, page)
@@ -193,4 +193,4 @@ def parts(data, page):
         body += page.section("detection", "Detection", figures)
     body += page.section("facts", "Data and method", _facts(inspection)
                          + blocks.paragraph(plural(len(data["data"]["size"]), "value") + "."))
-    return inspection.title(), inspection.sentence(), answer, body
+    return inspection.title(), inspection.sentence(), verdict, body

@@ -101,7 +101,7 @@ def _mm(metres):
     return None if metres is None else 1e3 * metres
 
 
-def _answer(swept):
+def _verdict(swept):
     rows = []
     for point in swept.points:
         here = swept.best_here(point)
@@ -140,7 +140,7 @@ def _figure(swept, page, title, axis, how, value, limits=None):
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     swept = SweptLives(data)
-    answer = f'<p class="answer">{escape(swept.sentence())}</p>' + _answer(swept)
+    verdict = f'<p class="answer">{escape(swept.sentence())}</p>' + _verdict(swept)
     body = ""
     if swept.data["best"] is not None:
         sure = percent(swept.confidence)
@@ -174,4 +174,4 @@ def parts(data, page):
         body += page.section("records", "Records and interpolation errors", records)
     body += sweep_grid.files(swept, page, "")
     title = f"Sweep of lives: {data['title']}" if data["title"] else "Sweep of lives"
-    return title, swept.sentence(), answer, body
+    return title, swept.sentence(), verdict, body

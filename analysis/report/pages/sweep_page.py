@@ -83,7 +83,7 @@ class Swept(Grid):
         return begin + text + "."
 
 
-def _answer(swept):
+def _verdict(swept):
     levels = swept.levels()
     rows = []
     for point in swept.points:
@@ -160,9 +160,9 @@ def _by_feature(swept, page, key, title, axis, how, shown):
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     swept = Swept(data)
-    answer = "".join(f'<p class="answer">{escape(text)}</p>'
+    verdict = "".join(f'<p class="answer">{escape(text)}</p>'
                      for text in [*swept.shortages(), swept.sentence()])
-    answer += _answer(swept) + _footnote(swept)
+    verdict += _verdict(swept) + _footnote(swept)
     body = ""
     if swept.level is not None:
         at = noise(swept.level)
@@ -183,4 +183,4 @@ def parts(data, page):
     body += sweep_grid.files(
         swept, page, ": gearpod compare takes the difference gearbox by gearbox")
     title = f"Sweep: {data['title']}" if data["title"] else "Sweep"
-    return title, swept.sentence(), answer, body
+    return title, swept.sentence(), verdict, body

@@ -68,12 +68,12 @@ def program_table(program, text, error):
 
 def main():
     program = sys.argv[1]
-    wanted = sys.argv[2:]
+    columns = sys.argv[2:]
     sets = {"19/31/81": ("sun_teeth = 19\nplanet_teeth = 31\nring_teeth = 81", LIANG),
             "27/35/99": ("sun_teeth = 27\nplanet_teeth = 35\nring_teeth = 99\nsun_shift = 0.3\n"
                          "centre_distance_mm = 100.0125", bell_pairs())}
     for name, (teeth, pairs) in sets.items():
-        if wanted and name not in wanted:
+        if columns and name not in columns:
             continue
         for amount in (0.0, 10.0):
             for onset in ("abrupt", "extended"):

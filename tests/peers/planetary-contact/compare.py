@@ -121,14 +121,14 @@ def compare(program, name, onset, settings, slices=None):
     if slices and "slices" in case:
         case["slices"] = slices
         settings = settings + [f"numerics.face_slices={slices}"]
-    box = Planetary(case, onset)
+    gearbox = Planetary(case, onset)
     with tempfile.TemporaryDirectory() as folder:
         phase, q, force, extra, signals = gearpod_run(program, case, onset, settings, folder)
-    ours = box.run(case["settle"], case["meshes"], case["steps"], case["samples_per_mesh"])
+    ours = gearbox.run(case["run_in"], case["meshes"], case["steps"], case["samples_per_mesh"])
     step = case["samples_per_mesh"] * (phase[1] - phase[0])
     rows = np.round(np.arange(len(phase)) * step).astype(int)
-    q = box.without_rotation(q)
-    lines = np.array([line for _, _, line in box.kind_lines])
+    q = gearbox.without_rotation(q)
+    lines = np.array([line for _, _, line in gearbox.kind_lines])
     here = ours["q"][rows]
     print(f"{name}, {onset}: mean mesh deflections, um: {(1e6 * (here @ lines.T).mean(0)).round(4)} here, "
           f"{(1e6 * (q @ lines.T).mean(0)).round(4)} gearpod")
@@ -141,7 +141,7 @@ def compare(program, name, onset, settings, slices=None):
         print(f"  {what}: rms difference {rms:.3e} of the variation, largest {most:.3e} of the range")
     print(f"  out of contact: sun {ours['out_of_contact'][0]:.4f}, ring {ours['out_of_contact'][1]:.4f} here; "
           f"gearpod {extra if extra else 'does not say'}")
-    return box, ours, rows, q, lines
+    return gearbox, ours, rows, q, lines
 
 
 def main():

@@ -15,10 +15,10 @@ def main():
     for path in sorted(CASES.glob("*.json")):
         case = json.loads(path.read_text())
         for onset in ("abrupt", "extended"):
-            box = Planetary(case, onset)
-            runs = [box.run(settle, MESHES, steps, SAMPLES) for settle, steps in
-                    ((case["settle"], case["steps"]), (case["settle"], 2 * case["steps"]),
-                     (2 * case["settle"], case["steps"]))]
+            gearbox = Planetary(case, onset)
+            runs = [gearbox.run(run_in, MESHES, steps, SAMPLES) for run_in, steps in
+                    ((case["run_in"], case["steps"]), (case["run_in"], 2 * case["steps"]),
+                     (2 * case["run_in"], case["steps"]))]
             for name, other in (("steps", runs[1]), ("settling periods", runs[2])):
                 scale = [np.sqrt(np.mean((runs[0][key] - runs[0][key].mean(0))**2)) for key in ("q", "force")]
                 parts = [np.sqrt(np.mean((runs[0][key] - other[key])**2)) / s for key, s in zip(("q", "force"), scale)]

@@ -36,7 +36,7 @@ def case(name, title, teeth, planets, module, width, torque, errors_um, seed, sp
         inertia_kg_m2={b: disc(m, radius[b]) for b, m in mass.items()},
         bearing_N_m=dict(carrier=1e8, ring=1e8, sun=1e8, planet=1e8),
         bearing_N_s_m=dict(carrier=1.5e3, ring=1.5e3, sun=1.5e3, planet=1.5e3), support_N_m=1e8, support_N_s_m=1.5e3,
-        settle=8, meshes=12, steps=32000, samples_per_mesh=2000)
+        run_in=8, meshes=12, steps=32000, samples_per_mesh=2000)
     values.update(more)
     values.update(sun_index_um=flank(zs), planet_index_um=[flank(zp) for _ in range(planets)],
                   planet_ring_side_index_um=[flank(zp) for _ in range(planets)], ring_index_um=flank(zr))

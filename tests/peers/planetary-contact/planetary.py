@@ -186,18 +186,18 @@ class Planetary:
                 times.append(edge % 1.0 + np.arange(last + 1))
         return np.concatenate(times)
 
-    def run(self, settle, meshes, steps, samples):
+    def run(self, run_in, meshes, steps, samples):
         """Motions, velocities and accelerations, mesh forces at `samples` per mesh over `meshes` periods from mesh
-        period 0 on, after `settle` periods. Contact shares are those of the recorded periods."""
+        period 0 on, after `run_in` periods. Contact shares are those of the recorded periods."""
         library = compiled()
-        wanted = -settle + np.arange((settle + meshes) * samples + 1) / samples
-        nodes = [-settle + np.arange((settle + meshes) * steps + 1) / steps, wanted]
+        sample_times = -run_in + np.arange((run_in + meshes) * samples + 1) / samples
+        nodes = [-run_in + np.arange((run_in + meshes) * steps + 1) / steps, sample_times]
         if self.onset == "abrupt" and self.meshes[0].slices == 1:
-            nodes.append(self.transitions(settle + meshes) - settle)
+            nodes.append(self.transitions(run_in + meshes) - run_in)
         times = np.unique(np.round(np.concatenate(nodes), 12))
-        times = times[(times >= -settle) & (times <= meshes)]
+        times = times[(times >= -run_in) & (times <= meshes)]
         record = np.zeros(len(times), dtype=np.uint8)
-        record[np.searchsorted(times, np.round(wanted[wanted >= 0], 12))] = 1
+        record[np.searchsorted(times, np.round(sample_times[sample_times >= 0], 12))] = 1
         n, count = self.dof, len(self.contacts)
         box = Gearbox(n, count, (ctypes.c_double * MAX_DOF)(*self.mass), (ctypes.c_double * MAX_DOF)(*self.force),
                       self.array(self.stiffness), self.array(self.damping), self.period, self.meshes, self.contacts)
@@ -241,7 +241,7 @@ def main():
     options = argparse.ArgumentParser()
     options.add_argument("case")
     options.add_argument("--onset", default="extended", choices=("abrupt", "extended"))
-    options.add_argument("--settle", type=int, default=0)
+    options.add_argument("--run-in", type=int, default=0)
     options.add_argument("--meshes", type=int, default=0)
     options.add_argument("--steps", type=int, default=0)
     options.add_argument("--no-relief", action="store_true")
@@ -255,7 +255,7 @@ def main():
         for key in ("sun_index_um", "planet_index_um", "planet_ring_side_index_um", "ring_index_um"):
             case[key] = (0 * np.array(case[key])).tolist()
     box = Planetary(case, given.onset)
-    result = box.run(given.settle or case["settle"], given.meshes or case["meshes"], given.steps or case["steps"],
+    result = box.run(given.run_in or case["run_in"], given.meshes or case["meshes"], given.steps or case["steps"],
                      case["samples_per_mesh"])
     force, q = result["force"][:-1], result["q"][:-1]
     print(f"{case['title']}: {given.onset} onset, mesh frequency {1 / box.period:.4f} Hz, nominal mesh force "
