@@ -1,8 +1,9 @@
 """Picture of the README: POD curve of a study with the signals of two of its gearboxes.
 
-    PYTHONPATH=analysis/python /usr/bin/python3 docs/tools/readme_picture.py planet-crack.h5 docs/_static/pod.svg
+    PYTHONPATH=analysis/python /usr/bin/python3 docs/tools/readme_picture.py planet-crack.h5 docs/_static/pod.svg \\
+        --feature change_window_ratio --noise 0.03
 
-Draws the feature that finds the smallest fault (or --feature) at noise x 1: its POD curve with bounds and
+Draws the feature that finds the smallest fault (or --feature) at noise x 1 (or --noise): its POD curve with bounds and
 the detection rates, and the sensor signals of a healthy gearbox and of one with the largest fault.
 """
 
@@ -42,11 +43,10 @@ def draw_signal(axes, results, row, noise):
     axes.margins(x=0)
 
 
-def draw(results, feature):
+def draw(results, feature, noise):
     import matplotlib.pyplot as plt
     figure, panels = plt.subplot_mosaic([["healthy", "pod"], ["faulty", "pod"]],
                                         figsize=(8.5, 3.8), layout="constrained")
-    noise = results.reference
     sizes = np.unique(results.size[results.rows("graded")])
     largest = sizes.max()
     draw_signal(panels["healthy"], results, first_row(results, sizes.min()), noise)
@@ -64,7 +64,7 @@ def draw(results, feature):
     gearpod.figures.pod(results, feature, noise, axes=axes)
     found = results.smallest_fault(noise)
     axes.set_xlabel("crack depth, mm")
-    axes.set_title(feature)
+    axes.set_title(f"{feature}, noise x {noise:g}")
     if found is not None:
         axes.set_title(f"detected with 90 % probability: {1e3 * found[0]:.3g} mm")
     axes.legend(loc="lower right", frameon=False)
@@ -76,11 +76,13 @@ def main():
     parser.add_argument("results")
     parser.add_argument("picture")
     parser.add_argument("--feature")
+    parser.add_argument("--noise", type=float)
     options = parser.parse_args()
     results = gearpod.open(options.results)
-    found = results.smallest_fault()
+    noise = options.noise or results.reference
+    found = results.smallest_fault(noise)
     feature = options.feature or (found[1] if found else results.features[0])
-    draw(results, feature).savefig(options.picture, metadata={"Date": None})
+    draw(results, feature, noise).savefig(options.picture, metadata={"Date": None})
 
 
 if __name__ == "__main__":
