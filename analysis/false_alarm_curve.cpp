@@ -12,9 +12,9 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kWantedPod = 0.9;
+constexpr double kTargetPod = 0.9;
 
-SizeBounds everywhere(SizeEstimate::Where where) {
+SizeBounds same_bounds(SizeEstimate::Where where) {
     const SizeEstimate estimate{where, kNan};
     return {estimate, estimate, estimate};
 }
@@ -35,21 +35,21 @@ HitMissTable outcomes_at(const GradedValues& values, double threshold) {
 std::optional<SizeBounds> a90_of(const HitMissTable& table, const PodForm& form,
                                  double confidence) {
     if (table.empty() || total_hits(table) == 0.0) {
-        return everywhere(SizeEstimate::Where::not_reached);
+        return same_bounds(SizeEstimate::Where::not_reached);
     }
     if (total_hits(table) == total_tests(table)) {
-        return everywhere(SizeEstimate::Where::below_tested);
+        return same_bounds(SizeEstimate::Where::below_tested);
     }
     const HitMissFit fit = fit_hit_miss(table, form);
     if (!fit.refusal.empty()) {
         return std::nullopt;
     }
     const PodLikelihood likelihood(table, form);
-    return size_bounds(table, likelihood, likelihood.maximise(), kWantedPod,
+    return size_bounds(table, likelihood, likelihood.maximise(), kTargetPod,
                        one_sided_bound(confidence));
 }
 
-bool nearer(const SizeEstimate& a, const SizeEstimate& b) {
+bool is_smaller(const SizeEstimate& a, const SizeEstimate& b) {
     return place_of(a) < place_of(b);
 }
 
@@ -57,7 +57,7 @@ bool nearer(const SizeEstimate& a, const SizeEstimate& b) {
 // records are importance-sampled. 0 if the rate is not rarer.
 double extrapolation_of(const Threshold& threshold, double rate) {
     const auto rarer = [&](long sample) { return 1.0 / (rate * static_cast<double>(sample)); };
-    if (threshold.tilted) {
+    if (threshold.importance_sampled) {
         const double beyond = rarer(threshold.gearboxes);
         return beyond > 1.0 ? beyond : 0.0;
     }
@@ -70,7 +70,7 @@ RatePoint point_of(const HealthyThresholds& healthy, double rate, const Threshol
     point.false_alarm_rate = rate;
     point.threshold = threshold.value;
     point.extrapolation = extrapolation_of(threshold, rate);
-    point.tilted = threshold.tilted.has_value();
+    point.importance_sampled = threshold.importance_sampled.has_value();
     point.threshold_bounds = healthy.value_bounds(threshold, rate, confidence);
     return point;
 }
@@ -82,9 +82,9 @@ void make_monotone(std::vector<RatePoint>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const SizeBounds& before = points[i - 1].a90;
         SizeBounds& here = points[i].a90;
-        here.estimate = std::max(before.estimate, here.estimate, nearer);
-        here.lower = std::max(before.lower, here.lower, nearer);
-        here.upper = std::max(before.upper, here.upper, nearer);
+        here.estimate = std::max(before.estimate, here.estimate, is_smaller);
+        here.lower = std::max(before.lower, here.lower, is_smaller);
+        here.upper = std::max(before.upper, here.upper, is_smaller);
     }
 }
 
@@ -184,7 +184,7 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
         consider(healthy[i], (sample - static_cast<double>(i)) / (sample + 1.0), true);
     }
     for (const double rate : kCurveRates) {
-        if (const Threshold beyond = all.at(rate, half); beyond.tail || beyond.tilted) {
+        if (const Threshold beyond = all.at(rate, half); beyond.tail || beyond.importance_sampled) {
             consider(sign * beyond.value, rate, false);
         }
     }
@@ -193,7 +193,7 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
         counted ? alarm_threshold(all.plain(), values.alarm, least.false_alarm_rate)
                 : all.at(least.false_alarm_rate, half);
     least.extrapolation = extrapolation_of(chosen, least.false_alarm_rate);
-    least.tilted = chosen.tilted.has_value();
+    least.importance_sampled = chosen.importance_sampled.has_value();
     least.rate_bounds = all.rate_bounds(chosen, least.false_alarm_rate, half);
     least.pd_bounds = wilson_interval(std::lround(least.pd * static_cast<double>(faulty.size())),
                                       static_cast<long>(faulty.size()), half);

@@ -26,7 +26,7 @@ struct RatePoint {
     // Ratio of the tail's rarity to the sample's: 1 / (rate x sample size); 0: an order statistic.
     double extrapolation = 0.0;
     // Threshold from importance sampling; `extrapolation` then counts gearboxes.
-    bool tilted = false;
+    bool importance_sampled = false;
     Interval threshold_bounds;  // an infinite bound means that the sample does not determine it
     // Bounds that include the uncertainty of the threshold: a90's bounds at the bounds of the
     // threshold, each with half of the error probability.
@@ -64,7 +64,7 @@ struct Costs {
 struct LeastCost {
     double threshold = 0.0;
     double extrapolation = 0.0;  // as in RatePoint
-    bool tilted = false;
+    bool importance_sampled = false;
     double false_alarm_rate = 0.0;
     Interval rate_bounds;
     double pd = 0.0;  // for the study's faults, over all sizes as drawn

@@ -47,12 +47,12 @@ void count_specimens(const Inspections& data, InspectionResult& result) {
 
 void add_hit_miss(const Inspections& data, const InspectionRequest& request,
                   InspectionResult& result) {
-    HitMissRequest asked;
+    HitMissRequest pod_request;
     std::vector<char> hit;
     for (std::size_t i = 0; i < data.size.size(); ++i) {
         hit.push_back(data.value[i] != 0.0);
         if (data.size[i] > 0.0) {
-            asked.outcomes.push_back({data.size[i], hit.back() != 0, data.specimen[i]});
+            pod_request.outcomes.push_back({data.size[i], hit.back() != 0, data.specimen[i]});
         } else {
             result.false_calls += hit.back();
         }
@@ -61,31 +61,31 @@ void add_hit_miss(const Inspections& data, const InspectionRequest& request,
     const double rate = result.without_flaw == 0 ? 0.0
                                                  : static_cast<double>(result.false_calls) /
                                                        static_cast<double>(result.without_flaw);
-    asked.floor = request.floor.value_or(rate);
-    asked.without_floor = !request.floor;
-    asked.confidence = request.confidence;
-    asked.band_points = kBandPoints;
-    asked.rule = rule_of(request);
+    pod_request.floor = request.floor.value_or(rate);
+    pod_request.without_floor = !request.floor;
+    pod_request.confidence = request.confidence;
+    pod_request.band_points = kBandPoints;
+    pod_request.rule = rule_of(request);
     // Outcomes of one specimen are correlated. Only the robust covariance accounts for this.
     if (result.repeats > 0) {
-        asked.rule->method = BoundMethod::wald;
+        pod_request.rule->method = BoundMethod::wald;
     }
-    asked.links = request.links;
-    asked.log_sizes = request.log_sizes;
-    asked.fit_ceiling = request.fit_ceiling && asked.rule->method != BoundMethod::wald;
-    asked.firth = request.firth;
-    asked.target = request.target;
-    asked.tested = "specimen";
-    result.hit_miss = hit_miss_pod(result.table, asked);
+    pod_request.links = request.links;
+    pod_request.log_sizes = request.log_sizes;
+    pod_request.fit_ceiling = request.fit_ceiling && pod_request.rule->method != BoundMethod::wald;
+    pod_request.firth = request.firth;
+    pod_request.target = request.target;
+    pod_request.tested = "specimen";
+    result.hit_miss = hit_miss_pod(result.table, pod_request);
 }
 
-double threshold_of(const NoiseLaw& noise, double false_call_rate, Alarm alarm) {
+double threshold_of(const NoiseDistribution& noise, double false_call_rate, Alarm alarm) {
     return noise.exceeded_by(alarm == Alarm::high ? false_call_rate : 1.0 - false_call_rate);
 }
 
 // Thresholds for the trade-off: those that the noise exceeds with probabilities from 0.5 to 1e-4,
 // or without noise values some quantiles of the responses.
-std::vector<double> thresholds(const std::vector<double>& responses, const NoiseLaw* noise,
+std::vector<double> thresholds(const std::vector<double>& responses, const NoiseDistribution* noise,
                                const InspectionRequest& request) {
     constexpr int kPoints = 33;
     std::vector<double> all;
@@ -104,15 +104,15 @@ std::vector<double> thresholds(const std::vector<double>& responses, const Noise
     return all;
 }
 
-double false_call_probability(const NoiseLaw* noise, double threshold, Alarm alarm) {
+double false_call_probability(const NoiseDistribution* noise, double threshold, Alarm alarm) {
     return noise == nullptr       ? kNan
            : alarm == Alarm::high ? noise->above(threshold)
                                   : noise->below(threshold);
 }
 
-void add_trade_off(const SignalResponseRequest& asked, const std::vector<double>& responses,
+void add_trade_off(const SignalResponseRequest& pod_request, const std::vector<double>& responses,
                    const InspectionRequest& request, InspectionResult& result) {
-    const NoiseLaw* noise = result.noise.empty() ? nullptr : &result.noise.front();
+    const NoiseDistribution* noise = result.noise.empty() ? nullptr : &result.noise.front();
     const SignalResponsePod& pod = result.signal_response;
     const bool positive = pod.candidates[pod.chosen].scale.power != 1.0;
     for (const double threshold : thresholds(responses, noise, request)) {
@@ -121,7 +121,7 @@ void add_trade_off(const SignalResponseRequest& asked, const std::vector<double>
             continue;
         }
         const ThresholdBounds bounds =
-            bounds_at(pod, asked, threshold, pod.band.front().size, pod.band.back().size);
+            bounds_at(pod, pod_request, threshold, pod.band.front().size, pod.band.back().size);
         result.trade_off.push_back({threshold,
                                     false_call_probability(noise, threshold, request.alarm),
                                     bounds.a50, bounds.a90});
@@ -135,7 +135,7 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
         (data.size[i] > 0.0 ? responses : without).push_back(data.value[i]);
     }
     std::sort(responses.begin(), responses.end());
-    result.noise = noise_laws(without);
+    result.noise = fit_noise_distributions(without);
     if (request.threshold) {
         result.threshold = *request.threshold;
     } else if (request.false_call_rate && !result.noise.empty()) {
@@ -150,23 +150,23 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
     for (const double value : without) {
         result.false_calls += is_alarm(value, result.threshold, request.alarm);
     }
-    SignalResponseRequest asked;
-    asked.threshold = result.threshold;
-    asked.alarm = request.alarm;
-    asked.confidence = request.confidence;
-    asked.band_points = kBandPoints;
-    asked.method = LineMethod::maximum_likelihood;
-    asked.rule = rule_of(request);
-    asked.limits = request.limits;
-    asked.log_sizes = request.log_sizes;
-    asked.powers = request.powers;
-    asked.insist = request.insist;
-    asked.specimen = data.specimen;
-    asked.target = request.target;
-    asked.tested = "values of flaws";
-    result.signal_response = signal_response_pod(data.size, data.value, asked);
+    SignalResponseRequest pod_request;
+    pod_request.threshold = result.threshold;
+    pod_request.alarm = request.alarm;
+    pod_request.confidence = request.confidence;
+    pod_request.band_points = kBandPoints;
+    pod_request.method = LineMethod::maximum_likelihood;
+    pod_request.rule = rule_of(request);
+    pod_request.limits = request.limits;
+    pod_request.log_sizes = request.log_sizes;
+    pod_request.powers = request.powers;
+    pod_request.accept_failed_checks = request.accept_failed_checks;
+    pod_request.specimen = data.specimen;
+    pod_request.target = request.target;
+    pod_request.tested = "values of flaws";
+    result.signal_response = signal_response_pod(data.size, data.value, pod_request);
     if (result.signal_response.refusal.empty()) {
-        add_trade_off(asked, responses, request, result);
+        add_trade_off(pod_request, responses, request, result);
     }
 }
 

@@ -9,7 +9,7 @@
 
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
-#include "analysis/statistics/noise_law.hpp"
+#include "analysis/statistics/noise_distribution.hpp"
 
 namespace gearpod::analysis {
 
@@ -41,7 +41,7 @@ struct InspectionRequest {
     std::optional<double> false_call_rate;  // sets the threshold if none is given
     CensoringLimits limits;
     std::vector<double> powers = {1.0, 0.0};
-    bool insist = false;
+    bool accept_failed_checks = false;
 };
 
 // False calls and detectable sizes at one threshold.
@@ -56,11 +56,11 @@ struct InspectionResult {
     HitMissTable table;
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
-    double threshold = 0.0;       // for responses
-    long without_flaw = 0;        // number of values of size 0
-    long false_calls = 0;         // number of hits among them
-    Interval false_call_bounds;   // Clopper-Pearson, at the requested confidence
-    std::vector<NoiseLaw> noise;  // fits to the responses without flaw, in order of AIC
+    double threshold = 0.0;                // for responses
+    long without_flaw = 0;                 // number of values of size 0
+    long false_calls = 0;                  // number of hits among them
+    Interval false_call_bounds;            // Clopper-Pearson, at the requested confidence
+    std::vector<NoiseDistribution> noise;  // fits to the responses without flaw, in order of AIC
     std::vector<TradeOffPoint> trade_off;
     long specimens = 0, repeats = 0;  // specimens with a flaw; lines in excess of one per specimen
     // Number of specimens of one size that must all be found to demonstrate Pd 0.9 at the

@@ -73,7 +73,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     }
     level.inputs = input_effects(data.graded_size, hit, data.inputs, level.hit_miss,
                                  transition_sizes(detection.cells), confidence);
-    level.uncertain = uncertain_band(data.graded_size, hit, data.uncertain, level.hit_miss);
+    level.uncertain = epistemic_band(data.graded_size, hit, data.uncertain, level.hit_miss);
     for (const DetectionCell& cell : detection.cells) {
         if (cell.size.high > 0.0) {
             level.pd.push_back(cell.pd);
@@ -91,7 +91,8 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     if (data.costs) {
         level.least_cost = least_cost(graded, *data.costs, confidence);
     }
-    level.tested_size = tested_size(detection, data.graded_size, hit, kReliablePd, confidence);
+    level.demonstrated_size =
+        demonstrated_size(detection, data.graded_size, hit, kReliablePd, confidence);
     return level;
 }
 

@@ -35,13 +35,13 @@ struct LevelReliability {
     std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     InputEffects inputs;
-    UncertainBand uncertain;
+    EpistemicBand uncertain;
     // Detection rates of the size groups above 0, ascending; NaN where none was tested.
     std::vector<double> pd;
     FalseAlarmCurve by_rate;              // a90 at other false-alarm rates
     std::optional<LeastCost> least_cost;  // if costs were requested
     // Smallest size demonstrated by the tested rates alone, without a curve; NaN if there is none.
-    double tested_size = kNan;
+    double demonstrated_size = kNan;
 };
 
 struct FeatureReliability {

@@ -8,7 +8,8 @@
 namespace gearpod::analysis {
 namespace {
 
-std::optional<SmallestFault> own_fault(const std::string& feature, const LevelReliability& at) {
+std::optional<SmallestFault> single_feature_fault(const std::string& feature,
+                                                  const LevelReliability& at) {
     using Where = SizeEstimate::Where;
     const HitMissPod& pod = at.hit_miss;
     const SmallestFault::Source source{feature, at.noise_level};
@@ -16,10 +17,10 @@ std::optional<SmallestFault> own_fault(const std::string& feature, const LevelRe
         const bool inside = pod.a90.upper.where == Where::reached;
         return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
     }
-    if (std::isnan(at.tested_size)) {
+    if (std::isnan(at.demonstrated_size)) {
         return std::nullopt;
     }
-    return SmallestFault{feature, at.tested_size, false, source};
+    return SmallestFault{feature, at.demonstrated_size, false, source};
 }
 
 // True if `a` finds at least as many faults as `b` in every size group, and both tested the same
@@ -44,15 +45,15 @@ double found(const LevelReliability& at) {
 
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature) {
-    const FeatureReliability& asked = reliability.features[feature];
-    const LevelReliability& at = asked.levels[level];
-    auto least = own_fault(asked.feature, at);
+    const FeatureReliability& requested_feature = reliability.features[feature];
+    const LevelReliability& at = requested_feature.levels[level];
+    auto least = single_feature_fault(requested_feature.feature, at);
     for (const FeatureReliability& other : reliability.features) {
         for (const LevelReliability& there : other.levels) {
-            const auto bound = own_fault(other.feature, there);
+            const auto bound = single_feature_fault(other.feature, there);
             if (bound && (!least || bound->size < least->size) && finds_no_less(at, there)) {
                 least = bound;
-                least->feature = asked.feature;
+                least->feature = requested_feature.feature;
                 least->own = false;
             }
         }

@@ -49,13 +49,13 @@ if(GEARPOD_QUICK)
   endforeach()
   gearpod_unite(gearpod_physics
     "features gears machine"
-    "lockstep/driven lockstep/integrators lockstep/plan lockstep/steps lockstep/tile"
+    "lockstep/excitation lockstep/integrators lockstep/plan lockstep/steps lockstep/tile"
     "signals signals/noise signals/path signals/sensor signals/spectra signals/windowing"
     "stiffness stiffness/contact stiffness/foundation stiffness/growth stiffness/teeth")
   gearpod_unite(gearpod_run_analysis) # folders together are no faster here
   gearpod_unite(gearpod_analysis)
   gearpod_unite(gearpod_run_mc
-    "files random" "ensemble gearbox" "answers forecast input numerics run"
+    "files random" "ensemble gearbox" "forecast input numerics run summary"
     "scene study study/keys study/reading study/schema")
   gearpod_unite(gearpod_mc
     "accuracy description files sweep" "calibration lives new_study recordings" "ensemble gearbox")
@@ -72,7 +72,7 @@ function(gearpod_precompile_kernels library)
   elseif(GEARPOD_QUICK)
     target_precompile_headers(${library} PRIVATE <lockstep/integrators/all_integrators.hpp>
       <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
-      <lockstep/kernels/paced_kernels.hpp>)
+      <lockstep/kernels/variable_speed_kernels.hpp>)
   endif()
 endfunction()
 gearpod_precompile_kernels(gearpod_first_kernels)

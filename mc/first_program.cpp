@@ -27,7 +27,7 @@ using namespace gearpod::mc;
 
 // True if integrator or steps have to be searched for, or if this program does not have the
 // integrator.
-bool is_for_others(const Numerics& numerics) {
+bool needs_whole_program(const Numerics& numerics) {
     const auto keys = lockstep::kernel_table().keys();
     return !numerics.integrator || numerics.grid != StepGrid::uniform ||
            numerics.tolerance != 0.0 || numerics.verify ||
@@ -38,14 +38,14 @@ bool is_for_others(const Numerics& numerics) {
 
 // True if the whole program is needed. A study that cannot be read is rejected here in the same way
 // as by the whole program.
-bool is_for_others(const StudyOptions& options) {
+bool needs_whole_program(const StudyOptions& options) {
     std::error_code none;
     if (std::filesystem::exists(options.path, none) &&
         !std::filesystem::is_regular_file(options.path, none)) {
         return true;
     }
     const StudyReading reading = read_study(options.path, options.overrides);
-    return reading.study && is_for_others(reading.study->numerics);
+    return reading.study && needs_whole_program(reading.study->numerics);
 }
 
 // Replaces this process by the launcher; returns only on failure.
@@ -72,7 +72,7 @@ int run_program(int argc, char** argv) {
     int code = kDone;
     add_run(app, run, code);
     app.get_subcommand("run")->callback(
-        [&] { code = is_for_others(run.study) ? start_launcher(argv) : run_command(run); });
+        [&] { code = needs_whole_program(run.study) ? start_launcher(argv) : run_command(run); });
     return parse(app, argc, argv, code);
 }
 

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "mc/help/manual.hpp"
+#include "mc/help/man_page.hpp"
 #include "mc/help/reference.hpp"
 #include "mc/options/options.hpp"
 #include "mc/options/program.hpp"
@@ -69,7 +69,8 @@ int run_program(int argc, char** argv) {
         "merge", "join the results files of all parts of a study into one, as one run writes it");
     merge_app->add_option("results", merge.results, "results files of `run --part` 1/N to N/N")
         ->required();
-    needs_name(merge_app->add_option("--out", merge.out, "results file to write")->required());
+    require_file_name(
+        merge_app->add_option("--out", merge.out, "results file to write")->required());
     merge_app->add_flag("--force", merge.force,
                         "overwrite the results of another study or any other file");
     merge_app->add_flag("--quiet", merge.quiet, "print problems only");
@@ -112,8 +113,8 @@ int run_program(int argc, char** argv) {
     auto* stiffness_app =
         app.add_subcommand("stiffness", "print the mesh stiffness over one mesh period");
     add_study(*stiffness_app, stiffness.study);
-    needs_name(stiffness_app->add_option("--csv", stiffness.csv,
-                                         "write the curves to a file, or - for standard output"));
+    require_file_name(stiffness_app->add_option(
+        "--csv", stiffness.csv, "write the curves to a file, or - for standard output"));
     stiffness_app->add_option("--points", stiffness.points, "phases of the curves (default: 1000)")
         ->check(CLI::Range(2, 1000000));
     stiffness_app->add_flag(
@@ -126,8 +127,8 @@ int run_program(int argc, char** argv) {
     auto* modes_app =
         app.add_subcommand("modes", "print the natural frequencies at mean mesh stiffness");
     add_study(*modes_app, modes.study);
-    needs_name(modes_app->add_option("--json", modes.json,
-                                     "write JSON to a file, or - for standard output"));
+    require_file_name(modes_app->add_option("--json", modes.json,
+                                            "write JSON to a file, or - for standard output"));
     modes_app->callback([&] { code = modes_command(modes); });
 
     AccuracyOptions accuracy;
@@ -135,8 +136,8 @@ int run_program(int argc, char** argv) {
         "accuracy",
         "compare solver settings for a study: numerical error and computing time of each");
     add_study(*accuracy_app, accuracy.study);
-    needs_name(accuracy_app->add_option("--json", accuracy.json,
-                                        "write JSON to a file, or - for standard output"));
+    require_file_name(accuracy_app->add_option("--json", accuracy.json,
+                                               "write JSON to a file, or - for standard output"));
     accuracy_app->add_option("--peers", accuracy.peers,
                              "table (CSV) with results of other programs, for comparison");
     accuracy_app
@@ -162,7 +163,7 @@ int run_program(int argc, char** argv) {
     add_study(*simulate_app, simulate.study);
     simulate_app->add_option("--instance", simulate.instance, "row of the results file, from 0")
         ->required();
-    needs_name(
+    require_file_name(
         simulate_app->add_option("--out", simulate.out, "file for the signals, .h5 or .csv"));
     simulate_app
         ->add_option("--meshes", simulate.meshes,

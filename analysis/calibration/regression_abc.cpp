@@ -61,17 +61,17 @@ Matrix ridge_fit(const Matrix& design, const Matrix& response, const Vector& wei
 
 // Conditional mean of each parameter given the summaries: for the samples, and for the observation.
 struct Means {
-    Matrix draws;
+    Matrix samples;
     Vector observed;
 };
 
-Means conditional_means(const AbcDraws& draws, const Matrix& unit, const Matrix& summaries,
+Means conditional_means(const AbcSamples& samples, const Matrix& unit, const Matrix& summaries,
                         const Vector& observed) {
     const Scaling scaling(summaries);
-    const std::size_t groups = 1 + *std::max_element(draws.group.begin(), draws.group.end());
-    constexpr std::size_t kDrawsPerCoefficient = 5;
+    const std::size_t groups = 1 + *std::max_element(samples.group.begin(), samples.group.end());
+    constexpr std::size_t kSamplesPerCoefficient = 5;
     const bool squares =
-        std::min(groups, draws.size()) > kDrawsPerCoefficient * (2 * draws.summaries + 1);
+        std::min(groups, samples.size()) > kSamplesPerCoefficient * (2 * samples.summaries + 1);
     const Vector at = scaling.row(observed, squares);
     Matrix design(summaries.rows(), at.size());
     for (Eigen::Index i = 0; i < summaries.rows(); ++i) {
@@ -82,14 +82,14 @@ Means conditional_means(const AbcDraws& draws, const Matrix& unit, const Matrix&
     for (int fold = 0; fold < kFolds; ++fold) {
         Vector weight(unit.rows());
         for (Eigen::Index i = 0; i < unit.rows(); ++i) {
-            const bool own =
-                draws.group[static_cast<std::size_t>(i)] % kFolds == static_cast<std::size_t>(fold);
+            const bool own = samples.group[static_cast<std::size_t>(i)] % kFolds ==
+                             static_cast<std::size_t>(fold);
             weight(i) = own ? 0.0 : 1.0;
         }
         const Matrix fit = ridge_fit(design, unit, weight, kRidge);
         for (Eigen::Index i = 0; i < unit.rows(); ++i) {
             if (weight(i) == 0.0) {
-                means.draws.row(i) = design.row(i) * fit;
+                means.samples.row(i) = design.row(i) * fit;
             }
         }
         means.observed += fit.transpose() * at / kFolds;
@@ -99,14 +99,14 @@ Means conditional_means(const AbcDraws& draws, const Matrix& unit, const Matrix&
 
 // Keeps the nearest samples with Epanechnikov weights.
 void keep_nearest(const Means& means, double share, AbcPosterior& posterior) {
-    const Vector distance = (means.draws.rowwise() - means.observed.transpose()).rowwise().norm();
+    const Vector distance = (means.samples.rowwise() - means.observed.transpose()).rowwise().norm();
     std::vector<std::size_t> order(static_cast<std::size_t>(distance.size()));
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return distance(static_cast<Eigen::Index>(a)) < distance(static_cast<Eigen::Index>(b));
     });
-    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(order.size()));
-    const std::size_t kept = std::clamp<std::size_t>(wanted, 1, order.size() - 1);
+    const auto needed = static_cast<std::size_t>(share * static_cast<double>(order.size()));
+    const std::size_t kept = std::clamp<std::size_t>(needed, 1, order.size() - 1);
     const double reach = distance(static_cast<Eigen::Index>(order[kept]));
     for (std::size_t i = 0; i < kept; ++i) {
         const double near = distance(static_cast<Eigen::Index>(order[i]));
@@ -137,7 +137,7 @@ void adjust(const Means& means, const Matrix& unit, AbcPosterior& posterior) {
     for (Eigen::Index i = 0; i < kept; ++i) {
         const auto row = static_cast<Eigen::Index>(posterior.draw[static_cast<std::size_t>(i)]);
         design(i, 0) = 1.0;
-        design.row(i).tail(parameters) = means.draws.row(row) - means.observed.transpose();
+        design.row(i).tail(parameters) = means.samples.row(row) - means.observed.transpose();
         logits.row(i) = unit.row(row).unaryExpr(&logit);
         weight(i) = posterior.weight[static_cast<std::size_t>(i)];
     }
@@ -192,23 +192,25 @@ void correlate(const Matrix& unit, const Matrix& summaries, AbcPosterior& poster
 
 }  // namespace
 
-AbcPosterior regression_abc(const AbcDraws& draws, std::span<const double> observed, double share) {
+AbcPosterior regression_abc(const AbcSamples& samples, std::span<const double> observed,
+                            double share) {
     constexpr std::size_t kFewest = 10;
-    if (draws.unit.size() != draws.size() * draws.parameters ||
-        draws.summary.size() != draws.size() * draws.summaries ||
-        observed.size() != draws.summaries || draws.parameters == 0 || draws.summaries == 0) {
+    if (samples.unit.size() != samples.size() * samples.parameters ||
+        samples.summary.size() != samples.size() * samples.summaries ||
+        observed.size() != samples.summaries || samples.parameters == 0 || samples.summaries == 0) {
         throw std::invalid_argument("abc: samples and observation differ in shape");
     }
-    if (draws.size() < kFewest * draws.parameters) {
+    if (samples.size() < kFewest * samples.parameters) {
         throw std::invalid_argument("abc: fewer than ten samples per parameter");
     }
-    const auto count = static_cast<Eigen::Index>(draws.size());
-    const Matrix unit = Rows(draws.unit.data(), count, static_cast<Eigen::Index>(draws.parameters));
+    const auto count = static_cast<Eigen::Index>(samples.size());
+    const Matrix unit =
+        Rows(samples.unit.data(), count, static_cast<Eigen::Index>(samples.parameters));
     const Matrix summaries =
-        Rows(draws.summary.data(), count, static_cast<Eigen::Index>(draws.summaries));
+        Rows(samples.summary.data(), count, static_cast<Eigen::Index>(samples.summaries));
     const Vector at =
         Eigen::Map<const Vector>(observed.data(), static_cast<Eigen::Index>(observed.size()));
-    const Means means = conditional_means(draws, unit, summaries, at);
+    const Means means = conditional_means(samples, unit, summaries, at);
     AbcPosterior posterior;
     keep_nearest(means, share, posterior);
     adjust(means, unit, posterior);

@@ -18,7 +18,7 @@
 
 namespace gearpod::analysis {
 
-struct AbcDraws {
+struct AbcSamples {
     std::size_t parameters = 0, summaries = 0;
     std::vector<double> unit;        // [sample][parameter], uniform prior from 0 to 1
     std::vector<double> summary;     // [sample][summary], finite
@@ -38,7 +38,8 @@ struct AbcPosterior {
 // Computes the posterior. `share`: share of the samples to keep, from 0 to 1. Throws
 // std::invalid_argument if the shapes disagree or if there are fewer than ten samples per
 // parameter.
-AbcPosterior regression_abc(const AbcDraws& draws, std::span<const double> observed, double share);
+AbcPosterior regression_abc(const AbcSamples& samples, std::span<const double> observed,
+                            double share);
 
 // Quantile of weighted values: the value at which the cumulative weight reaches the probability,
 // with half of each value's own weight, interpolated linearly.

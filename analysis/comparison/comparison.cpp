@@ -27,14 +27,14 @@ struct Detected {
 
 Detected detected(const ComparedSample& sample, const ComparisonRequest& request) {
     const std::vector<double> no_fault(sample.healthy.size(), 0.0);
-    DetectionRequest asked;
-    asked.false_alarm_rate = request.false_alarm_rate;
-    asked.confidence = request.confidence;
-    asked.noise_levels = {1.0};
-    asked.groups = request.groups;
+    DetectionRequest single_level_request;
+    single_level_request.false_alarm_rate = request.false_alarm_rate;
+    single_level_request.confidence = request.confidence;
+    single_level_request.noise_levels = {1.0};
+    single_level_request.groups = request.groups;
     Detected result;
     result.level = detect("", sample.alarm, {no_fault, sample.healthy},
-                          {sample.graded_size, sample.graded}, asked)
+                          {sample.graded_size, sample.graded}, single_level_request)
                        .levels.front();
     result.hit = outcomes(sample.graded, result.level.threshold, sample.alarm);
     constexpr int kNoBand = 2;
@@ -62,13 +62,13 @@ Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detec
     result.a90.resize(count);
     machine::for_each_index(count, threads, [&](std::size_t r) {
         std::mt19937_64 engine(r);
-        const auto healthy = drawn_again(a.healthy.size(), engine);
-        const auto graded = drawn_again(a.graded.size(), engine);
+        const auto healthy = bootstrap_counts(a.healthy.size(), engine);
+        const auto graded = bootstrap_counts(a.graded.size(), engine);
         const auto one =
             first.detect(healthy, graded, curves ? &of_a.pod.chosen.curve.form : nullptr);
         const auto two =
-            second.detect(request.paired ? healthy : drawn_again(b.healthy.size(), engine),
-                          request.paired ? graded : drawn_again(b.graded.size(), engine),
+            second.detect(request.paired ? healthy : bootstrap_counts(b.healthy.size(), engine),
+                          request.paired ? graded : bootstrap_counts(b.graded.size(), engine),
                           curves ? &of_b.pod.chosen.curve.form : nullptr);
         for (std::size_t g = 0; g < request.groups.size(); ++g) {
             result.rates[g][r] = two.pd[g] - one.pd[g];
@@ -200,8 +200,8 @@ NumberDifference auc_difference(const ComparedSample& a, const ComparedSample& b
             return result;
         }
     }
-    const AucShares one = auc_shares(of_a.healthy, of_a.faulty);
-    const AucShares two = auc_shares(of_b.healthy, of_b.faulty);
+    const AucComponents one = auc_components(of_a.healthy, of_a.faulty);
+    const AucComponents two = auc_components(of_b.healthy, of_b.faulty);
     const double var_a = auc_covariance(one, one), var_b = auc_covariance(two, two);
     const double both = request.paired ? auc_covariance(one, two) : 0.0;
     const auto interval = [&](const Areas& areas, double area, double variance) {

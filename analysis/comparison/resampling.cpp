@@ -35,7 +35,7 @@ double a90_of(const HitMissTable& table, const PodForm& form) {
 
 }  // namespace
 
-std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine) {
+std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine) {
     std::vector<int> times(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         // Upper half of the product: uniform to count / 2^32, and the same with every library.
@@ -81,10 +81,10 @@ double Resampling::threshold(const std::vector<int>& times) const {
 }
 
 double Resampling::beyond(const std::vector<int>& times, long sample) const {
-    const auto wanted = static_cast<std::size_t>(exceedances_of(sample)) + 1;
+    const auto needed = static_cast<std::size_t>(exceedances_of(sample)) + 1;
     std::vector<double> largest;
-    for (auto at = healthy_.rbegin(); at != healthy_.rend() && largest.size() < wanted; ++at) {
-        const auto left = wanted - largest.size();
+    for (auto at = healthy_.rbegin(); at != healthy_.rend() && largest.size() < needed; ++at) {
+        const auto left = needed - largest.size();
         largest.insert(largest.end(), std::min<std::size_t>(left, times[at->second]), at->first);
     }
     std::reverse(largest.begin(), largest.end());
@@ -97,16 +97,16 @@ ResampledDetection Resampling::detect(const std::vector<int>& healthy,
     const double limit = threshold(healthy);
     std::vector<double> tested(groups_, 0.0), found(groups_, 0.0);
     HitMissTable table;
-    for (const Graded& box : graded_) {
-        const double weight = graded[box.gearbox];
-        const double hits = box.value > limit ? weight : 0.0;
-        if (box.group != kNoGroup) {
-            tested[box.group] += weight;
-            found[box.group] += hits;
+    for (const Graded& row : graded_) {
+        const double weight = graded[row.gearbox];
+        const double hits = row.value > limit ? weight : 0.0;
+        if (row.group != kNoGroup) {
+            tested[row.group] += weight;
+            found[row.group] += hits;
         }
-        if (box.size > 0.0 && weight > 0.0) {
-            if (table.empty() || table.back().size != box.size) {
-                table.push_back({box.size, 0.0, 0.0});
+        if (row.size > 0.0 && weight > 0.0) {
+            if (table.empty() || table.back().size != row.size) {
+                table.push_back({row.size, 0.0, 0.0});
             }
             table.back().hits += hits;
             table.back().tests += weight;

@@ -15,7 +15,7 @@ namespace gearpod::analysis {
 
 // Number of times every gearbox of a sample is drawn. The same for the same seed and count on every
 // platform.
-std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine);
+std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine);
 
 struct ResampledDetection {
     std::vector<double> pd;  // by size group; NaN where none was drawn

@@ -8,7 +8,7 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/bivariate_tail.hpp"
-#include "analysis/statistics/laws.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/midranks.hpp"
 
 namespace gearpod::analysis {
@@ -53,7 +53,7 @@ double design_effect(const Gearboxes& gearboxes) {
 
 // Effective number of alarming gearboxes: the number of gearboxes with equal counts that would
 // determine the scatter equally well.
-double alarming(const Gearboxes& gearboxes) {
+double effective_alarming_gearboxes(const Gearboxes& gearboxes) {
     double alarms = 0.0, squares = 0.0;
     for (const auto& [number, gearbox] : gearboxes) {
         alarms += gearbox.alarms;
@@ -81,7 +81,7 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
         const std::size_t own = std::min(kMost, gearbox.values.size());
         double sum = 0.0, sum2 = 0.0;
         for (std::size_t i = 0; i < own; ++i, ++at) {
-            const double score = -normal_exceeded((ranks[at] - 0.5) / n);
+            const double score = -normal_upper_tail_quantile((ranks[at] - 0.5) / n);
             sum += score;
             sum2 += score * score;
         }
@@ -99,12 +99,12 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
     return variance > 0.0 ? variance / (variance + mean_within) : 0.0;
 }
 
-// Interval from an effective sample size; `telling`: number of gearboxes that determine the
+// Interval from an effective sample size; `scatter_sample`: number of gearboxes that determine the
 // scatter.
-Interval effective_interval(double recordings, double effect, double telling, double rate,
+Interval effective_interval(double recordings, double effect, double scatter_sample, double rate,
                             double tail) {
     const double narrower =
-        normal_quantile(1.0 - tail) / student_quantile(telling - 1.0, 1.0 - tail);
+        normal_quantile(1.0 - tail) / student_quantile(scatter_sample - 1.0, 1.0 - tail);
     const double sample = recordings / effect * narrower * narrower + 1.0;
     const double a = sample * rate, b = sample - a;
     return {beta_quantile(a, b, tail), beta_quantile(a, b, 1.0 - tail)};
@@ -114,18 +114,20 @@ Interval effective_interval(double recordings, double effect, double telling, do
 // that of normal scores and the observed one. Empty where few gearboxes have the alarms, or where
 // they scatter more than normal scores.
 std::optional<Interval> rare_interval(const Gearboxes& gearboxes, double rate, double tail) {
-    constexpr double kTelling = 20.0, kLeastAlarming = 15.0, kAlike = 1.3;
+    constexpr double kLeastScatterSample = 20.0, kLeastAlarming = 15.0, kAlike = 1.3;
     const Totals all = totals(gearboxes);
     const double others = all.recordings / all.gearboxes - 1.0;
-    const double both = both_beyond(rate, share_of_gearboxes(gearboxes));
+    const double both = both_exceed(rate, share_of_gearboxes(gearboxes));
     const double effect = 1.0 + others * (both - rate * rate) / (rate * (1.0 - rate));
-    const double telling = all.recordings * rate / (1.0 + others * both / rate);
-    const double seen = design_effect(gearboxes), alarming_now = alarming(gearboxes);
-    if (telling < kTelling || alarming_now < kLeastAlarming || seen > kAlike * effect) {
+    const double scatter_sample = all.recordings * rate / (1.0 + others * both / rate);
+    const double seen = design_effect(gearboxes),
+                 alarming_now = effective_alarming_gearboxes(gearboxes);
+    if (scatter_sample < kLeastScatterSample || alarming_now < kLeastAlarming ||
+        seen > kAlike * effect) {
         return std::nullopt;
     }
     return effective_interval(all.recordings, std::max(seen, effect),
-                              std::min(telling, alarming_now), rate, tail);
+                              std::min(scatter_sample, alarming_now), rate, tail);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ const DetectionCell* healthy_cell(const LevelDetection& level) {
 // True if healthy values equal the threshold. They raise no alarm, so the rate is below that of the
 // order statistic by an unknown amount.
 bool tied(const LevelDetection& level, const DetectionRequest& request) {
-    if (level.tilted) {
+    if (level.importance_sampled) {
         return false;
     }
     const long rank = threshold_rank(level.threshold_sample, request.false_alarm_rate);
@@ -115,7 +115,7 @@ void rate_healthy(LevelDetection& level, const Threshold& threshold, Alarm alarm
     const HealthyRate rate = known(alarms, tested);
     level.healthy_rate = rate.rate;
     level.healthy_rate_bounds = rate.bounds;
-    if (!level.tail && !level.tilted) {
+    if (!level.tail && !level.importance_sampled) {
         level.expected_rate =
             expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
     }
@@ -144,7 +144,7 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
 void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
     const double rate = request.false_alarm_rate;
-    if (level.tail || level.tilted) {
+    if (level.tail || level.importance_sampled) {
         return warn_of_tail(level, request, warnings);
     }
     if (level.threshold_rate.upper > 2.0 * rate) {
@@ -227,9 +227,9 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         if (threshold.tail) {
             level.tail = tail_threshold(thresholds.plain(), alarm, threshold, request);
         }
-        if (threshold.tilted) {
-            level.tilted = {
-                threshold.gearboxes, threshold.tilted->carrying,
+        if (threshold.importance_sampled) {
+            level.importance_sampled = {
+                threshold.gearboxes, threshold.importance_sampled->contributing,
                 1.0 / (request.false_alarm_rate * static_cast<double>(threshold.gearboxes))};
         }
         level.cells.resize(request.groups.size());
@@ -245,7 +245,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
             rate(cell, !std::isnan(level.threshold), request.confidence);
         }
         rate_healthy(level, threshold, alarm, request);
-        warn(level, level.tilted ? sample.size() : thresholds.plain().size(),
+        warn(level, level.importance_sampled ? sample.size() : thresholds.plain().size(),
              request.false_alarm_rate, result.warnings);
         warn_of_rate(level, request, result.warnings);
         result.levels.push_back(std::move(level));

@@ -47,10 +47,10 @@ struct TailThreshold {
     bool steady = true;  // the rates of the other fits lie in the interval of the threshold's rate
 };
 
-// Threshold from importance-sampled records (tilted_sample.hpp).
-struct TiltedThreshold {
+// Threshold from importance-sampled records (importance_sample.hpp).
+struct ImportanceSampledThreshold {
     long gearboxes = 0;
-    double carrying = 0.0;       // effective number of gearboxes that contribute to the rate
+    double contributing = 0.0;   // effective number of gearboxes that contribute to the rate
     double extrapolation = 1.0;  // 1 / (rate x number of gearboxes)
 };
 
@@ -61,8 +61,9 @@ struct LevelDetection {
     long threshold_sample = 0;          // healthy gearboxes that set it
     long threshold_alarms = 0;          // number of them beyond the threshold
     std::optional<TailThreshold> tail;  // set if the threshold was extrapolated
-    std::optional<TiltedThreshold> tilted = {};  // set if the threshold is from importance sampling
-    std::vector<DetectionCell> cells;            // by ascending size
+    std::optional<ImportanceSampledThreshold> importance_sampled =
+        {};                            // set if the threshold is from importance sampling
+    std::vector<DetectionCell> cells;  // by ascending size
     // Interval of the false-alarm rate of this threshold from the healthy sample alone, whatever
     // the feature's distribution (false_alarm_rate.hpp, tail.hpp).
     Interval threshold_rate = {};
@@ -105,7 +106,8 @@ struct DetectionRequest {
     std::vector<std::string> uncertain = {};
     // Number of consecutive rows per gearbox of the threshold sample: records that differ in noise.
     std::size_t threshold_records = 1;
-    bool threshold_tilt = false;  // importance sampling for the records of accelerometer features
+    bool importance_sampling =
+        false;  // importance sampling for the records of accelerometer features
 };
 
 }  // namespace gearpod::analysis

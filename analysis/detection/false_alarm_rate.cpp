@@ -4,8 +4,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/laws.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {

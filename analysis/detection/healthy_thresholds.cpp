@@ -21,7 +21,7 @@ HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) :
         }
         return;
     }
-    tilted_.emplace(sample.values, sample.weights, sample.gearbox, alarm);
+    importance_sample_.emplace(sample.values, sample.weights, sample.gearbox, alarm);
     for (std::size_t i = 0; i < sample.values.size(); ++i) {
         if (i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
             plain_.push_back(sample.values[i]);
@@ -30,14 +30,15 @@ HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) :
 }
 
 Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) const {
-    if (const auto estimate =
-            tilted_ ? tilted_->threshold(false_alarm_rate, confidence) : std::nullopt) {
+    if (const auto estimate = importance_sample_
+                                  ? importance_sample_->threshold(false_alarm_rate, confidence)
+                                  : std::nullopt) {
         Threshold threshold;
         threshold.value = estimate->threshold;
-        threshold.sample = tilted_->records();
+        threshold.sample = importance_sample_->records();
         threshold.alarms = estimate->alarms;
-        threshold.gearboxes = tilted_->gearboxes();
-        threshold.tilted = estimate;
+        threshold.gearboxes = importance_sample_->gearboxes();
+        threshold.importance_sampled = estimate;
         return threshold;
     }
     Threshold threshold = alarm_threshold(plain_, alarm_, false_alarm_rate);
@@ -50,8 +51,9 @@ Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) cons
 
 Interval HealthyThresholds::value_bounds(const Threshold& threshold, double false_alarm_rate,
                                          double confidence) const {
-    if (threshold.tilted) {
-        return tilted_->threshold_interval(false_alarm_rate, *threshold.tilted);
+    if (threshold.importance_sampled) {
+        return importance_sample_->threshold_interval(false_alarm_rate,
+                                                      *threshold.importance_sampled);
     }
     if (gearbox_.empty()) {
         return threshold_interval(plain_, alarm_, false_alarm_rate, confidence);
@@ -62,9 +64,9 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
     const std::vector<double> ascending =
         largest_values(plain_, alarm_, static_cast<long>(plain_.size()));
     const auto value = [&](double bound) {
-        const double wanted = false_alarm_rate * false_alarm_rate / bound;
+        const double target = false_alarm_rate * false_alarm_rate / bound;
         const double rank = std::ceil((static_cast<double>(ascending.size()) + 1.0) *
-                                      (1.0 - std::min(1.0, wanted)));
+                                      (1.0 - std::min(1.0, target)));
         const double sign = alarm_sign(alarm_);
         return rank > static_cast<double>(ascending.size())
                    ? sign * std::numeric_limits<double>::infinity()
@@ -77,7 +79,7 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
 Interval HealthyThresholds::rate_bounds(const Threshold& threshold, double false_alarm_rate,
                                         double confidence) const {
     const Interval own = rate_of(threshold, alarm_, false_alarm_rate, 0, 0, confidence).bounds;
-    if (threshold.tilted || gearbox_.empty() || std::isnan(threshold.value)) {
+    if (threshold.importance_sampled || gearbox_.empty() || std::isnan(threshold.value)) {
         return own;
     }
     const Interval clustered = clustered_rate_interval(plain_, gearbox_, alarm_, threshold.value,

@@ -14,7 +14,7 @@ struct HealthyValues {
     std::span<const double> values;
     // Importance-sampled records of one gearbox are consecutive.
     std::span<const std::size_t> gearbox = {};
-    std::span<const double> weights = {};  // of importance-sampled records (tilted_sample.hpp)
+    std::span<const double> weights = {};  // of importance-sampled records (importance_sample.hpp)
 
     bool clustered() const;
 };
@@ -24,7 +24,8 @@ struct HealthyValues {
 // - Plain values: alarm_threshold().
 // - Several plain records per gearbox: the same order statistics, without extrapolation, because
 //   the tail of clustered values is not known (clustered_rate.hpp).
-// - Importance-sampled records: tilted_sample.hpp. Where too few gearboxes contribute to the rate,
+// - Importance-sampled records: importance_sample.hpp. Where too few gearboxes contribute to the
+// rate,
 //   alarm_threshold() of the first record of each gearbox, which is plain.
 class HealthyThresholds {
   public:
@@ -47,7 +48,7 @@ class HealthyThresholds {
     Alarm alarm_;
     std::vector<double> plain_;
     std::vector<std::size_t> gearbox_;  // gearboxes of the plain values, if several share one
-    std::optional<TiltedSample> tilted_;
+    std::optional<ImportanceSample> importance_sample_;
 };
 
 }  // namespace gearpod::analysis

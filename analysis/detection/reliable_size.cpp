@@ -44,8 +44,8 @@ double size_beyond_misses(std::span<const double> sizes, std::span<const int> hi
     return beyond[last];
 }
 
-double tested_size(const LevelDetection& level, std::span<const double> sizes,
-                   std::span<const int> hit, double pd, double confidence) {
+double demonstrated_size(const LevelDetection& level, std::span<const double> sizes,
+                         std::span<const int> hit, double pd, double confidence) {
     const double single = size_beyond_misses(sizes, hit, pd, 1.0 - 0.5 * (1.0 - confidence));
     const auto group = reliable_size(level, pd);
     return group ? std::fmin(group->high, single) : single;

@@ -29,7 +29,7 @@ double size_beyond_misses(std::span<const double> sizes, std::span<const int> hi
 
 // Smaller of the sizes by groups (with two-sided intervals) and by individual gearboxes, each with
 // half of the error probability. NaN if neither is reached.
-double tested_size(const LevelDetection& level, std::span<const double> sizes,
-                   std::span<const int> hit, double pd, double confidence);
+double demonstrated_size(const LevelDetection& level, std::span<const double> sizes,
+                         std::span<const int> hit, double pd, double confidence);
 
 }  // namespace gearpod::analysis

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "analysis/statistics/laws.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -16,8 +16,9 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Share of the next exchange, adapted in steps towards an acceptance rate of 44 %.
 double next_share(double share, double kept) {
-    constexpr double kWanted = 0.44, kStep = 1.4, kLeast = 0.005;
-    return std::clamp(share * std::clamp(kept / kWanted, 1.0 / kStep, kStep), kLeast, 1.0);
+    constexpr double kTargetAcceptance = 0.44, kStep = 1.4, kLeast = 0.005;
+    return std::clamp(share * std::clamp(kept / kTargetAcceptance, 1.0 / kStep, kStep), kLeast,
+                      1.0);
 }
 
 }  // namespace

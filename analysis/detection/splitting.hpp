@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
-#include "analysis/detection/draw_exchange.hpp"
+#include "analysis/detection/input_exchange.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
@@ -31,7 +31,7 @@ inline constexpr double kLeastFamilies = 5.0;
 // Gearbox with its own random inputs and the exchanges applied to them, in this order.
 struct SplitMember {
     std::uint64_t index = 0;  // also the number of its family
-    std::vector<DrawExchange> exchanged;
+    std::vector<InputExchange> exchanged;
 };
 // Computes the value of every member. A value that is not finite raises no alarm.
 using SplitValues = std::function<std::vector<double>(std::span<const SplitMember>)>;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "analysis/statistics/laws.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
@@ -16,19 +16,20 @@ constexpr double kTailRounding = 1e-9;
 constexpr long kShare = 10;  // a tenth of the sample
 // Initial search range of the posterior, in units of the median excess: a shape of 2 has a scale of
 // 2/3 there, a shape of -1/2 one of 1.7.
-constexpr double kLargestPace = 3.0, kLogScales = 2.0;
+constexpr double kLargestShapeOverScale = 3.0, kLogScales = 2.0;
 constexpr int kNodes = 81;
 constexpr double kReach = 6.0;  // standard deviations of the posterior covered by the nodes
 
 // Survival function at x, with shape = pace * scale.
-double survivors(double pace, double scale, double x) {
-    const double argument = pace * x;
+double survival_function(double shape_over_scale, double scale, double x) {
+    const double argument = shape_over_scale * x;
     if (argument <= -1.0) {
         return 0.0;
     }
     constexpr double kStraight = 1e-9;  // exponential to rounding
-    return std::abs(argument) < kStraight ? std::exp(-x / scale)
-                                          : std::exp(-std::log1p(argument) / (pace * scale));
+    return std::abs(argument) < kStraight
+               ? std::exp(-x / scale)
+               : std::exp(-std::log1p(argument) / (shape_over_scale * scale));
 }
 
 struct Moments {
@@ -112,20 +113,24 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     }
     // The distribution must extend beyond the largest value: 1 + pace * largest > 0.
     const double least = -1.0 / *std::max_element(excess.begin(), excess.end());
-    nodes_ = posterior(excess, least, kLargestPace, -kLogScales, kLogScales);
-    const Moments pace = moments(nodes_, [](const Node& node) { return node.pace; });
+    nodes_ = posterior(excess, least, kLargestShapeOverScale, -kLogScales, kLogScales);
+    const Moments shape_over_scale =
+        moments(nodes_, [](const Node& node) { return node.shape_over_scale; });
     const Moments scale = moments(nodes_, [](const Node& node) { return std::log(node.scale); });
-    nodes_ = posterior(excess, std::max(least, pace.mean - kReach * pace.deviation),
-                       pace.mean + kReach * pace.deviation, scale.mean - kReach * scale.deviation,
-                       scale.mean + kReach * scale.deviation);
-    shape_ = moments(nodes_, [](const Node& node) { return node.pace * node.scale; }).mean;
+    nodes_ = posterior(
+        excess, std::max(least, shape_over_scale.mean - kReach * shape_over_scale.deviation),
+        shape_over_scale.mean + kReach * shape_over_scale.deviation,
+        scale.mean - kReach * scale.deviation, scale.mean + kReach * scale.deviation);
+    shape_ =
+        moments(nodes_, [](const Node& node) { return node.shape_over_scale * node.scale; }).mean;
     scale_ = unit_ * moments(nodes_, [](const Node& node) { return node.scale; }).mean;
 }
 
 // In pace and log scale, the sum over the excesses depends on the pace alone. The prior is then
 // scale / ((1 + shape) sqrt(1 + 2 shape)).
-std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess, double pace_low,
-                                              double pace_high, double log_scale_low,
+std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
+                                              double shape_over_scale_low,
+                                              double shape_over_scale_high, double log_scale_low,
                                               double log_scale_high) const {
     const auto k = static_cast<double>(excess.size());
     const double total = std::accumulate(excess.begin(), excess.end(), 0.0);
@@ -134,21 +139,24 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
     double most = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < kNodes; ++i) {
         // Midpoints, because the likelihood is 0 at the smallest pace.
-        const double pace = pace_low + (i + 0.5) / kNodes * (pace_high - pace_low);
+        const double shape_over_scale =
+            shape_over_scale_low +
+            (i + 0.5) / kNodes * (shape_over_scale_high - shape_over_scale_low);
         double sum = 0.0;
         for (const double y : excess) {
-            sum += std::log1p(pace * y);
+            sum += std::log1p(shape_over_scale * y);
         }
-        const double slope = std::abs(pace) < kTailRounding ? total : sum / pace;
+        const double slope =
+            std::abs(shape_over_scale) < kTailRounding ? total : sum / shape_over_scale;
         for (int j = 0; j < kNodes; ++j) {
             const double s = log_scale_low + (j + 0.5) / kNodes * (log_scale_high - log_scale_low);
-            const double scale = std::exp(s), shape = pace * scale;
+            const double scale = std::exp(s), shape = shape_over_scale * scale;
             if (shape <= -0.5) {
                 continue;
             }
             logs.push_back(-k * s - sum - slope / scale + s - std::log1p(shape) -
                            0.5 * std::log1p(2.0 * shape));
-            nodes.push_back({pace, scale, 0.0});
+            nodes.push_back({shape_over_scale, scale, 0.0});
             most = std::max(most, logs.back());
         }
     }
@@ -168,7 +176,7 @@ double TailFit::rate(double value) const {
     const double x = (value - above_) / unit_;
     double sum = 0.0;
     for (const Node& node : nodes_) {
-        sum += node.weight * survivors(node.pace, node.scale, x);
+        sum += node.weight * survival_function(node.shape_over_scale, node.scale, x);
     }
     return sum * static_cast<double>(exceedances_ + 1) / static_cast<double>(sample_ + 1);
 }
@@ -198,7 +206,7 @@ HealthyRate TailFit::rate(double value, long alarms, long tested, double confide
     std::vector<Weighted> rates;
     double weight = 0.0, mean = 0.0;
     for (const Node& node : nodes_) {
-        const double beyond = survivors(node.pace, node.scale, x);
+        const double beyond = survival_function(node.shape_over_scale, node.scale, x);
         for (const double share : shares) {
             const double p = share * beyond;
             rates.push_back({p, node.weight * likelihood(p)});
@@ -218,10 +226,10 @@ Interval TailFit::threshold_interval(double rate, double confidence) const {
     for (const double share : shares()) {
         const double log_ratio = std::log(std::min(1.0, rate / share));
         for (const Node& node : nodes_) {
-            const double shape = node.pace * node.scale;
+            const double shape = node.shape_over_scale * node.scale;
             const double x = std::abs(shape) < kTailRounding
                                  ? -node.scale * log_ratio
-                                 : std::expm1(-shape * log_ratio) / node.pace;
+                                 : std::expm1(-shape * log_ratio) / node.shape_over_scale;
             values.push_back({above_ + unit_ * x, node.weight});
             weight += node.weight;
         }

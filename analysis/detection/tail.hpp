@@ -59,10 +59,11 @@ class TailFit {
 
   private:
     struct Node {
-        double pace, scale, weight;  // pace: shape / scale; in units of the median excess
+        double shape_over_scale, scale,
+            weight;  // pace: shape / scale; in units of the median excess
     };
-    std::vector<Node> posterior(const std::vector<double>& excess, double pace_low,
-                                double pace_high, double log_scale_low,
+    std::vector<Node> posterior(const std::vector<double>& excess, double shape_over_scale_low,
+                                double shape_over_scale_high, double log_scale_low,
                                 double log_scale_high) const;
     // Equally likely values of the share above the order statistic.
     std::vector<double> shares() const;

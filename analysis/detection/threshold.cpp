@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/laws.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -47,8 +47,8 @@ Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false
 
 HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_rate, long alarms,
                     long tested, double confidence) {
-    if (threshold.tilted) {
-        return {false_alarm_rate, threshold.tilted->rate};
+    if (threshold.importance_sampled) {
+        return {false_alarm_rate, threshold.importance_sampled->rate};
     }
     return threshold.tail
                ? threshold.tail->rate(alarm_sign(alarm) * threshold.value, alarms, tested,

@@ -6,8 +6,8 @@
 
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/tail.hpp"
-#include "analysis/detection/tilted_sample.hpp"
 
 namespace gearpod::analysis {
 
@@ -18,7 +18,7 @@ struct Threshold {
     // Tail fit of an extrapolated threshold, with values negated for a low alarm.
     std::optional<TailFit> tail;
     // Estimate of an importance-sampled threshold, and its number of gearboxes.
-    std::optional<TiltedSample::Estimate> tilted = {};
+    std::optional<ImportanceSample::Estimate> importance_sampled = {};
     long gearboxes = 0;
 };
 

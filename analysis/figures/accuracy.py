@@ -18,7 +18,7 @@ MARKS = "osD^vPX*"
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
 
 
-def draw_rungs(axes, report, styles):
+def draw_settings(axes, report, styles):
     for setting in report["rungs"]:
         if "refused" in setting or setting["integrator"] == "auto":
             continue
@@ -77,7 +77,7 @@ def main():
     styles = {name: (COLOURS[i % 8], MARKS[i % 8]) for i, name in enumerate(names)}
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 5), sharex=True)
-    draw_rungs(axes, report, styles)
+    draw_settings(axes, report, styles)
     draw_frontier(axes[0], report)
     draw_others(axes, report)
     for choice in report.get("choices", []):

@@ -76,14 +76,14 @@ InputInfluence influence(const InputColumn& input, const std::vector<Stratum>& s
     double weights = 0.0, area = 0.0, variance = 0.0;
     long pairs = 0;
     for (const Stratum& stratum : strata) {
-        const AucShares shares =
-            auc_shares(values_at(input, stratum.hits), values_at(input, stratum.misses));
+        const AucComponents components =
+            auc_components(values_at(input, stratum.hits), values_at(input, stratum.misses));
         const auto m = static_cast<double>(stratum.hits.size());
         const auto n = static_cast<double>(stratum.misses.size());
         const double weight = m * n / (m + n + 1.0);
         weights += weight;
-        area += weight * shares.auc;
-        variance += weight * weight * auc_covariance(shares, shares);
+        area += weight * components.auc;
+        variance += weight * weight * auc_covariance(components, components);
         pairs += static_cast<long>(std::min(stratum.hits.size(), stratum.misses.size()));
     }
     area /= weights;

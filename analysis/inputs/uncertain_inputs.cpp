@@ -80,9 +80,9 @@ bool varies(const InputColumn& input) {
 
 }  // namespace
 
-UncertainBand uncertain_band(std::span<const double> sizes, std::span<const int> hit,
+EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int> hit,
                              const std::vector<InputColumn>& inputs, const HitMissPod& pod) {
-    UncertainBand result;
+    EpistemicBand result;
     std::vector<const InputColumn*> varying;
     for (const InputColumn& input : inputs) {
         if (varies(input)) {
@@ -128,8 +128,8 @@ UncertainBand uncertain_band(std::span<const double> sizes, std::span<const int>
     const auto estimate = [&](double share) {
         return estimate_within(quantile(a90, share), pod.smallest, pod.largest);
     };
-    result.a90_low = estimate(kUncertainQuantiles[0]);
-    result.a90_high = estimate(kUncertainQuantiles[1]);
+    result.a90_low = estimate(kEpistemicQuantiles[0]);
+    result.a90_high = estimate(kEpistemicQuantiles[1]);
     for (const PodPoint& point : pod.band) {
         const double eta = intercept + slope * (form.scaled(point.size) - size_scale.centre[0]) /
                                            size_scale.spread[0];
@@ -139,8 +139,8 @@ UncertainBand uncertain_band(std::span<const double> sizes, std::span<const int>
                           link_probability(model.link, eta + shift[static_cast<Eigen::Index>(i)]);
         }
         result.band.push_back({point.size, quantile(pods, 0.5),
-                               quantile(pods, kUncertainQuantiles[0]),
-                               quantile(pods, kUncertainQuantiles[1])});
+                               quantile(pods, kEpistemicQuantiles[0]),
+                               quantile(pods, kEpistemicQuantiles[1])});
     }
     return result;
 }

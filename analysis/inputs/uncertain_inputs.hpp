@@ -19,17 +19,17 @@
 
 namespace gearpod::analysis {
 
-struct UncertainBand {
+struct EpistemicBand {
     std::vector<std::string> inputs;  // those that vary; no band if empty
     SizeEstimate a90_low, a90_high;   // at the 5 and 95 % quantile of the curves
     std::vector<PodPoint> band;  // at the sizes of the feature's band: median, 5 and 95 % quantile
     std::string refusal;         // reason why there is no band, or ""
 };
 
-inline constexpr double kUncertainQuantiles[] = {0.05, 0.95};
+inline constexpr double kEpistemicQuantiles[] = {0.05, 0.95};
 
 // `sizes` and `hit` per gearbox as in input_effects(); `pod` is the analysis of the same gearboxes.
-UncertainBand uncertain_band(std::span<const double> sizes, std::span<const int> hit,
+EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int> hit,
                              const std::vector<InputColumn>& inputs, const HitMissPod& pod);
 
 }  // namespace gearpod::analysis

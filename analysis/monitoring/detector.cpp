@@ -101,8 +101,9 @@ void DetectorState::reset() {
     down_ = start_.rule;
 }
 
-Watch watch(const Detector& detector, std::span<const double> values, double threshold) {
-    Watch result;
+DetectorAlarms detector_alarms(const Detector& detector, std::span<const double> values,
+                               double threshold) {
+    DetectorAlarms result;
     DetectorState state(detector);
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double statistic = state.next(values[i]);

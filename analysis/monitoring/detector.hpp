@@ -43,11 +43,12 @@ class DetectorState {
 };
 
 // Alarms of a detector on the values of one gearbox. The detector restarts after each alarm.
-struct Watch {
+struct DetectorAlarms {
     std::vector<std::size_t> alarms;  // indices whose statistic lies strictly above the threshold
     // Largest statistic without an alarm.
     double largest_quiet = -std::numeric_limits<double>::infinity();
 };
-Watch watch(const Detector& detector, std::span<const double> values, double threshold);
+DetectorAlarms detector_alarms(const Detector& detector, std::span<const double> values,
+                               double threshold);
 
 }  // namespace gearpod::analysis

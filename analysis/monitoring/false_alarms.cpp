@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "analysis/detection/false_alarm_rate.hpp"
-#include "analysis/statistics/laws.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -35,7 +35,7 @@ struct Counted {
 Counted count(const Detector& detector, std::span<const HealthyLife> lives, double threshold) {
     Counted counted;
     for (const HealthyLife& life : lives) {
-        const Watch seen = watch(detector, life.values, threshold);
+        const DetectorAlarms seen = detector_alarms(detector, life.values, threshold);
         counted.alarms += static_cast<long>(seen.alarms.size());
         counted.largest_quiet = std::max(counted.largest_quiet, seen.largest_quiet);
     }
@@ -162,7 +162,8 @@ FalseAlarms false_alarms(const Detector& detector, std::span<const HealthyLife> 
     }
     std::vector<long> alarms;
     for (const HealthyLife& life : lives) {
-        alarms.push_back(static_cast<long>(watch(detector, life.values, threshold).alarms.size()));
+        alarms.push_back(
+            static_cast<long>(detector_alarms(detector, life.values, threshold).alarms.size()));
     }
     result.alarms = std::accumulate(alarms.begin(), alarms.end(), 0L);
     const double rate = static_cast<double>(result.alarms) / hours;

@@ -165,7 +165,8 @@ PodLikelihood::Slopes PodLikelihood::penalised(const Parameters& parameters,
     return slopes;
 }
 
-bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& through) const {
+bool PodLikelihood::pass_through(Parameters& parameters,
+                                 const std::optional<Point>& through) const {
     if (!through) {
         parameters[2] = std::min(parameters[2], 1.0);
         return parameters[2] > form_.floor;
@@ -191,7 +192,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
     const double converged = through ? 1e-7 : 1e-10;  // gain of the log likelihood
     const double shortest = through ? 1e-3 : 1e-8;    // step
     Maximum maximum;
-    meet(parameters, through);
+    pass_through(parameters, through);
     const SizeNodes* nodes = &nodes_for(parameters[1]);
     Slopes here = penalised(parameters, through, *nodes);
     for (int step = 0; step < most_steps; ++step) {
@@ -225,7 +226,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
             if (through) {  // the first parameter moves eta at the point
                 next[0] -= length * move[1] * through->u;
             }
-            if (!meet(next, through)) {
+            if (!pass_through(next, through)) {
                 continue;
             }
             // Never coarser than before: sums over other nodes differ by more than rounding.
@@ -279,7 +280,7 @@ PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
 std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihood, int side,
                                                   Parameters& start) const {
     constexpr int kMostSteps = 30;
-    constexpr double kSettled = 1e-3;    // in standard errors; the remaining error is its square
+    constexpr double kConverged = 1e-3;  // in standard errors; the remaining error is its square
     constexpr double kOnContour = 1e-2;  // of the log likelihood
     if (form_.firth) {
         return std::nullopt;
@@ -320,7 +321,7 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
             continue;
         }
         parameters += move;
-        if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
+        if (std::sqrt(std::abs(move.dot(system * move))) < kConverged) {
             // Far out the likelihood is flat, where any move is small.
             const double reached =
                 evaluate(parameters, std::nullopt, nodes_for(parameters[1])).value;

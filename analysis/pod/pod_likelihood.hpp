@@ -80,7 +80,7 @@ class PodLikelihood {
                      const SizeNodes& nodes) const;
     // Adjusts intercept or ceiling so that the curve passes through the point. False if the ceiling
     // is too low for the floor.
-    bool meet(Parameters& parameters, const std::optional<Point>& through) const;
+    bool pass_through(Parameters& parameters, const std::optional<Point>& through) const;
     Maximum ascend(Parameters parameters, const std::optional<Point>& through) const;
 
     std::shared_ptr<const StandardisedSizes> sizes_;

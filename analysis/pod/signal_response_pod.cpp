@@ -75,10 +75,11 @@ std::vector<SignalResponseFit> fit_all(const ResponseRows& rows, bool by_specime
     return fits;
 }
 
-const SignalResponseFit* best_of(const std::vector<SignalResponseFit>& fits, bool insist) {
+const SignalResponseFit* best_of(const std::vector<SignalResponseFit>& fits,
+                                 bool accept_failed_checks) {
     const SignalResponseFit* best = nullptr;
     for (const SignalResponseFit& fit : fits) {
-        const bool may = insist ? fit.refusals.empty() : fit.usable();
+        const bool may = accept_failed_checks ? fit.refusals.empty() : fit.usable();
         if (may && (best == nullptr || fit.aic < best->aic)) {
             best = &fit;
         }
@@ -119,7 +120,7 @@ SignalResponsePod signal_response_pod(std::span<const double> sizes,
         return pod;
     }
     pod.candidates = fit_all(rows, pod.specimens < pod.count, request);
-    const SignalResponseFit* best = best_of(pod.candidates, request.insist);
+    const SignalResponseFit* best = best_of(pod.candidates, request.accept_failed_checks);
     if (best == nullptr) {
         pod.refusal = candidates_refusal(pod.candidates);
         return pod;

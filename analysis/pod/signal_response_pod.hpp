@@ -33,7 +33,7 @@ struct SignalResponseRequest {
     std::vector<bool> log_sizes = {false, true};
     // Box-Cox powers; NaN: the power of greatest likelihood.
     std::vector<double> powers = {1.0, 0.0};
-    bool insist = false;                  // accept a scale whose checks fail
+    bool accept_failed_checks = false;    // accept a scale whose checks fail
     std::span<const long> specimen = {};  // specimen of each value; empty: one each
     std::optional<double> target = {};    // size to which a90's bound should come down
     std::string tested = "faulty gearboxes";

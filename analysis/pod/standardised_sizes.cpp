@@ -29,7 +29,7 @@ struct Cells {
 // necessary with few more points than nodes.
 GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) {
     Eigen::MatrixXd basis(t.size(), kNodes);
-    Eigen::VectorXd diagonal(kNodes), beside(kNodes - 1);
+    Eigen::VectorXd diagonal(kNodes), off_diagonal(kNodes - 1);
     const double total = weight.sum();
     Eigen::VectorXd next = weight.cwiseSqrt() / std::sqrt(total);
     for (int k = 0; k < kNodes; ++k) {
@@ -44,13 +44,14 @@ GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) 
             const Eigen::VectorXd shares = so_far.transpose() * next;
             next.noalias() -= so_far * shares;
         }
-        beside[k] = next.norm();
-        if (!(beside[k] > 1e-13)) {  // so few distinct points that k + 1 nodes represent them all
-            return gauss_rule(diagonal.head(k + 1), beside.head(k), total);
+        off_diagonal[k] = next.norm();
+        if (!(off_diagonal[k] >
+              1e-13)) {  // so few distinct points that k + 1 nodes represent them all
+            return gauss_rule(diagonal.head(k + 1), off_diagonal.head(k), total);
         }
-        next /= beside[k];
+        next /= off_diagonal[k];
     }
-    return gauss_rule(diagonal, beside, total);
+    return gauss_rule(diagonal, off_diagonal, total);
 }
 
 // Adds the points of one cell, or its Gauss rule if that has fewer nodes.

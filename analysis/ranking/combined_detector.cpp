@@ -27,7 +27,7 @@ Half half_of(std::size_t healthy, std::size_t graded, bool training) {
     Half half;
     const auto pick = [training](std::size_t count, std::vector<std::size_t>& rows) {
         for (std::size_t i = 0; i < count; ++i) {
-            if (trains(i) == training) {
+            if (in_training_half(i) == training) {
                 rows.push_back(i);
             }
         }
@@ -237,7 +237,7 @@ void compare(CombinedDetector& result, const HeldOut& combined, const HeldOut& s
 
 }  // namespace
 
-bool trains(std::size_t instance) {
+bool in_training_half(std::size_t instance) {
     // Mixing function of splitmix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453-472.
     std::uint64_t z = static_cast<std::uint64_t>(instance) + 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -52,7 +52,7 @@ struct CombinedDetector {
 
 // True if a gearbox belongs to the training half. Decided by a hash bit of its index within its
 // group, so that alternating levels do not fall into one half.
-bool trains(std::size_t instance);
+bool in_training_half(std::size_t instance);
 
 // Trains and grades the detector. `request` must have the one noise level of these values. Refuses
 // fewer than two usable features, and fewer than 50 healthy or faulty training gearboxes.

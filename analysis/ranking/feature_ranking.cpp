@@ -36,7 +36,7 @@ std::vector<double> picked(std::span<const double> values, const std::vector<std
 }
 
 // Two-sided p-value. NaN if the difference has no variance but is not 0; 1 if it is 0.
-double paired_p_value(const AucShares& a, const AucShares& b) {
+double paired_p_value(const AucComponents& a, const AucComponents& b) {
     const double difference = std::abs(a.auc - b.auc);
     if (difference == 0.0) {
         return 1.0;
@@ -81,28 +81,29 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
                                       healthy.size(), faulty.size());
         return ranking;
     }
-    std::vector<AucShares> shares;
+    std::vector<AucComponents> components;
     for (const RankedFeature* feature : used) {
-        shares.push_back(auc_shares(picked(feature->healthy, healthy, feature->alarm),
-                                    picked(feature->faulty, faulty, feature->alarm)));
+        components.push_back(auc_components(picked(feature->healthy, healthy, feature->alarm),
+                                            picked(feature->faulty, faulty, feature->alarm)));
     }
     std::vector<std::size_t> order(used.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return shares[a].auc > shares[b].auc; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return components[a].auc > components[b].auc;
+    });
     std::vector<double> p_values;
     for (std::size_t i = 0; i < order.size(); ++i) {
         for (std::size_t j = i + 1; j < order.size(); ++j) {
-            p_values.push_back(paired_p_value(shares[order[i]], shares[order[j]]));
+            p_values.push_back(paired_p_value(components[order[i]], components[order[j]]));
         }
     }
     p_values = holm_adjusted(p_values);
     const long pairs = std::min(ranking.healthy, ranking.faulty);
     for (const std::size_t f : order) {
-        const double variance = auc_covariance(shares[f], shares[f]);
+        const double variance = auc_covariance(components[f], components[f]);
         ranking.ranks.push_back(
             {used[f]->name,
-             {shares[f].auc, auc_interval(shares[f].auc, variance, pairs, confidence),
+             {components[f].auc, auc_interval(components[f].auc, variance, pairs, confidence),
               ranking.healthy, ranking.faulty},
              std::vector<double>(order.size(), 1.0)});
     }

@@ -47,11 +47,11 @@ std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t m
     std::vector<RocPoint> kept;
     std::size_t at = 0, last = points.size();
     for (std::size_t place = 0; place < most; ++place) {
-        const double wanted = static_cast<double>(place) / static_cast<double>(most - 1);
-        while (at + 1 < points.size() && way(points[at]) < wanted) {
+        const double target = static_cast<double>(place) / static_cast<double>(most - 1);
+        while (at + 1 < points.size() && way(points[at]) < target) {
             ++at;
         }
-        const bool before = at > 0 && wanted - way(points[at - 1]) < way(points[at]) - wanted;
+        const bool before = at > 0 && target - way(points[at - 1]) < way(points[at]) - target;
         const std::size_t nearest = before ? at - 1 : at;
         if (nearest != last) {
             kept.push_back(points[nearest]);

@@ -151,7 +151,7 @@ def to_svg(figure, title, description, names):
     plt.close(figure)
     text = buffer.getvalue()
     text = text[text.index("<svg"):]
-    view_box = re.search(r'viewBox="([^"]+)"', text).group(1)
+    svg_view = re.search(r'viewBox="([^"]+)"', text).group(1)
     body = text[text.index(">") + 1:text.rindex("</svg>")]
     body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.S)
     body = re.sub(r"<!--.*?-->", "", body, flags=re.S)
@@ -165,7 +165,7 @@ def to_svg(figure, title, description, names):
     body = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", body)
     body = re.sub(r"font: (\w+) ([\d.]+)px [^;\"]*", r"font-weight: \1; font-size: \2px", body)
     body = re.sub(r"\s*\n\s*", "\n", _scheme_colours(body))
-    return (f'<svg viewBox="{view_box}" role="img" aria-labelledby="{name}-title {name}-about">'
+    return (f'<svg viewBox="{svg_view}" role="img" aria-labelledby="{name}-title {name}-about">'
             f'<title id="{name}-title">{html.escape(title)}</title>'
             f'<desc id="{name}-about">{html.escape(description)}</desc>{body}</svg>')
 

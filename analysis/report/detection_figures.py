@@ -47,7 +47,7 @@ def _open(axes, report, level, paint):
                           linewidth=0, alpha=0.6)
 
 
-def uncertain_text(report, n):
+def epistemic_text(report, n):
     """Text on the epistemic inputs and the range of a90 of the first feature with a band."""
     for f in report.order(n) if report.reliability else []:
         level = report.reliable(f, n)
@@ -157,7 +157,7 @@ def _comparison(report, page):
            "bound passes 0.9 (dashed); "
            + ("the vertical line is the smallest fault found by any feature." if found
               else "no feature reaches it."))
-    unknown = uncertain_text(report, n)
+    unknown = epistemic_text(report, n)
     if unknown:
         how += f" Hatched, for the best ranked: {unknown[0].lower()}{unknown[1:]}"
     return page.figure(f"Probability of detection at {noise(report.levels[n])}", [svg], how,

@@ -38,10 +38,10 @@ nlohmann::json to_json(const TailThreshold& tail) {
     return {{"extrapolation", tail.extrapolation}, {"steady", tail.steady}, {"choices", choices}};
 }
 
-nlohmann::json to_json(const TiltedThreshold& tilted) {
-    return {{"gearboxes", tilted.gearboxes},
-            {"carrying", tilted.carrying},
-            {"extrapolation", tilted.extrapolation}};
+nlohmann::json to_json(const ImportanceSampledThreshold& importance_sampled) {
+    return {{"gearboxes", importance_sampled.gearboxes},
+            {"carrying", importance_sampled.contributing},
+            {"extrapolation", importance_sampled.extrapolation}};
 }
 
 }  // namespace
@@ -61,7 +61,8 @@ nlohmann::json level_json(const LevelDetection& level) {
             {"threshold_alarms", level.threshold_alarms},
             {"threshold_rate", to_json(level.threshold_rate)},
             {"tail", level.tail ? to_json(*level.tail) : nlohmann::json(nullptr)},
-            {"tilted", level.tilted ? to_json(*level.tilted) : nlohmann::json(nullptr)},
+            {"tilted", level.importance_sampled ? to_json(*level.importance_sampled)
+                                                : nlohmann::json(nullptr)},
             {"healthy_rate", number(level.healthy_rate)},
             {"healthy_rate_bounds", to_json(level.healthy_rate_bounds)},
             {"expected_rate", to_json(level.expected_rate)},

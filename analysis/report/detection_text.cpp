@@ -69,15 +69,15 @@ long most_failed(Features features, std::size_t level, std::size_t cell) {
 void add_level(std::string& out, Features features, std::size_t n, const DetectionRequest& request,
                Subject subject) {
     const SizeUnit& unit = request.size;
-    const bool boxes = subject == Subject::gearboxes;
+    const bool per_gearbox = subject == Subject::gearboxes;
     add_row(out,
             fmt::format("{:<{}}{:>{}}{:>{}}",
                         has_sizes(request) ? "size " + unit.shown_unit() : kNoSize, kSizeWidth,
-                        boxes ? "gearboxes" : "records", kCountWidth, "failed", kCountWidth),
+                        per_gearbox ? "gearboxes" : "records", kCountWidth, "failed", kCountWidth),
             features, [](const FeatureDetection& f) { return f.feature; });
     add_row(out, "alarm if", features,
             [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
-    const char* healthy = !boxes                          ? "healthy: alarms/recordings"
+    const char* healthy = !per_gearbox                    ? "healthy: alarms/recordings"
                           : request.threshold_records > 1 ? "healthy: alarms/records"
                                                           : "healthy: alarms/gearboxes";
     add_row(out, healthy, features, [n](const FeatureDetection& f) {
@@ -97,12 +97,15 @@ void add_level(std::string& out, Features features, std::size_t n, const Detecti
                              : std::string("no");
         });
     }
-    if (std::any_of(features.begin(), features.end(),
-                    [n](const FeatureDetection& f) { return f.levels[n].tilted.has_value(); })) {
+    if (std::any_of(features.begin(), features.end(), [n](const FeatureDetection& f) {
+            return f.levels[n].importance_sampled.has_value();
+        })) {
         add_row(out, "importance sampling, gearboxes", features, [n](const FeatureDetection& f) {
-            const auto& tilted = f.levels[n].tilted;
-            return tilted ? fmt::format("{:.0f} of {}", tilted->carrying, tilted->gearboxes)
-                          : std::string("no");
+            const auto& importance_sampled = f.levels[n].importance_sampled;
+            return importance_sampled
+                       ? fmt::format("{:.0f} of {}", importance_sampled->contributing,
+                                     importance_sampled->gearboxes)
+                       : std::string("no");
         });
     }
     const std::vector<DetectionCell>& cells = features.front().levels[n].cells;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/tail.hpp"
-#include "analysis/detection/tilted_sample.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "features/feature.hpp"
@@ -44,8 +44,8 @@ Interval clustered_rate(std::span<const FeatureDetection> features,
 }
 
 // Text on the thresholds whose rate remains undetermined with several records of each gearbox.
-std::string unfixed_text(std::span<const FeatureDetection> features,
-                         const DetectionRequest& request, double upper) {
+std::string undetermined_rate_text(std::span<const FeatureDetection> features,
+                                   const DetectionRequest& request, double upper) {
     long open = 0, all = 0;
     for (const FeatureDetection& feature : features) {
         for (const LevelDetection& level : feature.levels) {
@@ -63,16 +63,16 @@ Json pair_json(const Interval& bounds) {
     return Json::array({number(bounds.lower), number(bounds.upper)});
 }
 
-std::string beyond_text(double extrapolation, bool tilted) {
+std::string beyond_text(double extrapolation, bool importance_sampled) {
     return extrapolation > 0.0
                ? fmt::format(" ({:.2g} times rarer than one in the {})", extrapolation,
-                             tilted ? "gearboxes, by importance sampling" : "sample")
+                             importance_sampled ? "gearboxes, by importance sampling" : "sample")
                : "";
 }
 
 // Numbers of thresholds by method, for a study with importance-sampled records.
-struct TiltedCounts {
-    long all = 0, tilted = 0, gearboxes = 0;
+struct ImportanceSampledCounts {
+    long all = 0, importance_sampled = 0, gearboxes = 0;
     // From the first record of each gearbox, because too few gearboxes have the alarms.
     long first = 0;
     // From plain records, for features without importance sampling; of these, without a threshold.
@@ -80,20 +80,20 @@ struct TiltedCounts {
     double upper = 0.0;  // largest upper bound of the rate among the plain thresholds
 };
 
-TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
-                           const DetectionRequest& request) {
-    TiltedCounts counts;
+ImportanceSampledCounts importance_sampled_counts(std::span<const FeatureDetection> features,
+                                                  const DetectionRequest& request) {
+    ImportanceSampledCounts counts;
     for (const FeatureDetection& feature : features) {
         const features::Feature* known = features::find_feature(feature.feature);
         const bool plain = known != nullptr && !known->from_sensor;
         const long records = plain ? static_cast<long>(request.threshold_records) : 1;
         for (const LevelDetection& level : feature.levels) {
             ++counts.all;
-            counts.tilted += level.tilted ? 1 : 0;
-            counts.gearboxes =
-                std::max(counts.gearboxes,
-                         level.tilted ? level.tilted->gearboxes : level.threshold_sample / records);
-            counts.first += !level.tilted && !plain ? 1 : 0;
+            counts.importance_sampled += level.importance_sampled ? 1 : 0;
+            counts.gearboxes = std::max(counts.gearboxes, level.importance_sampled
+                                                              ? level.importance_sampled->gearboxes
+                                                              : level.threshold_sample / records);
+            counts.first += !level.importance_sampled && !plain ? 1 : 0;
             if (plain) {
                 const bool none = std::isnan(level.threshold);
                 ++counts.plain;
@@ -106,7 +106,7 @@ TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
 }
 
 // Text on thresholds from plain records; "" if they keep the rate.
-std::string plain_text(const TiltedCounts& counts, double false_alarm_rate) {
+std::string plain_text(const ImportanceSampledCounts& counts, double false_alarm_rate) {
     std::string text;
     if (counts.none > 0) {
         text = fmt::format(" {} for features without accelerometer noise {} too few records.",
@@ -122,18 +122,18 @@ std::string plain_text(const TiltedCounts& counts, double false_alarm_rate) {
 }
 
 // Text on the thresholds from importance sampling, and on the methods of the others.
-std::string tilted_text(std::span<const FeatureDetection> features,
-                        const DetectionRequest& request) {
-    const TiltedCounts counts = tilted_counts(features, request);
+std::string importance_sampling_text(std::span<const FeatureDetection> features,
+                                     const DetectionRequest& request) {
+    const ImportanceSampledCounts counts = importance_sampled_counts(features, request);
     std::string text;
-    if (counts.tilted > 0) {
+    if (counts.importance_sampled > 0) {
         const double rarer =
             1.0 / (request.false_alarm_rate * static_cast<double>(counts.gearboxes));
         text = fmt::format(
             " {} of the {} thresholds {} from importance sampling with {} records of each of {} "
             "healthy gearboxes{}.",
-            counts.tilted, counts.all, counts.tilted == 1 ? "is" : "are", request.threshold_records,
-            counts.gearboxes,
+            counts.importance_sampled, counts.all, counts.importance_sampled == 1 ? "is" : "are",
+            request.threshold_records, counts.gearboxes,
             rarer > 1.0
                 ? fmt::format(", for a false-alarm rate {:.2g} times rarer than one in these",
                               rarer)
@@ -144,7 +144,7 @@ std::string tilted_text(std::span<const FeatureDetection> features,
                                                      request.confidence, Subject::gearboxes)
                                    : "";
     if (!others.empty()) {
-        text += (counts.tilted > 0
+        text += (counts.importance_sampled > 0
                      ? fmt::format(" For {} other{}, too few gearboxes have alarms", counts.first,
                                    counts.first == 1 ? "" : "s")
                      : " Too few gearboxes have alarms for thresholds from importance sampling") +
@@ -159,7 +159,7 @@ std::string tilted_text(std::span<const FeatureDetection> features,
 std::string record_shortage(long gearboxes, long records, double false_alarm_rate,
                             double confidence) {
     const long all = gearboxes * records;
-    const auto each = [&](long wanted) { return (wanted + gearboxes - 1) / gearboxes; };
+    const auto each = [&](long needed) { return (needed + gearboxes - 1) / gearboxes; };
     const long least = sample_for_threshold(false_alarm_rate);
     const Interval rate = threshold_rate_interval(all, false_alarm_rate, confidence);
     if (rate.upper <= 2.0 * false_alarm_rate) {
@@ -186,13 +186,13 @@ std::string record_shortage(long gearboxes, long records, double false_alarm_rat
 }  // namespace
 
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
-                            Subject subject, long records, bool tilted) {
-    if (records > 1 && tilted) {
+                            Subject subject, long records, bool importance_sampled) {
+    if (records > 1 && importance_sampled) {
         const std::string others = sample_shortage(healthy, false_alarm_rate, confidence, subject);
-        if (!others.empty() && static_cast<double>(healthy) < kLeastCarrying) {
+        if (!others.empty() && static_cast<double>(healthy) < kLeastContributing) {
             return fmt::format(
                 "Importance sampling needs at least {:g} gearboxes to set thresholds. {}",
-                kLeastCarrying, others);
+                kLeastContributing, others);
         }
         return others.empty()
                    ? ""
@@ -245,8 +245,8 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
     if (features.empty() || features.front().levels.empty()) {
         return "";
     }
-    if (request.threshold_tilt) {
-        return tilted_text(features, request);
+    if (request.importance_sampling) {
+        return importance_sampling_text(features, request);
     }
     const std::size_t levels = features.front().levels.size();
     std::vector<std::string> without;
@@ -262,7 +262,7 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
                                        request.confidence, subject, records);
     const Interval rate = clustered_rate(features, request);
     if (text.empty() && records > 1 && rate.upper > 2.0 * request.false_alarm_rate) {
-        text = unfixed_text(features, request, rate.upper);
+        text = undetermined_rate_text(features, request, rate.upper);
     } else if (subject == Subject::recordings && rate.upper > 2.0 * request.false_alarm_rate) {
         text = fmt::format(
             "Recordings of too few gearboxes for a false-alarm rate of {:g}: they determine it "
@@ -296,7 +296,7 @@ std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& 
     };
     for (const RatePoint& point : curve.points) {
         text += fmt::format(" {:g}{}: {} [{}, {}];", point.false_alarm_rate,
-                            beyond_text(point.extrapolation, point.tilted),
+                            beyond_text(point.extrapolation, point.importance_sampled),
                             size(point.a90.estimate), size(point.a90.lower), size(point.a90.upper));
     }
     if (!curve.unfitted.empty()) {
@@ -315,7 +315,7 @@ std::string least_cost_text(const std::string& feature, const LeastCost& least, 
         "false-alarm rate {:.2g} [{:.2g}, {:.2g}], Pd {:.2f} [{:.2f}, {:.2f}] for the study's "
         "faults, joint bounds at {:g} %; without any alarm {:.3g}{}",
         feature, least.cost, least.bounds.lower, least.bounds.upper, least.threshold,
-        beyond_text(least.extrapolation, least.tilted), least.false_alarm_rate,
+        beyond_text(least.extrapolation, least.importance_sampled), least.false_alarm_rate,
         least.rate_bounds.lower, least.rate_bounds.upper, least.pd, least.pd_bounds.lower,
         least.pd_bounds.upper, 100.0 * confidence, least.without,
         least.rarest
@@ -330,7 +330,7 @@ nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
             {{"false_alarm_rate", point.false_alarm_rate},
              {"threshold", number(point.threshold)},
              {"extrapolation", point.extrapolation > 0.0 ? Json(point.extrapolation) : nullptr},
-             {"tilted", point.tilted},
+             {"tilted", point.importance_sampled},
              {"threshold_bounds", pair_json(point.threshold_bounds)},
              {"a90", to_json(point.a90)}});
     }
@@ -341,7 +341,7 @@ nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
 nlohmann::json least_cost_json(const LeastCost& least) {
     return {{"threshold", number(least.threshold)},
             {"extrapolation", least.extrapolation > 0.0 ? Json(least.extrapolation) : nullptr},
-            {"tilted", least.tilted},
+            {"tilted", least.importance_sampled},
             {"false_alarm_rate", least.false_alarm_rate},
             {"rate_bounds", pair_json(least.rate_bounds)},
             {"pd", least.pd},

@@ -15,10 +15,10 @@ namespace gearpod::analysis {
 // Shortage of `healthy` gearboxes that set thresholds: there is no threshold, thresholds are
 // extrapolated beyond the sample, or the false-alarm rate may be more than twice the requested one;
 // with the number needed. "" if they suffice. One or two sentences. `records`: records per gearbox.
-// `tilted`: they are importance-sampled, which applies to some features only; the text then
-// describes the other features' thresholds.
+// `importance_sampled`: they are importance-sampled, which applies to some features only; the text
+// then describes the other features' thresholds.
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
-                            Subject subject, long records = 1, bool tilted = false);
+                            Subject subject, long records = 1, bool importance_sampled = false);
 
 // Shortage of the smallest sample among a report's thresholds. Names the noise levels that have no
 // threshold.

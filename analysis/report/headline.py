@@ -15,7 +15,7 @@ TESTED_SIZE = ('<abbr title="a tested size; there is no detection curve for size
 ARCSECONDS = 180 * 3600 / math.pi  # per radian
 
 
-def promise(report):
+def confidence_text(report):
     return f"90\u00a0% probability at {percent(report.confidence)} confidence"
 
 
@@ -40,16 +40,16 @@ def _best_rate(report, level):
 
 def sentence(report):
     """Headline as text."""
-    silence = report.silence()
-    if silence:
-        return silence
+    unassessable_reason = report.unassessable_reason()
+    if unassessable_reason:
+        return unassessable_reason
     level = report.reference
     found = report.smallest_fault(level)
     at = noise(report.levels[level])
     if found:
         kind = a_fault(report)
         return (f"{kind[0].upper()}{kind[1:]} of {report.sizes.text(found['size'])} is found with "
-                f"{promise(report)} by {found['feature']} at {at}.")
+                f"{confidence_text(report)} by {found['feature']} at {at}.")
     best = _best_rate(report, level)
     if best is None:
         return f"At {at} no feature has a detection rate."
@@ -59,7 +59,7 @@ def sentence(report):
     silent = sum(f["levels"][level]["threshold"] is None for f in report.detection)
     others = (f" {silent} of the {len(report.detection)} features "
               f"{'has' if silent == 1 else 'have'} no threshold." if silent else "")
-    return (f"No tested {fault(report)} is found with {promise(report)} at {at}. "
+    return (f"No tested {fault(report)} is found with {confidence_text(report)} at {at}. "
             f"The best is {name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
             f"{whom}.{others}")
 
@@ -150,7 +150,7 @@ def _sample_limit(report, found):
 
 def limits(report):
     """Sentences on what limits the answer; empty where there is none."""
-    if report.silence():
+    if report.unassessable_reason():
         return []
     found = report.smallest_fault(report.reference)
     texts = [_noise_limit(report)]
@@ -215,7 +215,7 @@ def table(report):
     confidence = number(100 * report.confidence)
     return ('<div class="scroll" role="region" tabindex="0" '
             'aria-label="Smallest fault found, by noise">'
-            f"<table><caption>Smallest {fault(report)} found with {promise(report)}</caption>"
+            f"<table><caption>Smallest {fault(report)} found with {confidence_text(report)}</caption>"
             '<thead><tr><th scope="col">Noise</th>'
             f'<th scope="col">{escape(report.sizes.name.replace("fault ", ""))}</th>'
             '<th scope="col">by</th><th scope="col">alarm if</th>'
@@ -254,25 +254,25 @@ def facts(report):
             f"faulty ones have values.{thresholds}")
 
 
-def answers(report):
+def headline_texts(report):
     """Headline texts: shortage of healthy gearboxes, answer, assumptions, and epistemic
     uncertainty."""
-    speaks = report.silence() is None
-    texts = [report.data["detection"]["shortage"] if speaks else None, sentence(report),
+    assessable = report.unassessable_reason() is None
+    texts = [report.data["detection"]["shortage"] if assessable else None, sentence(report),
              report.data.get("assumptions"),
-             detection_figures.uncertain_text(report, report.reference) if speaks else None]
+             detection_figures.epistemic_text(report, report.reference) if assessable else None]
     return [text for text in texts if text]
 
 
 def html_of(report):
-    parts = [f'<p class="answer">{escape(text)}</p>' for text in answers(report)]
+    parts = [f'<p class="answer">{escape(text)}</p>' for text in headline_texts(report)]
     texts = limits(report)
-    if report.silence() is None:
+    if report.unassessable_reason() is None:
         parts += [table(report), narrow_note(report)]
     if texts:
         parts.append('<h2 id="limits">What limits it</h2><ul class="limits">'
                      + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>")
-    if report.silence() is None:
+    if report.unassessable_reason() is None:
         parts.append(footnotes(report))
     parts.append(f'<p class="facts">{facts(report)}</p>')
     return "\n".join(parts)

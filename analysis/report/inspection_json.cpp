@@ -43,9 +43,9 @@ Json responses_of(const InspectionResult& result) {
 
 Json noise_of(const InspectionRequest& request, const InspectionResult& result) {
     Json laws = Json::array();
-    for (const NoiseLaw& law : result.noise) {
+    for (const NoiseDistribution& law : result.noise) {
         const bool high = request.alarm == Alarm::high;
-        laws.push_back({{"law", law_name(law.kind)},
+        laws.push_back({{"law", noise_distribution_name(law.kind)},
                         {"first", number(law.first)},
                         {"second", number(law.second)},
                         {"aic", number(law.aic)},
@@ -62,7 +62,7 @@ Json noise_of(const InspectionRequest& request, const InspectionResult& result) 
 }  // namespace
 
 nlohmann::json inspection_json(const Inspections& data, const InspectionRequest& request,
-                               const InspectionResult& result, const InspectionWords& words) {
+                               const InspectionResult& result, const InspectionNames& words) {
     Json trade_off = Json::array();
     for (const TradeOffPoint& point : result.trade_off) {
         trade_off.push_back({{"threshold", point.threshold},

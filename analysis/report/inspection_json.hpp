@@ -9,7 +9,7 @@
 namespace gearpod::analysis {
 
 // Names used in text and page.
-struct InspectionWords {
+struct InspectionNames {
     std::string table;  // file of the table
     SizeUnit size;      // name and unit of the size column
     std::string value;  // name of the measured value
@@ -27,6 +27,6 @@ struct InspectionWords {
 //  "trade_off": [{"threshold", "false_calls", "a50", "a90"}],
 //  "more_specimens": {"target", "factor", "more", "all_found"}}
 nlohmann::json inspection_json(const Inspections& data, const InspectionRequest& request,
-                               const InspectionResult& result, const InspectionWords& words);
+                               const InspectionResult& result, const InspectionNames& words);
 
 }  // namespace gearpod::analysis

@@ -54,7 +54,7 @@ void add_curve(std::string& out, double location, double scale, const Eigen::Mat
 }
 
 void add_hit_miss(std::string& out, const InspectionRequest& request,
-                  const InspectionResult& result, const InspectionWords& words) {
+                  const InspectionResult& result, const InspectionNames& words) {
     const HitMissPod& pod = result.hit_miss;
     if (!pod.refusal.empty()) {
         add_wrapped(out, "no curve: " + pod.refusal, 4);
@@ -83,7 +83,7 @@ void add_hit_miss(std::string& out, const InspectionRequest& request,
 }
 
 void add_responses(std::string& out, const InspectionRequest& request,
-                   const InspectionResult& result, const InspectionWords& words) {
+                   const InspectionResult& result, const InspectionNames& words) {
     const SignalResponsePod& pod = result.signal_response;
     out +=
         fmt::format("decision threshold: {} {} {:.6g}; censored: {} below, {} above\n", words.value,
@@ -124,12 +124,12 @@ void add_false_calls(std::string& out, const InspectionRequest& request,
                             result.false_call_bounds.upper),
                 4);
     if (!result.noise.empty()) {
-        const NoiseLaw& law = result.noise.front();
+        const NoiseDistribution& law = result.noise.front();
         const bool high = request.alarm == Alarm::high;
         add_wrapped(
             out,
             fmt::format("noise: {} distribution ({:.5g}, {:.5g}), false-call probability {:.3g}",
-                        law_name(law.kind), law.first, law.second,
+                        noise_distribution_name(law.kind), law.first, law.second,
                         high ? law.above(result.threshold) : law.below(result.threshold)),
             4);
     }
@@ -189,7 +189,7 @@ void add_more(std::string& out, const InspectionRequest& request, const Inspecti
 }  // namespace
 
 std::string inspection_text(const InspectionRequest& request, const InspectionResult& result,
-                            const InspectionWords& words) {
+                            const InspectionNames& words) {
     std::string out = fmt::format("{}: {} over {}, {} specimens", words.table, words.value,
                                   words.size.name, result.specimens);
     out += result.repeats > 0 ? fmt::format(" and {} repeated measurements\n", result.repeats)

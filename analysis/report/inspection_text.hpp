@@ -11,6 +11,6 @@ namespace gearpod::analysis {
 // with its parameters and warnings, false calls, the trade-off over thresholds, and the number of
 // further specimens needed.
 std::string inspection_text(const InspectionRequest& request, const InspectionResult& result,
-                            const InspectionWords& words);
+                            const InspectionNames& words);
 
 }  // namespace gearpod::analysis

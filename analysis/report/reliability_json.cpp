@@ -40,7 +40,7 @@ Json to_json(const MissSensitivity& misses) {
             {"refusal", text_or_null(misses.refusal)}};
 }
 
-Json to_json(const UncertainBand& uncertain) {
+Json to_json(const EpistemicBand& uncertain) {
     if (uncertain.inputs.empty()) {
         return nullptr;
     }

@@ -207,7 +207,7 @@ std::string basis_text(const SmallestFault& least) {
 
 // Number of features without a threshold at the level, whose detection is therefore unknown; "" if
 // all have one.
-std::string silent_text(const Reliability& reliability, std::size_t n) {
+std::string no_threshold_text(const Reliability& reliability, std::size_t n) {
     const auto silent = std::ranges::count_if(
         reliability.features,
         [&](const FeatureReliability& feature) { return !feature.levels[n].has_threshold; });
@@ -254,7 +254,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
         add_wrapped(
             out,
             fmt::format("no tested fault is found with 90 % probability at {:g} % confidence{}",
-                        percent, silent_text(reliability, n)),
+                        percent, no_threshold_text(reliability, n)),
             4);
     }
     const auto features = in_order(reliability, n);

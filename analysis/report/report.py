@@ -72,7 +72,7 @@ class Report:
                               + sum(cell["tested"] for cell in sound))
         return healthy, faulty
 
-    def silence(self):
+    def unassessable_reason(self):
         """Reason why detection cannot be assessed, or None."""
         healthy, faulty = self.sample()
         if not self.names or not self.levels:

@@ -58,18 +58,18 @@ std::string bin_text(const InputBin& bin) {
 void add_effects(std::string& out, const FeatureReliability& feature, const LevelReliability& level,
                  const SizeUnit& unit) {
     const InputEffects& effects = level.inputs;
-    std::vector<const InputEffect*> mattering;
+    std::vector<const InputEffect*> significant;
     std::size_t width = 8;
     for (const InputEffect& effect : effects.inputs) {
         if (effect.p_value < kTestLevel && !effect.bins.empty()) {
-            mattering.push_back(&effect);
+            significant.push_back(&effect);
             width = std::max(width, effect.name.size() + 2);
         }
     }
-    if (mattering.empty()) {
+    if (significant.empty()) {
         return;
     }
-    std::stable_sort(mattering.begin(), mattering.end(),
+    std::stable_sort(significant.begin(), significant.end(),
                      [](const auto* a, const auto* b) { return a->statistic > b->statistic; });
     const std::string shown = unit.shown_unit();
     add_wrapped(out,
@@ -91,7 +91,7 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
     const auto a90 = [&](const SizeBounds& bounds) {
         return size_estimate_text(bounds.estimate, pod.smallest, pod.largest, unit);
     };
-    for (const InputEffect* effect : mattering) {
+    for (const InputEffect* effect : significant) {
         const auto value = [](double number) { return fmt::format("{:.3g}", number); };
         row(effect->name, fmt::format("{:.1g}", effect->p_value),
             value(effect->bins.front().middle), value(effect->bins.back().middle),

@@ -11,12 +11,12 @@ from words import count, escape, noise, number, percent, plural, rate, rate_with
 
 def detection(report, page):
     if not report.names or not report.levels:
-        return page.section("detection", "Detection", note(report.silence()))
+        return page.section("detection", "Detection", note(report.unassessable_reason()))
     body = ""
-    if report.reliability and report.silence() is None:
+    if report.reliability and report.unassessable_reason() is None:
         body += detection_figures.pod(report, page)
     else:
-        body += note(report.silence() or
+        body += note(report.unassessable_reason() or
                      "No detection curves, areas and ranking: they need the values of all "
                      "gearboxes at once, and this study has too many.")
     tested = any(c["tested"] for f in report.detection for level in f["levels"]
@@ -27,7 +27,7 @@ def detection(report, page):
 
 
 def features(report, page):
-    if not report.reliability or report.silence():
+    if not report.reliability or report.unassessable_reason():
         return ""
     return page.section("features", "Features compared", detection_figures.ranking(report, page)
                         + detection_figures.roc(report, page)
@@ -35,7 +35,7 @@ def features(report, page):
 
 
 def inputs(report, page):
-    if not report.reliability or report.silence():
+    if not report.reliability or report.unassessable_reason():
         return ""
     body = (influence_figures.misses(report, page) + input_figures.sensitivity(report, page)
             + input_figures.rates_by_input(report, page) + input_figures.a90_maps(report, page))
@@ -135,7 +135,7 @@ def thresholds(report, page):
                      ["feature", "noise", "alarm if", "alarms in the healthy sample",
                       "false-alarm rate, interval", "with graded healthy gearboxes"], rows)
              + "</details>")
-    if report.reliability and report.silence() is None:
+    if report.reliability and report.unassessable_reason() is None:
         body += influence_figures.false_alarm_curves(report, page) + _costs(report)
     if extrapolated:
         body += (note("Thresholds beyond the healthy sample are extrapolated by a generalised "
@@ -202,7 +202,7 @@ def failures(report, page):
 _LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes"]
 
 
-def _watched(report):
+def _monitoring(report):
     """HTML on monitoring the recordings in sequence."""
     data = report.data.get("monitoring")
     if not data:
@@ -237,7 +237,7 @@ def over_time(report, page):
     if not groups:
         return ""
     body = detection_figures.over_time(report, page, groups)
-    body += _watched(report)
+    body += _monitoring(report)
     return page.section("over-time", "Alarms over time", body)
 
 

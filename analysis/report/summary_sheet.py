@@ -128,7 +128,7 @@ def _table(sheet, report):
         rows.append([f"× {number(report.levels[n])}",
                      report.sizes.text(found["size"]) + ("" if found["from_curve"] else "*"),
                      found["feature"], alarm, false])
-    sheet.text(f"Smallest {headline.fault(report)} found with {headline.promise(report)}, by noise", 9, colour=MUTED)
+    sheet.text(f"Smallest {headline.fault(report)} found with {headline.confidence_text(report)}, by noise", 9, colour=MUTED)
     sheet.table(["noise", report.sizes.name.replace("fault ", ""), "by", "alarm if",
                  f"false alarms [{number(100 * report.confidence)} %]"], rows,
                 chosen.index(report.reference))
@@ -188,34 +188,34 @@ def _provenance(report):
 def _filled(report, scale):
     """The sheet, and the distance of its last line from the lower margin (inches); negative if it
     does not fit."""
-    speaks = report.silence() is None
+    assessable = report.unassessable_reason() is None
     sheet = Sheet(scale)
     sheet.text(report.title(), 10, colour=MUTED)
     sheet.gap(0.06)
-    for k, text in enumerate(headline.answers(report)):
+    for k, text in enumerate(headline.headline_texts(report)):
         sheet.text(text, 15 if k == 0 else 10.5, "bold", indent=0.17,
                    bar=SERIES[0][0])
         sheet.gap(0.05)
     sheet.gap(0.08)
-    if speaks:
+    if assessable:
         _table(sheet, report)
     above, sheet.y = sheet.y, 0.0
     # The text below the figures is placed from their lower edge.
     rest = Sheet(scale)
-    _below(rest, report, speaks)
+    _below(rest, report, assessable)
     below = rest.y - MARGIN
     free = HEIGHT - MARGIN - above - below
     sheet.y = above
-    if speaks:
+    if assessable:
         height = min(MOST_FIGURE, free)
         if height < LEAST_FIGURE:
             return sheet, height - LEAST_FIGURE
         _figures(sheet, report, height)
-    _below(sheet, report, speaks)
+    _below(sheet, report, assessable)
     return sheet, HEIGHT - MARGIN - sheet.y
 
 
-def _below(sheet, report, speaks):
+def _below(sheet, report, assessable):
     sheet.gap(0.1)
     texts = headline.limits(report)
     if texts:

@@ -22,7 +22,7 @@ double covariance(const std::vector<double>& a, double mean_a, const std::vector
 
 }  // namespace
 
-AucShares auc_shares(std::span<const double> healthy, std::span<const double> faulty) {
+AucComponents auc_components(std::span<const double> healthy, std::span<const double> faulty) {
     std::vector<double> all(healthy.begin(), healthy.end());
     all.insert(all.end(), faulty.begin(), faulty.end());
     const std::vector<double> joint = midranks(all);
@@ -30,19 +30,19 @@ AucShares auc_shares(std::span<const double> healthy, std::span<const double> fa
     const std::vector<double> in_faulty = midranks(faulty);
     const auto m = static_cast<double>(healthy.size());
     const auto n = static_cast<double>(faulty.size());
-    AucShares shares;
+    AucComponents components;
     for (std::size_t i = 0; i < healthy.size(); ++i) {
-        shares.healthy.push_back(1.0 - (joint[i] - in_healthy[i]) / n);
+        components.healthy.push_back(1.0 - (joint[i] - in_healthy[i]) / n);
     }
     for (std::size_t j = 0; j < faulty.size(); ++j) {
-        shares.faulty.push_back((joint[healthy.size() + j] - in_faulty[j]) / m);
-        shares.auc += joint[healthy.size() + j] - in_faulty[j];  // multiples of one half: exact
+        components.faulty.push_back((joint[healthy.size() + j] - in_faulty[j]) / m);
+        components.auc += joint[healthy.size() + j] - in_faulty[j];  // multiples of one half: exact
     }
-    shares.auc /= m * n;
-    return shares;
+    components.auc /= m * n;
+    return components;
 }
 
-double auc_covariance(const AucShares& a, const AucShares& b) {
+double auc_covariance(const AucComponents& a, const AucComponents& b) {
     if (a.healthy.size() != b.healthy.size() || a.faulty.size() != b.faulty.size()) {
         throw std::invalid_argument("AUC covariance: the areas must be of the same gearboxes");
     }
@@ -88,11 +88,12 @@ Auc auc(std::span<const double> healthy, std::span<const double> faulty, bool hi
     if (low_side.empty() || high_side.empty()) {
         return result;
     }
-    const AucShares shares = auc_shares(low_side, high_side);
-    result.auc = shares.auc;
+    const AucComponents components = auc_components(low_side, high_side);
+    result.auc = components.auc;
     const long pairs = std::min(result.healthy, result.faulty);
     if (pairs >= 2) {
-        result.bounds = auc_interval(shares.auc, auc_covariance(shares, shares), pairs, confidence);
+        result.bounds =
+            auc_interval(components.auc, auc_covariance(components, components), pairs, confidence);
     }
     return result;
 }

@@ -12,7 +12,7 @@
 namespace gearpod::analysis {
 
 // The area and its structural components per gearbox. Their scatter gives the area's variance.
-struct AucShares {
+struct AucComponents {
     double auc = 0.0;
     std::vector<double> healthy;  // per healthy gearbox: share of the faulty ones beyond it
     // Per faulty gearbox: share of the healthy ones that do not reach it.
@@ -21,11 +21,11 @@ struct AucShares {
 
 // Computes the components. Values must be finite and larger on the alarm side. Both samples need at
 // least one value.
-AucShares auc_shares(std::span<const double> healthy, std::span<const double> faulty);
+AucComponents auc_components(std::span<const double> healthy, std::span<const double> faulty);
 
 // Covariance of two areas over the same gearboxes, or with a equal to b the variance. Needs at
 // least two gearboxes of either kind.
-double auc_covariance(const AucShares& a, const AucShares& b);
+double auc_covariance(const AucComponents& a, const AucComponents& b);
 
 struct Auc {
     double auc = 0.0;  // NaN if a sample is empty

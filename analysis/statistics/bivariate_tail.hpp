@@ -4,11 +4,11 @@
 namespace gearpod::analysis {
 
 // P(Z > z), and the z that is exceeded with probability p.
-double normal_beyond(double z);
-double normal_exceeded(double p);
+double normal_upper_tail(double z);
+double normal_upper_tail_quantile(double p);
 
 // Probability that both of two standard normals with correlation `share` (0 to 1) exceed the value
 // that each exceeds with probability `rate`.
-double both_beyond(double rate, double share);
+double both_exceed(double rate, double share);
 
 }  // namespace gearpod::analysis

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/statistics/laws.hpp"
+#include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/link.hpp"
 
 namespace gearpod::analysis {

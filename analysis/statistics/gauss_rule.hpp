@@ -12,10 +12,11 @@ struct GaussRule {
     Eigen::VectorXd weights;  // sum to the total of the measure
 };
 
-// Rule with one node per entry of `diagonal`; `beside` is the off-diagonal, one entry shorter. For
-// polynomials p_k of unit norm: x p_k = beside[k - 1] p_(k-1) + diagonal[k] p_k + beside[k]
-// p_(k+1). `total`: total of the measure.
-GaussRule gauss_rule(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside, double total);
+// Rule with one node per entry of `diagonal`; `off_diagonal` is the off-diagonal, one entry
+// shorter. For polynomials p_k of unit norm: x p_k = beside[k - 1] p_(k-1) + diagonal[k] p_k +
+// beside[k] p_(k+1). `total`: total of the measure.
+GaussRule gauss_rule(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off_diagonal,
+                     double total);
 
 // Rule for expectations over the standard normal distribution.
 GaussRule normal_gauss_rule(int nodes);

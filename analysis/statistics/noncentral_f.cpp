@@ -11,8 +11,8 @@
 namespace gearpod::analysis {
 namespace {
 
-// Limits beyond which far_out() replaces Boost. Boost sums several multiples of the square root of
-// the noncentrality in terms and counts them in an int.
+// Limits beyond which large_noncentrality_cdf() replaces Boost. Boost sums several multiples of the
+// square root of the noncentrality in terms and counts them in an int.
 constexpr double kLarge = 1e5;
 constexpr double kOfFreedom = 100.0;
 
@@ -20,7 +20,8 @@ constexpr double kOfFreedom = 100.0;
 // its mean and variance are chosen such that its square has the noncentral distribution's mean and
 // variance. It scatters far less than the denominator, so the expectation of the central
 // distribution over it is that of a smooth function.
-double far_out(double f, double numerator, double denominator, double noncentrality) {
+double large_noncentrality_cdf(double f, double numerator, double denominator,
+                               double noncentrality) {
     static const GaussRule rule = normal_gauss_rule(24);
     const double mean = noncentrality + numerator;
     const double half_variance = 2.0 * noncentrality + numerator;
@@ -42,7 +43,7 @@ double far_out(double f, double numerator, double denominator, double noncentral
 
 double noncentral_f_cdf(double f, double numerator, double denominator, double noncentrality) {
     if (noncentrality > std::max(kLarge, kOfFreedom * denominator)) {
-        return f > 0.0 ? far_out(f, numerator, denominator, noncentrality) : 0.0;
+        return f > 0.0 ? large_noncentrality_cdf(f, numerator, denominator, noncentrality) : 0.0;
     }
     using Policy =
         boost_policies::normalise<QuietPolicy, boost_policies::promote_double<false>>::type;

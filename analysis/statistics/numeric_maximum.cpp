@@ -41,7 +41,7 @@ Curvature differences(const Function& function, const Eigen::VectorXd& at, doubl
 }
 
 // Newton's step, damped towards steepest ascent as far as the function is not concave.
-Eigen::VectorXd uphill(const Curvature& curvature) {
+Eigen::VectorXd ascent_step(const Curvature& curvature) {
     const double scale = std::max(1e-12, curvature.information.diagonal().cwiseAbs().maxCoeff());
     for (double damping = 0.0; damping < 1e8; damping = damping == 0.0 ? 1e-6 : 10.0 * damping) {
         Eigen::MatrixXd system = curvature.information;
@@ -69,7 +69,7 @@ NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& 
         if (!curvature.score.allFinite() || !curvature.information.allFinite()) {
             return maximum;
         }
-        Eigen::VectorXd move = uphill(curvature);
+        Eigen::VectorXd move = ascent_step(curvature);
         const double gain = curvature.score.dot(move);
         const double longest = move.cwiseAbs().maxCoeff();
         move *= std::min(1.0, kLongest / longest);

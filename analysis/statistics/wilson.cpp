@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/statistics/laws.hpp"
+#include "analysis/statistics/distributions.hpp"
 
 namespace gearpod::analysis {
 

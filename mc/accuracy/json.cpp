@@ -27,20 +27,20 @@ json errors(const AccuracyReport& report, const PilotError& error) {
     return all;
 }
 
-json rung_json(const AccuracyReport& report, const RungResult& r) {
-    json row{{"name", r.rung.text()},
-             {"integrator", r.rung.integrator},
-             {"overrides", r.rung.overrides()}};
+json setting_json(const AccuracyReport& report, const SettingResult& r) {
+    json row{{"name", r.setting.text()},
+             {"integrator", r.setting.integrator},
+             {"overrides", r.setting.overrides()}};
     if (!r.refusal.empty()) {
         row["refused"] = r.refusal;
         return row;
     }
     row.update({{"steps", r.steps},
-                {"settle_tolerance", r.rung.settle_tolerance},
+                {"settle_tolerance", r.setting.convergence_tolerance},
                 {"meshes_marched", r.meshes},
                 {"failed", r.failed},
-                {"gearbox_s", r.march_s},
-                {"gearbox_median_s", r.march_median_s},
+                {"gearbox_s", r.integration_s},
+                {"gearbox_median_s", r.integration_median_s},
                 {"gearbox_with_features_s", r.total_s},
                 {"mesh_s", r.mesh_s},
                 {"modelled_cost", r.cost},
@@ -64,16 +64,16 @@ json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
         row["refused"] = c.refusal;
         return row;
     }
-    row["chosen"] = report.rungs[static_cast<std::size_t>(c.chosen)].rung.text();
+    row["chosen"] = report.settings[static_cast<std::size_t>(c.chosen)].setting.text();
     if (c.best >= 0) {
-        row["fastest"] = report.rungs[static_cast<std::size_t>(c.best)].rung.text();
+        row["fastest"] = report.settings[static_cast<std::size_t>(c.best)].setting.text();
         row["time_over_fastest"] = c.over_best;
     }
     return row;
 }
 
 json peer_json(const PeerResult& p) {
-    json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.march_s},
+    json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.integration_s},
              {"mesh_s", p.mesh_s}, {"sensor", p.sensor},   {"te", p.te}};
     double worst = 0.0;
     for (const auto& [feature, error] : p.features) {
@@ -95,7 +95,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
              {"span_meshes", report.span_meshes},
              {"mesh_frequency_Hz", report.mesh_frequency_Hz},
              {"noise_levels", report.noise_levels},
-             {"own", report.rungs[static_cast<std::size_t>(report.own)].rung.text()},
+             {"own", report.settings[static_cast<std::size_t>(report.own)].setting.text()},
              {"step_costs", report.step_costs},
              {"left_out", report.left_out},
              {"reference",
@@ -109,10 +109,10 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
               {{"steps", e.steps},
                {"step_s", e.step_s},
                {"mesh_s", e.mesh_s()},
-               {"gearbox_s", e.march_s()},
+               {"gearbox_s", e.integration_s()},
                {"refused", e.refused}}}};
-    for (const RungResult& rung : report.rungs) {
-        all["rungs"].push_back(rung_json(report, rung));
+    for (const SettingResult& setting : report.settings) {
+        all["rungs"].push_back(setting_json(report, setting));
     }
     for (const ChoiceCheck& check : report.choices) {
         all["choices"].push_back(choice_json(report, check));

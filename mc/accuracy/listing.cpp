@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/numerics/ladder.hpp"
+#include "mc/numerics/solver_families.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -20,25 +20,25 @@ constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
 constexpr double kWorthGrading = 3.0;
 
 // Cost of the integrator's own uniform steps, in rk4 steps.
-double own_cost(const Study& study, const Flight& flight) {
-    const auto cost = step_cost(study, flight.integrator, flight.other);
-    return cost && flight.own_steps > 0 ? *cost * flight.own_steps : INFINITY;
+double own_cost(const Study& study, const SolverFamily& family) {
+    const auto cost = step_cost(study, family.integrator, family.other);
+    return cost && family.own_steps > 0 ? *cost * family.own_steps : INFINITY;
 }
 
-void add_graded(const Study& study, const Flight& flight, double least_cost,
-                std::vector<ListedRung>& all) {
-    const double over = kFewestGraded * own_cost(study, flight) / least_cost;
+void add_graded(const Study& study, const SolverFamily& family, double least_cost,
+                std::vector<ListedSetting>& all) {
+    const double over = kFewestGradedFraction * own_cost(study, family) / least_cost;
     if (over > kWorthGrading) {
-        all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
+        all.push_back({{family.integrator, 0, study.numerics.convergence_tolerance, family.other},
                        fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
                                    "times as much as the steps of the least expensive integrator",
-                                   flight.own_steps, over)});
+                                   family.own_steps, over)});
         return;
     }
-    for (std::size_t i = 0; i < flight.size(); ++i) {
+    for (std::size_t i = 0; i < family.size(); ++i) {
         if (std::find(std::begin(kGridTolerances), std::end(kGridTolerances),
-                      flight.grid_tolerances[i]) != std::end(kGridTolerances)) {
-            all.push_back({flight.rung(i, settle_tolerances().front()), ""});
+                      family.grid_tolerances[i]) != std::end(kGridTolerances)) {
+            all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
 }
@@ -52,51 +52,54 @@ Study without_steps(const Study& study) {
     return free;
 }
 
-std::vector<ListedRung> listed_rungs(const Study& study) {
-    const std::vector<Flight> all_flights = flights(without_steps(study), kBeyondOwnRule);
+std::vector<ListedSetting> listed_settings(const Study& study) {
+    const std::vector<SolverFamily> all_families =
+        solver_families(without_steps(study), kBeyondOwnRule);
     double least_cost = INFINITY;
-    for (const Flight& flight : all_flights) {
-        least_cost = flight.graded() ? least_cost : std::min(least_cost, own_cost(study, flight));
+    for (const SolverFamily& family : all_families) {
+        least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(study, family));
     }
-    std::vector<ListedRung> all{{own_rung(study), ""}};
-    for (const Flight& flight : all_flights) {
-        if (flight.graded()) {
-            add_graded(study, flight, least_cost, all);
+    std::vector<ListedSetting> all{{own_setting(study), ""}};
+    for (const SolverFamily& family : all_families) {
+        if (family.graded()) {
+            add_graded(study, family, least_cost, all);
             continue;
         }
-        if (flight.size() == 0) {
-            all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
-                           flight.refusal});
+        if (family.size() == 0) {
+            all.push_back(
+                {{family.integrator, 0, study.numerics.convergence_tolerance, family.other},
+                 family.refusal});
         }
-        for (std::size_t i = 0; i < flight.size(); ++i) {
-            all.push_back({flight.rung(i, settle_tolerances().front()), ""});
+        for (std::size_t i = 0; i < family.size(); ++i) {
+            all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
-    if (study.numerics.horizon == Horizon::superpose || why_no_mesh_repeats(study).empty()) {
-        all.push_back({own_rung(study), ""});
-        all.back().rung.other.push_back("numerics.horizon=march");
+    if (study.numerics.horizon == Horizon::superposed || reason_not_periodic(study).empty()) {
+        all.push_back({own_setting(study), ""});
+        all.back().setting.other.push_back("numerics.horizon=march");
     }
     return all;
 }
 
-bool marches_everything(const Rung& rung) {
-    return !rung.other.empty() && rung.other.back() == "numerics.horizon=march";
+bool integrates_every_mesh(const SolverSetting& setting) {
+    return !setting.other.empty() && setting.other.back() == "numerics.horizon=march";
 }
 
-std::size_t place_of(const Rung& rung, const std::vector<RungResult>& rungs) {
-    const auto same = std::find_if(rungs.begin(), rungs.end(), [&](const RungResult& r) {
-        return r.rung.text() == rung.text();
+std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResult>& settings) {
+    const auto same = std::find_if(settings.begin(), settings.end(), [&](const SettingResult& r) {
+        return r.setting.text() == setting.text();
     });
-    return static_cast<std::size_t>(same - rungs.begin());
+    return static_cast<std::size_t>(same - settings.begin());
 }
 
-std::vector<std::size_t> cheapest_first(const Study& study, const std::vector<RungResult>& rungs,
+std::vector<std::size_t> cheapest_first(const Study& study,
+                                        const std::vector<SettingResult>& settings,
                                         std::size_t from) {
     std::vector<std::pair<double, std::size_t>> costs;
-    for (std::size_t i = from; i < rungs.size(); ++i) {
-        const Rung& rung = rungs[i].rung;
-        const auto step = step_cost(study, rung.integrator, rung.other);
-        const double cost = step && rung.steps > 0 ? *step * rung.steps : INFINITY;
+    for (std::size_t i = from; i < settings.size(); ++i) {
+        const SolverSetting& setting = settings[i].setting;
+        const auto step = step_cost(study, setting.integrator, setting.other);
+        const double cost = step && setting.steps > 0 ? *step * setting.steps : INFINITY;
         costs.emplace_back(i == 0 ? 0.0 : cost, i);
     }
     std::sort(costs.begin(), costs.end());

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "mc/accuracy/report.hpp"
-#include "mc/numerics/rung.hpp"
+#include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {
 
-struct ListedRung {
-    Rung rung;
+struct ListedSetting {
+    SolverSetting setting;
     std::string refusal;  // why it is not measured
 };
 
@@ -19,14 +19,15 @@ Study without_steps(const Study& study);
 
 // Settings to measure: the study's own first; then all uniform steps and graded grids with the
 // tightest convergence tolerance; last the study's own with every mesh period integrated.
-std::vector<ListedRung> listed_rungs(const Study& study);
-bool marches_everything(const Rung& rung);
-// Index of a setting in `rungs`; rungs.size() if it is not among them.
-std::size_t place_of(const Rung& rung, const std::vector<RungResult>& rungs);
+std::vector<ListedSetting> listed_settings(const Study& study);
+bool integrates_every_mesh(const SolverSetting& setting);
+// Index of a setting in `settings`; rungs.size() if it is not among them.
+std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResult>& settings);
 
-// Indices of `rungs` from `from` on in the order of measurement: index 0 first, then by the cost
+// Indices of `settings` from `from` on in the order of measurement: index 0 first, then by the cost
 // model's time of a mesh period, those of unknown cost last.
-std::vector<std::size_t> cheapest_first(const Study& study, const std::vector<RungResult>& rungs,
+std::vector<std::size_t> cheapest_first(const Study& study,
+                                        const std::vector<SettingResult>& settings,
                                         std::size_t from);
 
 }  // namespace gearpod::mc

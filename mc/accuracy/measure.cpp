@@ -11,11 +11,11 @@
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/measure_detection.hpp"
 #include "mc/accuracy/report.hpp"
-#include "mc/accuracy/rung_scenes.hpp"
-#include "mc/accuracy/time_left.hpp"
+#include "mc/accuracy/setting_scenes.hpp"
+#include "mc/accuracy/time_budget.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/numerics/choice.hpp"
-#include "mc/numerics/ladder.hpp"
+#include "mc/numerics/solver_families.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -54,26 +54,26 @@ class Measurement {
         reference.seconds = kReferenceShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
         report_.own = 0;
-        for (const ListedRung& listed : listed_rungs(study_)) {
-            add(listed.rung, listed.refusal);
+        for (const ListedSetting& listed : listed_settings(study_)) {
+            add(listed.setting, listed.refusal);
         }
-        times_.resize(report_.rungs.size());
-        request_.progress(fmt::format("{} solver settings", report_.rungs.size()));
-        march_first(0);
+        times_.resize(report_.settings.size());
+        request_.progress(fmt::format("{} solver settings", report_.settings.size()));
+        measure_new(0);
         finish_times();
         for (const double tolerance : request_.tolerances) {
             choose(tolerance);
         }
-        settle_loosely();
+        loosen_convergence();
         for (int repeat = 1; repeat < request_.repeats; ++repeat) {
             finish_times();
             request_.progress(fmt::format("timing {} of {}", repeat + 1, request_.repeats));
-            if (!march_again()) {
-                leave_out(fmt::format("all but {} of {} timings", repeat, request_.repeats));
+            if (!time_again()) {
+                record_omission(fmt::format("all but {} of {} timings", repeat, request_.repeats));
                 break;
             }
         }
-        thin_stiffness();
+        measure_truncated_stiffness();
         time_contenders();
         finish_times();
         for (ChoiceCheck& check : report_.choices) {
@@ -91,133 +91,132 @@ class Measurement {
         study.numerics.tolerance = 0.0;
         return study;
     }
-    void add(const Rung& rung, const std::string& refusal = "") {
-        report_.rungs.emplace_back();
-        report_.rungs.back().rung = rung;
-        report_.rungs.back().refusal = refusal;
+    void add(const SolverSetting& setting, const std::string& refusal = "") {
+        report_.settings.emplace_back();
+        report_.settings.back().setting = setting;
+        report_.settings.back().refusal = refusal;
     }
 
     // Measures the fastest settings again with fewer terms in the stiffness curves.
-    void thin_stiffness() {
+    void measure_truncated_stiffness() {
         if (!time_.enough()) {
-            return leave_out("settings with shorter stiffness series");
+            return record_omission("settings with shorter stiffness series");
         }
         finish_times();
-        std::vector<Rung> fastest_rungs;
+        std::vector<SolverSetting> fastest_settings;
         for (const ChoiceCheck& check : report_.choices) {
             const double best = fastest(check.tolerance);
-            const auto known = [&](const Rung& rung) {
-                return std::any_of(fastest_rungs.begin(), fastest_rungs.end(),
-                                   [&](const Rung& r) { return r.text() == rung.text(); });
+            const auto known = [&](const SolverSetting& setting) {
+                return std::ranges::any_of(
+                    fastest_settings, [&](const auto& r) { return r.text() == setting.text(); });
             };
-            for (const RungResult& result : report_.rungs) {
-                if (holds(result, check.tolerance) && result.march_s == best &&
-                    !known(result.rung)) {
-                    fastest_rungs.push_back(result.rung);
+            for (const SettingResult& result : report_.settings) {
+                if (holds(result, check.tolerance) && result.integration_s == best &&
+                    !known(result.setting)) {
+                    fastest_settings.push_back(result.setting);
                 }
             }
         }
-        const std::size_t first = report_.rungs.size();
-        for (const Rung& rung : fastest_rungs) {
+        const std::size_t first = report_.settings.size();
+        for (const SolverSetting& setting : fastest_settings) {
             for (const double tolerance : kStiffnessTolerances) {
-                Rung thin = rung;
+                SolverSetting thin = setting;
                 thin.other.push_back(fmt::format("numerics.stiffness_tolerance={:g}", tolerance));
                 add(thin);
             }
         }
-        times_.resize(report_.rungs.size());
-        request_.progress(
-            fmt::format("{} settings with shorter stiffness series", report_.rungs.size() - first));
-        march_first(first);
+        times_.resize(report_.settings.size());
+        request_.progress(fmt::format("{} settings with shorter stiffness series",
+                                      report_.settings.size() - first));
+        measure_new(first);
     }
 
     // Measures looser convergence tolerances; settings with the same steps use one scene in turn.
-    void settle_loosely() {
+    void loosen_convergence() {
         if (!time_.enough()) {
-            return leave_out("settings with a looser settle_tolerance");
+            return record_omission("settings with a looser settle_tolerance");
         }
         finish_times();
-        std::vector<Rung> loose;
-        for (const RungResult& result : report_.rungs) {
+        std::vector<SolverSetting> loose;
+        for (const SettingResult& result : report_.settings) {
             if (!result.refusal.empty() || !near_frontier(result) ||
-                result.rung.settle_tolerance != settle_tolerances().front() ||
-                result.rung.integrator == "auto" || marches_everything(result.rung)) {
+                result.setting.convergence_tolerance != convergence_tolerances().front() ||
+                result.setting.integrator == "auto" || integrates_every_mesh(result.setting)) {
                 continue;
             }
-            for (std::size_t i = 1; i < settle_tolerances().size(); ++i) {
-                loose.push_back(result.rung);
-                loose.back().settle_tolerance = settle_tolerances()[i];
+            for (std::size_t i = 1; i < convergence_tolerances().size(); ++i) {
+                loose.push_back(result.setting);
+                loose.back().convergence_tolerance = convergence_tolerances()[i];
             }
         }
-        const std::size_t first = report_.rungs.size();
-        for (const Rung& rung : loose) {
-            if (place_of(rung, report_.rungs) == report_.rungs.size()) {
-                add(rung);
+        const std::size_t first = report_.settings.size();
+        for (const SolverSetting& setting : loose) {
+            if (index_of(setting, report_.settings) == report_.settings.size()) {
+                add(setting);
             }
         }
-        times_.resize(report_.rungs.size());
+        times_.resize(report_.settings.size());
         request_.progress(fmt::format("{} settings with a looser settle_tolerance",
-                                      report_.rungs.size() - first));
-        march_first(first);
+                                      report_.settings.size() - first));
+        measure_new(first);
     }
 
-    bool near_frontier(const RungResult& result) const {
-        return std::none_of(
-            report_.rungs.begin(), report_.rungs.end(), [&](const RungResult& other) {
-                return other.steps > 0 &&
-                       other.error.largest_feature() <= result.error.largest_feature() &&
-                       kNearFrontier * other.march_s < result.march_s;
-            });
+    bool near_frontier(const SettingResult& result) const {
+        return std::ranges::none_of(report_.settings, [&](const SettingResult& other) {
+            return other.steps > 0 &&
+                   other.error.largest_feature() <= result.error.largest_feature() &&
+                   kNearFrontier * other.integration_s < result.integration_s;
+        });
     }
 
-    void leave_out(const std::string& what) { report_.left_out.push_back(what); }
+    void record_omission(const std::string& what) { report_.left_out.push_back(what); }
 
     // Lower bound of the processor time of a setting, s; only known where every mesh period is
     // integrated.
-    double least_s(const Rung& rung) const {
-        const RungResult& own = report_.rungs[0];
-        return marches_everything(rung) && own.meshes > 0.0 && !times_[0].march.empty()
-                   ? times_[0].march.front() * report_.gearboxes * report_.span_meshes / own.meshes
+    double least_s(const SolverSetting& setting) const {
+        const SettingResult& own = report_.settings[0];
+        return integrates_every_mesh(setting) && own.meshes > 0.0 && !times_[0].run.empty()
+                   ? times_[0].run.front() * report_.gearboxes * report_.span_meshes / own.meshes
                    : 0.0;
     }
 
-    void march_first(std::size_t from) {
+    void measure_new(std::size_t from) {
         int untried = 0;
-        for (const std::size_t i : cheapest_first(study_, report_.rungs, from)) {
-            RungResult& result = report_.rungs[i];
-            if (i > 0 && result.refusal.empty() && !time_.enough(least_s(result.rung))) {
+        for (const std::size_t i : cheapest_first(study_, report_.settings, from)) {
+            SettingResult& result = report_.settings[i];
+            if (i > 0 && result.refusal.empty() && !time_.enough(least_s(result.setting))) {
                 result.refusal = kNotTried;
                 ++untried;
                 continue;
             }
-            march(i, true);
+            measure_setting(i, true);
         }
         if (untried > 0) {
-            leave_out(fmt::format("{} solver settings", untried));
+            record_omission(fmt::format("{} solver settings", untried));
         }
     }
 
     // Times the settings again; false if the time ran out.
-    bool march_again() {
-        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+    bool time_again() {
+        for (std::size_t i = 0; i < report_.settings.size(); ++i) {
             if (!time_.enough()) {
                 return false;
             }
-            if (near_frontier(report_.rungs[i])) {
-                march(i, false);
+            if (near_frontier(report_.settings[i])) {
+                measure_setting(i, false);
             }
         }
         return true;
     }
 
-    void march(std::size_t place, bool first) {
-        RungResult& result = report_.rungs[place];
-        if (!result.refusal.empty() || (marches_everything(result.rung) && !first)) {
+    void measure_setting(std::size_t place, bool first) {
+        SettingResult& result = report_.settings[place];
+        if (!result.refusal.empty() || (integrates_every_mesh(result.setting) && !first)) {
             return;
         }
         try {
-            const PilotRecord record = pilot_.run(scenes_.of(result.rung));
-            times_[place].march.push_back(record.march_s);
+            const PilotRecord record = pilot_.run(scenes_.of(result.setting));
+            times_[place].run.push_back(record.integration_s);
             times_[place].total.push_back(record.total_s);
             if (first) {
                 fill(record, result);
@@ -227,20 +226,20 @@ class Measurement {
         }
     }
 
-    void fill(const PilotRecord& record, RungResult& result) const {
+    void fill(const PilotRecord& record, SettingResult& result) const {
         result.steps = record.steps;
         result.meshes = record.meshes_per_tile();
         result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
         result.error = pilot_error(record, report_.reference.record);
         // The study's own setting may have the integrator "auto".
-        const std::string integrator = result.rung.integrator == "auto"
+        const std::string integrator = result.setting.integrator == "auto"
                                            ? std::string(lockstep::name(own_integrator_))
-                                           : result.rung.integrator;
-        result.cost = step_cost(study_, integrator, result.rung.other).value_or(0.0) *
+                                           : result.setting.integrator;
+        result.cost = step_cost(study_, integrator, result.setting.other).value_or(0.0) *
                       result.steps * result.meshes;
     }
 
-    bool holds(const RungResult& result, double tolerance) const {
+    bool holds(const SettingResult& result, double tolerance) const {
         return result.refusal.empty() && result.steps > 0 &&
                result.error.largest_feature() <= tolerance;
     }
@@ -252,20 +251,20 @@ class Measurement {
         check.tolerance = tolerance;
         if (!time_.enough()) {
             check.refusal = "not tried: the time had run out";
-            leave_out(fmt::format("the choice for numerics.tolerance = {:g}", tolerance));
+            record_omission(fmt::format("the choice for numerics.tolerance = {:g}", tolerance));
             report_.choices.push_back(check);
             return;
         }
         Study study = without_steps(study_);
         study.numerics.tolerance = tolerance;
         try {
-            const Rung rung = resolve_numerics(study).choice->rung;
-            const std::size_t place = place_of(rung, report_.rungs);
+            const SolverSetting setting = resolve_numerics(study).choice->setting;
+            const std::size_t place = index_of(setting, report_.settings);
             check.chosen = static_cast<int>(place);
-            if (place == report_.rungs.size()) {
-                add(rung);
+            if (place == report_.settings.size()) {
+                add(setting);
                 times_.emplace_back();
-                march(place, true);
+                measure_setting(place, true);
             }
         } catch (const SceneError& error) {
             check.refusal = error.what();
@@ -279,9 +278,9 @@ class Measurement {
         std::vector<std::size_t> contenders;
         for (const ChoiceCheck& check : report_.choices) {
             const double best = fastest(check.tolerance);
-            for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
-                if ((holds(report_.rungs[i], check.tolerance) &&
-                     report_.rungs[i].march_s < kContender * best) ||
+            for (std::size_t i = 0; i < report_.settings.size(); ++i) {
+                if ((holds(report_.settings[i], check.tolerance) &&
+                     report_.settings[i].integration_s < kContender * best) ||
                     static_cast<int>(i) == check.chosen) {
                     contenders.push_back(i);
                 }
@@ -293,60 +292,61 @@ class Measurement {
         for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
             for (const std::size_t place : contenders) {
                 if (!time_.enough()) {
-                    leave_out(fmt::format("all but {} of {} timings of the fastest settings",
-                                          repeat, kContenderRepeats));
+                    record_omission(fmt::format("all but {} of {} timings of the fastest settings",
+                                                repeat, kContenderRepeats));
                     return;
                 }
-                march(place, false);
+                measure_setting(place, false);
             }
         }
     }
 
     double fastest(double tolerance) const {
         double best = INFINITY;
-        for (const RungResult& result : report_.rungs) {
-            best = holds(result, tolerance) ? std::min(best, result.march_s) : best;
+        for (const SettingResult& result : report_.settings) {
+            best = holds(result, tolerance) ? std::min(best, result.integration_s) : best;
         }
         return best;
     }
 
     void finish_times() {
-        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
-            RungResult& result = report_.rungs[i];
-            if (times_[i].march.empty()) {
+        for (std::size_t i = 0; i < report_.settings.size(); ++i) {
+            SettingResult& result = report_.settings[i];
+            if (times_[i].run.empty()) {
                 continue;
             }
-            result.march_s = *std::min_element(times_[i].march.begin(), times_[i].march.end());
-            result.march_median_s = machine::upper_median(times_[i].march);
+            result.integration_s = *std::min_element(times_[i].run.begin(), times_[i].run.end());
+            result.integration_median_s = machine::upper_median(times_[i].run);
             result.total_s = *std::min_element(times_[i].total.begin(), times_[i].total.end());
-            result.mesh_s = result.march_s / result.meshes;
+            result.mesh_s = result.integration_s / result.meshes;
         }
     }
 
     void compare(ChoiceCheck& check) const {
         const double best = fastest(check.tolerance);
-        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
-            if (holds(report_.rungs[i], check.tolerance) && report_.rungs[i].march_s == best) {
+        for (std::size_t i = 0; i < report_.settings.size(); ++i) {
+            if (holds(report_.settings[i], check.tolerance) &&
+                report_.settings[i].integration_s == best) {
                 check.best = static_cast<int>(i);
             }
         }
         if (check.chosen >= 0 && check.best >= 0) {
             check.over_best =
-                report_.rungs[static_cast<std::size_t>(check.chosen)].march_s / best - 1.0;
+                report_.settings[static_cast<std::size_t>(check.chosen)].integration_s / best - 1.0;
         }
     }
 
     void mark_frontier() {
-        std::vector<RungResult*> marched;
-        for (RungResult& result : report_.rungs) {
+        std::vector<SettingResult*> integrated;
+        for (SettingResult& result : report_.settings) {
             if (result.refusal.empty() && std::isfinite(result.error.largest_feature())) {
-                marched.push_back(&result);
+                integrated.push_back(&result);
             }
         }
-        std::sort(marched.begin(), marched.end(),
-                  [](const auto* a, const auto* b) { return a->march_s < b->march_s; });
+        std::sort(integrated.begin(), integrated.end(),
+                  [](const auto* a, const auto* b) { return a->integration_s < b->integration_s; });
         double least = INFINITY;
-        for (RungResult* result : marched) {
+        for (SettingResult* result : integrated) {
             result->frontier = result->error.largest_feature() < least;
             least = std::min(least, result->error.largest_feature());
         }
@@ -354,19 +354,19 @@ class Measurement {
 
     void measure_explicit_limit() {
         ExplicitLimit& limit = report_.explicit_limit;
-        limit.step_s = explicit_step_s(scenes_.of(own_rung(study_)));
-        limit.meshes = report_.rungs[0].meshes;
-        limit.refused = std::none_of(report_.rungs.begin(), report_.rungs.end(), [](const auto& r) {
-            return r.rung.integrator == "rk4" && r.refusal.empty();
+        limit.step_s = explicit_step_s(scenes_.of(own_setting(study_)));
+        limit.meshes = report_.settings[0].meshes;
+        limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
+            return r.setting.integrator == "rk4" && r.refusal.empty();
         });
     }
 
     // Compares the measured time of a step relative to rk4's with the cost model's table.
     void check_step_costs() {
         std::map<std::string, std::vector<double>> measured;
-        for (const RungResult& result : report_.rungs) {
-            if (result.steps > 0 && result.rung.integrator != "auto" && result.rung.other.empty()) {
-                measured[result.rung.integrator].push_back(result.mesh_s / result.steps);
+        for (const SettingResult& r : report_.settings) {
+            if (r.steps > 0 && r.setting.integrator != "auto" && r.setting.other.empty()) {
+                measured[r.setting.integrator].push_back(r.mesh_s / r.steps);
             }
         }
         for (auto& [integrator, steps] : measured) {
@@ -379,12 +379,12 @@ class Measurement {
     }
 
     struct Times {
-        std::vector<double> march, total;
+        std::vector<double> run, total;
     };
     const Study study_;
     const AccuracyRequest& request_;
-    const TimeLeft time_;
-    RungScenes scenes_;
+    const TimeBudget time_;
+    SettingScenes scenes_;
     const lockstep::Integrator own_integrator_ = scenes_.own().plan().integrator;
     const Pilot pilot_;
     AccuracyReport report_;

@@ -13,20 +13,20 @@ namespace {
 constexpr long kPilotGearboxes = 480;
 constexpr long kFewestGearboxes = 60;
 
-std::size_t closest_rung(const AccuracyReport& report) {
-    const auto error_of = [](const RungResult& r) {
+std::size_t most_accurate_setting(const AccuracyReport& report) {
+    const auto error_of = [](const SettingResult& r) {
         return r.refusal.empty() && r.steps > 0 ? r.error.largest_feature() : INFINITY;
     };
     const auto closest =
-        std::min_element(report.rungs.begin(), report.rungs.end(),
+        std::min_element(report.settings.begin(), report.settings.end(),
                          [&](const auto& a, const auto& b) { return error_of(a) < error_of(b); });
-    return static_cast<std::size_t>(closest - report.rungs.begin());
+    return static_cast<std::size_t>(closest - report.settings.begin());
 }
 
-std::vector<std::size_t> rungs_that_matter(const AccuracyReport& report) {
+std::vector<std::size_t> relevant_settings(const AccuracyReport& report) {
     std::vector<std::size_t> places{0};
-    for (std::size_t i = 0; i < report.rungs.size(); ++i) {
-        if (report.rungs[i].frontier) {
+    for (std::size_t i = 0; i < report.settings.size(); ++i) {
+        if (report.settings[i].frontier) {
             places.push_back(i);
         }
     }
@@ -41,14 +41,14 @@ std::vector<std::size_t> rungs_that_matter(const AccuracyReport& report) {
 }
 
 // Number of gearboxes for which there is time; 0 if too few for a result.
-long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
+long pilot_size(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
                 const std::vector<std::size_t>& places, AccuracyReport& report) {
     if (request.gearboxes) {
         return *request.gearboxes;
     }
-    double gearbox_s = report.rungs[closest_rung(report)].total_s;
+    double gearbox_s = report.settings[most_accurate_setting(report)].total_s;
     for (const std::size_t place : places) {
-        gearbox_s += report.rungs[place].total_s;
+        gearbox_s += report.settings[place].total_s;
     }
     const Ensemble& e = study.ensemble;
     const long all = std::min<long>(kPilotGearboxes, e.instances + e.threshold_instances);
@@ -68,24 +68,24 @@ long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLe
 
 }  // namespace
 
-void measure_detection(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
+void measure_detection(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
                        AccuracyReport& report) {
-    const std::vector<std::size_t> places = rungs_that_matter(report);
+    const std::vector<std::size_t> places = relevant_settings(report);
     const long gearboxes = pilot_size(study, request, time, places, report);
     if (gearboxes == 0) {
         return;
     }
     const Study pilot = pilot_ensemble_study(study, gearboxes);
-    const PilotEnsemble reference =
-        run_pilot_ensemble(with_rung(pilot, report.rungs[closest_rung(report)].rung));
+    const PilotEnsemble reference = run_pilot_ensemble(
+        with_setting(pilot, report.settings[most_accurate_setting(report)].setting));
     if (!has_rates(reference)) {
         return;
     }
     for (const std::size_t place : places) {
-        RungResult& result = report.rungs[place];
-        request.progress(fmt::format("detection rates with {}", result.rung.text()));
+        SettingResult& result = report.settings[place];
+        request.progress(fmt::format("detection rates with {}", result.setting.text()));
         result.detection =
-            detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
+            detection_change(run_pilot_ensemble(with_setting(pilot, result.setting)), reference);
     }
 }
 

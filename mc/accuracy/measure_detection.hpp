@@ -3,13 +3,13 @@
 #pragma once
 
 #include "mc/accuracy/report.hpp"
-#include "mc/accuracy/time_left.hpp"
+#include "mc/accuracy/time_budget.hpp"
 
 namespace gearpod::mc {
 
-// Fills RungResult::detection for the requested number of gearboxes, or as many as there is time
+// Fills SettingResult::detection for the requested number of gearboxes, or as many as there is time
 // for, and records what was omitted.
-void measure_detection(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
+void measure_detection(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
                        AccuracyReport& report);
 
 }  // namespace gearpod::mc

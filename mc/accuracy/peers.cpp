@@ -60,7 +60,7 @@ std::vector<PeerResult> read_peers(const std::string& path) {
                                                  where, cells.size(), head.size()));
         }
         PeerResult peer{cells[0], cells[1], 0.0, 0.0, 0.0, 0.0, {}};
-        double* const into[] = {&peer.march_s, &peer.mesh_s, &peer.sensor, &peer.te};
+        double* const into[] = {&peer.integration_s, &peer.mesh_s, &peer.sensor, &peer.te};
         for (std::size_t i = 2; i < cells.size(); ++i) {
             const double value = number_in(cells[i], where, head[i]);
             if (i < first.size()) {

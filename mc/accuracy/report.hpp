@@ -9,22 +9,22 @@
 
 #include "mc/accuracy/pilot_detection.hpp"
 #include "mc/numerics/reference.hpp"
-#include "mc/numerics/rung.hpp"
+#include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {
 
 // Message for a setting that was not tried for lack of time.
 inline constexpr const char* kNotTried = "not tried: the time had run out";
 
-struct RungResult {
-    Rung rung;
+struct SettingResult {
+    SolverSetting setting;
     std::string refusal;  // why it was not measured; all other members are then empty
     int steps = 0;        // of the phase grid, per mesh period
     double meshes = 0.0;  // mesh periods integrated by a tile
     double failed = 0.0;  // pilot gearboxes that failed
     // Processor time per gearbox of one thread in full tiles, s: minimum and median of the repeats.
-    double march_s = 0.0, march_median_s = 0.0, total_s = 0.0;
-    double mesh_s = 0.0;  // march_s per integrated mesh period
+    double integration_s = 0.0, integration_median_s = 0.0, total_s = 0.0;
+    double mesh_s = 0.0;  // integration_s per integrated mesh period
     double cost = 0.0;    // by the cost model, in rk4 steps
     PilotError error;
     bool frontier = false;  // true: no setting is both faster and more accurate
@@ -38,7 +38,7 @@ struct ExplicitLimit {
     double meshes = 0.0;  // mesh periods per tile, with the study's own convergence tolerance
     bool refused = false;
     double mesh_s() const { return steps * step_s; }
-    double march_s() const { return mesh_s() * meshes; }
+    double integration_s() const { return mesh_s() * meshes; }
 };
 
 // Setting that a tolerance chooses, compared with the fastest measured one that keeps the
@@ -46,14 +46,14 @@ struct ExplicitLimit {
 struct ChoiceCheck {
     double tolerance = 0.0;
     std::string refusal;
-    int chosen = -1, best = -1;  // indices in AccuracyReport::rungs
+    int chosen = -1, best = -1;  // indices in AccuracyReport::settings
     double over_best = 0.0;      // time of the chosen over that of the best, minus 1
 };
 
 // Result of another program's method, read from a table.
 struct PeerResult {
     std::string name, command;
-    double march_s = 0.0, mesh_s = 0.0;                    // per gearbox, per mesh period
+    double integration_s = 0.0, mesh_s = 0.0;              // per gearbox, per mesh period
     double sensor = 0.0, te = 0.0;                         // as in PilotError
     std::vector<std::pair<std::string, double>> features;  // relative
 };
@@ -65,7 +65,7 @@ struct AccuracyReport {
     double mesh_frequency_Hz = 0.0;
     Reference reference;
     ExplicitLimit explicit_limit;
-    std::vector<RungResult> rungs;
+    std::vector<SettingResult> settings;
     int own = -1;  // index of the study's own setting
     std::vector<ChoiceCheck> choices;
     std::vector<PeerResult> peers;

@@ -71,32 +71,33 @@ void add_heading(Text out) {
         "steps", "meshes", "us/mesh", "us/gearbox", "sensor", "TE", "feature", "worst");
 }
 
-void add_row(const AccuracyReport& report, const RungResult& r, const char* mark, Text out) {
+void add_row(const AccuracyReport& report, const SettingResult& r, const char* mark, Text out) {
     if (!r.refusal.empty()) {
-        fmt::format_to(out, "{}\n", mark + r.rung.integrator);
+        fmt::format_to(out, "{}\n", mark + r.setting.integrator);
         add_words("refused: " + r.refusal, 4, out);
         return;
     }
     fmt::format_to(out, "{}{}\n{:>7} {:>6.0f} {:>8.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n",
-                   mark + r.rung.text(),
+                   mark + r.setting.text(),
                    r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : "", r.steps, r.meshes,
-                   1e6 * r.mesh_s, 1e6 * r.march_s, short_number(r.error.sensor),
+                   1e6 * r.mesh_s, 1e6 * r.integration_s, short_number(r.error.sensor),
                    short_number(r.error.te), short_number(r.error.largest_feature()),
                    worst_feature(report, r.error));
 }
 
 // True for settings with fewer terms in the stiffness curves.
-bool is_thin(const Rung& rung) {
-    return !rung.other.empty() && rung.other.back().starts_with("numerics.stiffness_tolerance");
+bool has_truncated_stiffness(const SolverSetting& setting) {
+    return !setting.other.empty() &&
+           setting.other.back().starts_with("numerics.stiffness_tolerance");
 }
 
 // True for settings that are listed: those of each family with the tightest convergence tolerance,
 // the frontier, the chosen ones and the study's own.
-bool worth_a_line(const AccuracyReport& report, std::size_t i) {
-    const RungResult& r = report.rungs[i];
+bool is_listed(const AccuracyReport& report, std::size_t i) {
+    const SettingResult& r = report.settings[i];
     return r.frontier || static_cast<int>(i) == report.own ||
-           (!r.refusal.empty() && r.refusal != kNotTried) || r.rung.settle_tolerance <= 1e-10 ||
-           is_thin(r.rung) ||
+           (!r.refusal.empty() && r.refusal != kNotTried) ||
+           r.setting.convergence_tolerance <= 1e-10 || has_truncated_stiffness(r.setting) ||
            std::any_of(report.choices.begin(), report.choices.end(),
                        [&](const ChoiceCheck& c) { return c.chosen == static_cast<int>(i); });
 }
@@ -107,7 +108,7 @@ void add_explicit_limit(const AccuracyReport& report, Text out) {
     add_words(fmt::format("rk4 at its stability limit ({}): {:.0f} steps of {:.1f} ns (measured) = "
                           "{:.3g} us/mesh, x {:.0f} meshes = {:.3g} us/gearbox",
                           e.refused ? "refused; computed" : "computed", e.steps, 1e9 * e.step_s,
-                          1e6 * e.mesh_s(), e.meshes, 1e6 * e.march_s()),
+                          1e6 * e.mesh_s(), e.meshes, 1e6 * e.integration_s()),
               0, out);
 }
 
@@ -118,22 +119,22 @@ void add_choices(const AccuracyReport& report, Text out) {
             add_words(fmt::format("{:g}: no choice: {}", c.tolerance, c.refusal), 2, out);
             continue;
         }
-        const RungResult& chosen = report.rungs[static_cast<std::size_t>(c.chosen)];
-        add_words(
-            fmt::format("{:g}: {}, worst feature {:.1e}, {:.1f} us/gearbox", c.tolerance,
-                        chosen.rung.text(), chosen.error.largest_feature(), 1e6 * chosen.march_s),
-            2, out);
+        const SettingResult& chosen = report.settings[static_cast<std::size_t>(c.chosen)];
+        add_words(fmt::format("{:g}: {}, worst feature {:.1e}, {:.1f} us/gearbox", c.tolerance,
+                              chosen.setting.text(), chosen.error.largest_feature(),
+                              1e6 * chosen.integration_s),
+                  2, out);
         std::string comparison;
         if (c.best >= 0) {
-            const RungResult& best = report.rungs[static_cast<std::size_t>(c.best)];
+            const SettingResult& best = report.settings[static_cast<std::size_t>(c.best)];
             comparison = fmt::format("{:+.0f} % against the fastest setting that keeps it ({}); ",
-                                     100.0 * c.over_best, best.rung.text());
+                                     100.0 * c.over_best, best.setting.text());
         }
         comparison += fmt::format(
             "1/{:.3g} of rk4's time at its limit per mesh period, 1/{:.3g} "
             "per gearbox",
             report.explicit_limit.mesh_s() / chosen.mesh_s,
-            report.explicit_limit.march_s() / chosen.march_s);
+            report.explicit_limit.integration_s() / chosen.integration_s);
         add_words(comparison, 4, out);
     }
     if (!report.step_costs.empty()) {
@@ -145,11 +146,11 @@ void add_choices(const AccuracyReport& report, Text out) {
 
 void add_features(const AccuracyReport& report, Text out) {
     fmt::format_to(out, "\nrelative errors of the features on the frontier\n");
-    for (const RungResult& r : report.rungs) {
+    for (const SettingResult& r : report.settings) {
         if (!r.frontier) {
             continue;
         }
-        fmt::format_to(out, "{}\n", r.rung.text());
+        fmt::format_to(out, "{}\n", r.setting.text());
         std::string errors;
         for (std::size_t f = 0; f < report.features.size(); ++f) {
             errors +=
@@ -171,9 +172,9 @@ std::string sizes_text(const DetectionChange& d) {
 }
 
 void add_detection(const AccuracyReport& report, Text out) {
-    const auto detected = [](const RungResult& r) { return r.detection.has_value(); };
-    const auto first = std::find_if(report.rungs.begin(), report.rungs.end(), detected);
-    if (first == report.rungs.end()) {
+    const auto detected = [](const SettingResult& r) { return r.detection.has_value(); };
+    const auto first = std::find_if(report.settings.begin(), report.settings.end(), detected);
+    if (first == report.settings.end()) {
         return;
     }
     fmt::format_to(out,
@@ -181,12 +182,12 @@ void add_detection(const AccuracyReport& report, Text out) {
                    "with these; largest change over features, sizes and noise levels\n"
                    "{:>16} {:>22}  {}\n",
                    first->detection->gearboxes, "alarms changed", "Pd (half width)", "a90");
-    for (const RungResult& r : report.rungs) {
+    for (const SettingResult& r : report.settings) {
         if (!r.detection) {
             continue;
         }
         const DetectionChange& d = *r.detection;
-        fmt::format_to(out, "{}\n{:>14.3f} % {:>22}  {}\n", r.rung.text(), 100.0 * d.alarms,
+        fmt::format_to(out, "{}\n{:>14.3f} % {:>22}  {}\n", r.setting.text(), 100.0 * d.alarms,
                        fmt::format("{:.4f} ({:.3f})", d.pd, d.pd_half_width), sizes_text(d));
     }
 }
@@ -203,7 +204,8 @@ void add_left_out(const AccuracyReport& report, Text out) {
 void add_peers(const AccuracyReport& report, Text out) {
     for (const PeerResult& p : report.peers) {
         fmt::format_to(out, "  {}\n{:>7} {:>6} {:>8.3g} {:>10.3g} {:>7} {:>7} ", p.name, "", "",
-                       1e6 * p.mesh_s, 1e6 * p.march_s, short_number(p.sensor), short_number(p.te));
+                       1e6 * p.mesh_s, 1e6 * p.integration_s, short_number(p.sensor),
+                       short_number(p.te));
         const auto worst =
             std::max_element(p.features.begin(), p.features.end(),
                              [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -222,9 +224,9 @@ std::string accuracy_text(const AccuracyReport& report) {
     Text out(text);
     add_head(report, out);
     add_heading(out);
-    for (std::size_t i = 0; i < report.rungs.size(); ++i) {
-        if (worth_a_line(report, i)) {
-            add_row(report, report.rungs[i], report.rungs[i].frontier ? "* " : "  ", out);
+    for (std::size_t i = 0; i < report.settings.size(); ++i) {
+        if (is_listed(report, i)) {
+            add_row(report, report.settings[i], report.settings[i].frontier ? "* " : "  ", out);
         }
     }
     add_peers(report, out);

@@ -16,16 +16,16 @@ namespace {
 constexpr double kShare = 0.2;  // fraction of the simulated sets that ABC accepts
 
 // Simulated sets whose parameters lie inside a region, with parameters relative to it.
-struct Draws {
-    analysis::AbcDraws abc;
+struct SetsInRegion {
+    analysis::AbcSamples abc;
     std::vector<const SimulatedSet*> sets;
 };
 
-Draws draws_in(const PriorRegion& region, std::span<const SimulatedSet> sets,
-               std::size_t summaries) {
-    Draws draws;
-    draws.abc.parameters = region.low.size();
-    draws.abc.summaries = summaries;
+SetsInRegion sets_in_region(const PriorRegion& region, std::span<const SimulatedSet> sets,
+                            std::size_t summaries) {
+    SetsInRegion in_region;
+    in_region.abc.parameters = region.low.size();
+    in_region.abc.summaries = summaries;
     for (const SimulatedSet& set : sets) {
         bool inside = !set.summary.empty();
         for (std::size_t p = 0; p < region.low.size(); ++p) {
@@ -35,14 +35,15 @@ Draws draws_in(const PriorRegion& region, std::span<const SimulatedSet> sets,
             continue;
         }
         for (std::size_t p = 0; p < region.low.size(); ++p) {
-            draws.abc.unit.push_back((set.unit[p] - region.low[p]) /
-                                     (region.high[p] - region.low[p]));
+            in_region.abc.unit.push_back((set.unit[p] - region.low[p]) /
+                                         (region.high[p] - region.low[p]));
         }
-        draws.abc.summary.insert(draws.abc.summary.end(), set.summary.begin(), set.summary.end());
-        draws.abc.group.push_back(set.march);
-        draws.sets.push_back(&set);
+        in_region.abc.summary.insert(in_region.abc.summary.end(), set.summary.begin(),
+                                     set.summary.end());
+        in_region.abc.group.push_back(set.integration);
+        in_region.sets.push_back(&set);
     }
-    return draws;
+    return in_region;
 }
 
 std::vector<double> column(const std::vector<double>& table, std::size_t width, std::size_t which) {
@@ -79,18 +80,18 @@ PriorRegion narrowed(const analysis::AbcPosterior& posterior, const PriorRegion&
     return next;
 }
 
-FoundInput found_input(const CalibratedInput& input, std::span<const double> values,
-                       std::span<const double> weights) {
-    constexpr double kTail = 0.05, kTold = 0.8;
-    FoundInput found;
+InputPosterior found_input(const CalibratedInput& input, std::span<const double> values,
+                           std::span<const double> weights) {
+    constexpr double kTail = 0.05, kInformedRatio = 0.8;
+    InputPosterior found;
     found.input = input;
     const double low = analysis::weighted_quantile(values, weights, kTail);
     const double high = analysis::weighted_quantile(values, weights, 1.0 - kTail);
     found.median = input.at(analysis::weighted_quantile(values, weights, 0.5));
     found.low = input.at(low);
     found.high = input.at(high);
-    found.left = (high - low) / (1.0 - 2.0 * kTail);
-    found.told = found.left < kTold;
+    found.width_ratio = (high - low) / (1.0 - 2.0 * kTail);
+    found.is_informed = found.width_ratio < kInformedRatio;
     return found;
 }
 
@@ -109,8 +110,8 @@ std::vector<std::size_t> equally_likely(std::span<const double> weights, std::si
     return members;
 }
 
-std::vector<std::string> deciding(const analysis::AbcPosterior& posterior, std::size_t p,
-                                  const SetSummary& summary) {
+std::vector<std::string> strongest_summaries(const analysis::AbcPosterior& posterior, std::size_t p,
+                                             const SetSummary& summary) {
     constexpr std::size_t kNamed = 3;
     constexpr double kWeak = 0.3;
     const std::size_t count = summary.names().size();
@@ -143,9 +144,9 @@ double rank_correlation(const std::vector<double>& a, const std::vector<double>&
     return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
 }
 
-std::vector<BoundPair> bound_pairs(const std::vector<std::vector<double>>& posterior) {
+std::vector<CorrelatedPair> correlated_pairs(const std::vector<std::vector<double>>& posterior) {
     constexpr double kBound = 0.7;
-    std::vector<BoundPair> pairs;
+    std::vector<CorrelatedPair> pairs;
     for (std::size_t a = 0; a < posterior.size(); ++a) {
         for (std::size_t b = a + 1; b < posterior.size(); ++b) {
             const double correlation = rank_correlation(posterior[a], posterior[b]);
@@ -157,14 +158,15 @@ std::vector<BoundPair> bound_pairs(const std::vector<std::vector<double>>& poste
     return pairs;
 }
 
-std::vector<FeatureCheck> checks(const analysis::AbcPosterior& posterior, const Draws& draws,
-                                 const SetSummary& summary, std::span<const double> observed) {
+std::vector<FeatureCheck> checks(const analysis::AbcPosterior& posterior,
+                                 const SetsInRegion& in_region, const SetSummary& summary,
+                                 std::span<const double> observed) {
     constexpr double kTail = 0.01;
     std::vector<FeatureCheck> all;
     for (std::size_t k = 0; summary.is_mean(k) && k < observed.size(); ++k) {
         std::vector<double> values;
         for (const std::size_t draw : posterior.draw) {
-            values.push_back(draws.sets[draw]->summary[k]);
+            values.push_back(in_region.sets[draw]->summary[k]);
         }
         const features::Feature& feature = *summary.features()[k];
         all.push_back(
@@ -176,13 +178,13 @@ std::vector<FeatureCheck> checks(const analysis::AbcPosterior& posterior, const 
     return all;
 }
 
-void check_count(const Draws& draws, std::size_t of, std::size_t inputs) {
+void check_count(const SetsInRegion& in_region, std::size_t of, std::size_t inputs) {
     constexpr std::size_t kFewest = 50;
-    if (draws.sets.size() < kFewest * inputs) {
+    if (in_region.sets.size() < kFewest * inputs) {
         throw std::runtime_error(
             fmt::format("only {} of {} simulated sets have all features, but at least {} are "
                         "needed; raise --draws, or use a prior for which the gearboxes work",
-                        draws.sets.size(), of, kFewest * inputs));
+                        in_region.sets.size(), of, kFewest * inputs));
     }
 }
 
@@ -190,26 +192,27 @@ void check_count(const Draws& draws, std::size_t of, std::size_t inputs) {
 
 CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
                             const SetSummary& summary, std::vector<SimulatedSet>& first,
-                            const std::function<void(double)>& told) {
+                            const std::function<void(double)>& report_time) {
     const std::size_t inputs = task.inputs.size();
     const PriorRegion prior{std::vector<double>(inputs, 0.0), std::vector<double>(inputs, 1.0)};
     const std::vector<double> observed = summary.of(task.measured);
     const auto simulate = [&](const PriorRegion& region, std::size_t number) {
-        return simulate_sets(scene, task.inputs, region, {task.marched, task.backgrounds, number},
-                             task.lengths, summary, task.threads, told);
+        return simulate_sets(scene, task.inputs, region,
+                             {task.integrated, task.backgrounds, number}, task.lengths, summary,
+                             task.threads, report_time);
     };
     if (first.empty()) {
         first = simulate(prior, 0);
     }
     const std::size_t summaries = summary.names().size();
-    const Draws coarse = draws_in(prior, first, summaries);
+    const SetsInRegion coarse = sets_in_region(prior, first, summaries);
     check_count(coarse, first.size(), inputs);
     const PriorRegion region =
         narrowed(analysis::regression_abc(coarse.abc, observed, kShare), prior);
 
-    std::vector<SimulatedSet> sets = simulate(region, task.marched);
+    std::vector<SimulatedSet> sets = simulate(region, task.integrated);
     sets.insert(sets.end(), first.begin(), first.end());
-    const Draws fine = draws_in(region, sets, summaries);
+    const SetsInRegion fine = sets_in_region(region, sets, summaries);
     check_count(fine, sets.size(), inputs);
     const analysis::AbcPosterior posterior = analysis::regression_abc(fine.abc, observed, kShare);
 
@@ -221,18 +224,18 @@ CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
     for (std::size_t p = 0; p < inputs; ++p) {
         samples.push_back(in_prior(posterior, region, p));
         result.found.push_back(found_input(task.inputs[p], samples.back(), posterior.weight));
-        result.found.back().deciding = deciding(posterior, p, summary);
+        result.found.back().strongest_summaries = strongest_summaries(posterior, p, summary);
     }
-    constexpr std::size_t kDraws = 200;
-    const std::vector<std::size_t> members = equally_likely(posterior.weight, kDraws);
+    constexpr std::size_t kSamples = 200;
+    const std::vector<std::size_t> members = equally_likely(posterior.weight, kSamples);
     for (std::size_t p = 0; p < inputs; ++p) {
-        result.draws.emplace_back();
+        result.samples.emplace_back();
         for (const std::size_t member : members) {
-            result.draws.back().push_back(
+            result.samples.back().push_back(
                 task.inputs[p].at(std::clamp(samples[p][member], 0.0, 1.0)));
         }
     }
-    result.pairs = bound_pairs(samples);
+    result.pairs = correlated_pairs(samples);
     result.checks = checks(posterior, fine, summary, observed);
     return result;
 }

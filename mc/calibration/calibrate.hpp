@@ -15,16 +15,17 @@ namespace gearpod::mc {
 inline constexpr int kCalibrationRounds = 2;
 
 // Posterior of one input; values in the unit of its key.
-struct FoundInput {
+struct InputPosterior {
     CalibratedInput input;
     double median = 0.0, low = 0.0, high = 0.0;  // and the 90 % interval
-    double left = 1.0;                  // width of the 90 % interval relative to that of the prior
-    bool told = false;                  // true if the records contain information about the input
-    std::vector<std::string> deciding;  // summaries most correlated with it, the strongest first
+    double width_ratio = 1.0;  // width of the 90 % interval relative to that of the prior
+    bool is_informed = false;  // true if the records contain information about the input
+    std::vector<std::string>
+        strongest_summaries;  // summaries most correlated with it, the strongest first
 };
 
 // Two inputs of which the records determine only a combination.
-struct BoundPair {
+struct CorrelatedPair {
     std::size_t first = 0, second = 0;
     double correlation = 0.0;  // rank correlation of the posterior
 };
@@ -38,10 +39,10 @@ struct FeatureCheck {
 };
 
 struct CalibrationResult {
-    std::vector<FoundInput> found;
+    std::vector<InputPosterior> found;
     // [input][draw]: equally likely samples of the joint posterior, in the units of the keys.
-    std::vector<std::vector<double>> draws;
-    std::vector<BoundPair> pairs;
+    std::vector<std::vector<double>> samples;
+    std::vector<CorrelatedPair> pairs;
     std::vector<FeatureCheck> checks;
     std::size_t sets = 0, failed = 0;  // number simulated, and number of those without features
 };
@@ -49,17 +50,17 @@ struct CalibrationResult {
 struct CalibrationTask {
     std::vector<CalibratedInput> inputs;
     RecordLengths lengths;
-    RecordValues measured;                       // in the order of the summary's features
-    std::size_t marched = 200, backgrounds = 8;  // in each round
+    RecordValues measured;                          // in the order of the summary's features
+    std::size_t integrated = 200, backgrounds = 8;  // in each round
     int threads = 1;
 };
 
-// Runs both rounds. `told`: passed to simulate_sets in each round. `first`: first round of another
-// task that differs only in the measured values. If it is empty, the first round is simulated and
-// stored there. Throws std::runtime_error if too few sets can be simulated.
+// Runs both rounds. `report_time`: passed to simulate_sets in each round. `first`: first round of
+// another task that differs only in the measured values. If it is empty, the first round is
+// simulated and stored there. Throws std::runtime_error if too few sets can be simulated.
 CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
                             const SetSummary& summary, std::vector<SimulatedSet>& first,
-                            const std::function<void(double)>& told);
+                            const std::function<void(double)>& report_time);
 
 // Study file (TOML) in which the posterior sample replaces the distributions of the inputs in
 // [random]. The sample is stored in rows; comments give the uncertainty. `intro`: comment lines at

@@ -9,25 +9,26 @@ namespace gearpod::mc {
 namespace {
 
 // Joint sample of all inputs, in rows: this keeps the correlations that the recordings determine.
-std::string distribution_of(const std::vector<double>& draws) {
+std::string distribution_of(const std::vector<double>& samples) {
     std::string values;
-    for (const double value : draws) {
+    for (const double value : samples) {
         values += fmt::format("{}{:.5g}", values.empty() ? "" : ", ", value);
     }
     return fmt::format("{{ distribution = \"empirical\", rows = 1, values = [{}] }}", values);
 }
 
 std::string comment_of(const CalibrationResult& result, std::size_t p) {
-    const FoundInput& found = result.found[p];
+    const InputPosterior& found = result.found[p];
     std::string text =
         fmt::format("# median {:.4g}, 90 % interval {:.4g} to {:.4g} (prior {:g} to {:g}{})",
                     found.median, found.low, found.high, found.input.low, found.input.high,
                     found.input.logarithmic ? ", log" : "");
-    text += found.told ? "\n" : ": THE RECORDINGS DO NOT DETERMINE IT, this is the prior\n";
-    if (found.told && !found.deciding.empty()) {
-        text += fmt::format("# most correlated with {}\n", fmt::join(found.deciding, ", "));
+    text += found.is_informed ? "\n" : ": THE RECORDINGS DO NOT DETERMINE IT, this is the prior\n";
+    if (found.is_informed && !found.strongest_summaries.empty()) {
+        text +=
+            fmt::format("# most correlated with {}\n", fmt::join(found.strongest_summaries, ", "));
     }
-    for (const BoundPair& pair : result.pairs) {
+    for (const CorrelatedPair& pair : result.pairs) {
         if (pair.first == p || pair.second == p) {
             const std::size_t other = pair.first == p ? pair.second : pair.first;
             text += fmt::format(
@@ -50,17 +51,17 @@ std::string calibrated_study(const Study& study, const CalibrationResult& result
     for (std::size_t p = 0; p < result.found.size(); ++p) {
         found += comment_of(result, p);
         found +=
-            fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.draws[p]));
+            fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.samples[p]));
     }
     // The sample replaces the study's own distributions of these inputs.
     Study kept = study;
     kept.detection.uncertain_inputs.clear();
-    for (const FoundInput& one : result.found) {
+    for (const InputPosterior& one : result.found) {
         kept.detection.uncertain_inputs.push_back(one.input.key);
     }
     std::erase_if(kept.random, [&](const RandomInput& one) {
         return std::ranges::any_of(result.found,
-                                   [&](const FoundInput& f) { return f.input.key == one.key; });
+                                   [&](const InputPosterior& f) { return f.input.key == one.key; });
     });
     std::string text = resolved_text(kept);
     const std::string section = "[random]\n";

@@ -17,14 +17,14 @@ namespace {
 using features::Feature;
 
 // True for features of a single sensor record that need no healthy reference.
-bool of_sensor_alone(const Feature& feature) {
+bool is_plain_sensor_feature(const Feature& feature) {
     return feature.from_sensor && (feature.needs & features::kHealthy) == 0;
 }
 
 std::vector<std::string_view> usable_names() {
     std::vector<std::string_view> names;
     for (const Feature& feature : features::record_features()) {
-        if (of_sensor_alone(feature)) {
+        if (is_plain_sensor_feature(feature)) {
             names.push_back(feature.name);
         }
     }
@@ -38,7 +38,7 @@ const Feature* record_feature(std::string_view name) {
 }
 
 // Index of a feature in features::record_features().
-std::size_t place_of(const Feature& feature) {
+std::size_t index_of(const Feature& feature) {
     return static_cast<std::size_t>(&feature - features::record_features().data());
 }
 
@@ -93,7 +93,7 @@ class TableReading {
         for (const Feature& feature : features::record_features()) {
             const std::string name(feature.name), field = text(name);
             all.push_back(std::numeric_limits<double>::quiet_NaN());
-            if (field.empty() || !of_sensor_alone(feature)) {
+            if (field.empty() || !is_plain_sensor_feature(feature)) {
                 continue;
             }
             const auto number = number_of(field, table_.separator != ',');
@@ -120,15 +120,15 @@ class TableReading {
 
 bool all_have(const std::vector<HealthyRecord>& records, const Feature& feature) {
     return std::ranges::all_of(records, [&](const HealthyRecord& record) {
-        return std::isfinite(record.values[place_of(feature)]);
+        return std::isfinite(record.values[index_of(feature)]);
     });
 }
 
-std::vector<const Feature*> wanted_features(const std::vector<HealthyRecord>& records,
-                                            const std::vector<std::string>& wanted,
+std::vector<const Feature*> select_features(const std::vector<HealthyRecord>& records,
+                                            const std::vector<std::string>& requested,
                                             Problems& problems) {
     std::vector<const Feature*> chosen;
-    for (const std::string& name : wanted) {
+    for (const std::string& name : requested) {
         const auto known = usable_names();
         const Feature* feature = record_feature(name);
         if (std::ranges::find(known, name) == known.end()) {
@@ -140,12 +140,12 @@ std::vector<const Feature*> wanted_features(const std::vector<HealthyRecord>& re
             chosen.push_back(feature);
         }
     }
-    if (!wanted.empty()) {
+    if (!requested.empty()) {
         return chosen;
     }
     for (const Feature& feature : features::record_features()) {
         const bool central = (feature.needs & (features::kSun | features::kRing)) != 0;
-        if (of_sensor_alone(feature) && !central && all_have(records, feature)) {
+        if (is_plain_sensor_feature(feature) && !central && all_have(records, feature)) {
             chosen.push_back(&feature);
         }
     }
@@ -176,9 +176,9 @@ std::vector<HealthyRecord> read_feature_table(const std::string& path, const Sce
 }
 
 HealthySet healthy_set(const std::vector<HealthyRecord>& records,
-                       const std::vector<std::string>& wanted, Problems& problems) {
+                       const std::vector<std::string>& requested, Problems& problems) {
     HealthySet set;
-    set.features = wanted_features(records, wanted, problems);
+    set.features = select_features(records, requested, problems);
     std::vector<std::vector<const HealthyRecord*>> gearboxes;
     std::map<std::string, std::size_t> places;
     for (const HealthyRecord& record : records) {
@@ -195,7 +195,7 @@ HealthySet healthy_set(const std::vector<HealthyRecord>& records,
             set.lengths.back().push_back(record->meshes);
             set.values.back().emplace_back();
             for (const Feature* feature : set.features) {
-                set.values.back().back().push_back(record->values[place_of(*feature)]);
+                set.values.back().back().push_back(record->values[index_of(*feature)]);
             }
             ++set.records;
         }

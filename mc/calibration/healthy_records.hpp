@@ -37,10 +37,10 @@ struct HealthySet {
     double mean_of(const std::string& feature) const;
 };
 
-// Selects records and features. `wanted` holds names of features. If it is empty, all sensor
+// Selects records and features. `requested` holds names of features. If it is empty, all sensor
 // features are used that all records have, that need no healthy reference, and that do not refer to
 // the teeth of the sun or the ring. Missing features are added to the problems.
 HealthySet healthy_set(const std::vector<HealthyRecord>& records,
-                       const std::vector<std::string>& wanted, Problems& problems);
+                       const std::vector<std::string>& requested, Problems& problems);
 
 }  // namespace gearpod::mc

@@ -91,7 +91,7 @@ double CalibratedInput::unit_of(double value) const {
                        : (value - low) / (high - low);
 }
 
-bool CalibratedInput::after_march() const {
+bool CalibratedInput::independent_of_motion() const {
     constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain", "sensor.tone_level",
                                  "sensor.noise_m_s2", "sensor.noise_density_m_s2_per_sqrt_Hz"};
     return std::ranges::find(kSensor, key) != kSensor.end();
@@ -111,7 +111,7 @@ std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts,
     return inputs;
 }
 
-std::vector<CalibratedInput> usual_inputs(const Study& study, double rms) {
+std::vector<CalibratedInput> default_inputs(const Study& study, double rms) {
     const MeshErrors& errors = study.errors;
     const bool pitch =
         errors.pitch_error_m > 0.0 || study.find_random("gearbox.pitch_error_um") != nullptr;

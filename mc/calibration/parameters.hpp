@@ -21,7 +21,7 @@ struct CalibratedInput {
     double at(double unit) const;
     double unit_of(double value) const;
     // True if the motion does not depend on this input, so that another value needs no integration.
-    bool after_march() const;
+    bool independent_of_motion() const;
     // The prior as an override of the study.
     std::string as_override() const;
 };
@@ -32,7 +32,7 @@ std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts, 
 
 // Default inputs of a study whose sensor measures `rms` m/s^2: tooth errors, noise, level of the
 // tones, gain and path exponent, as far as the study allows them.
-std::vector<CalibratedInput> usual_inputs(const Study& study, double rms);
+std::vector<CalibratedInput> default_inputs(const Study& study, double rms);
 
 // Inputs at the given quantiles of their priors; `unit` has one value per input.
 std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,

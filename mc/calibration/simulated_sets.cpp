@@ -8,8 +8,8 @@
 #include "machine/team.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/gearbox/instance_signals.hpp"
 #include "mc/gearbox/measured_features.hpp"
+#include "mc/gearbox/realization_signals.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/normals.hpp"
@@ -51,11 +51,11 @@ class Simulator {
             inputs.back().gain = inputs.back().tone_level = 1.0;
         }
         const GearboxTile tile =
-            run_given(scene_, path_, ids, inputs, lanes(), {.with_records = true});
+            run_with_inputs(scene_, path_, ids, inputs, lanes(), {.with_records = true});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             if (tile.status[lane] == Status::ok) {
-                values[lane] = listen(tile, static_cast<int>(lane), items[lane], ids[lane]);
+                values[lane] = records_of(tile, static_cast<int>(lane), items[lane], ids[lane]);
             }
         }
         return values;
@@ -68,13 +68,13 @@ class Simulator {
 
     std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
                                    const signals::Tones& tones) const {
-        return signals::synthesize(tile.views, lane, tile.march.content, scene_.span(), path_,
+        return signals::synthesize(tile.views, lane, tile.integration.content, scene_.span(), path_,
                                    exponent, 0, scene_.signal_meshes(), tones);
     }
 
     // Records of a gearbox with each background.
-    RecordValues listen(const GearboxTile& tile, int lane, const Item& item,
-                        const GearboxId& id) const {
+    RecordValues records_of(const GearboxTile& tile, int lane, const Item& item,
+                            const GearboxId& id) const {
         RecordValues values;
         std::vector<double> bare, tones;
         std::optional<double> exponent;
@@ -95,21 +95,23 @@ class Simulator {
             for (std::size_t record = 0; record < lengths.size(); ++record) {
                 Philox engine =
                     gearbox_stream(scene_.study(), id, fmt::format("calibrate.{}.{}", k, record));
-                values.back().push_back(
-                    measured_values(scene_, heard(bare, tones, inputs, lengths[record], engine),
-                                    summary_.features()));
+                values.back().push_back(measured_values(
+                    scene_, record_with_background(bare, tones, inputs, lengths[record], engine),
+                    summary_.features()));
             }
         }
         return values;
     }
 
     // Record with the given background; its first mesh period and its noise are random.
-    MeasuredSignal heard(const std::vector<double>& bare, const std::vector<double>& tones,
-                         const InstanceInputs& inputs, int meshes, Philox& engine) const {
+    MeasuredSignal record_with_background(const std::vector<double>& bare,
+                                          const std::vector<double>& tones,
+                                          const InstanceInputs& inputs, int meshes,
+                                          Philox& engine) const {
         const auto samples = static_cast<std::size_t>(scene_.samples_per_mesh());
-        const int spare = std::max(0, scene_.signal_meshes() - meshes);
+        const int unused = std::max(0, scene_.signal_meshes() - meshes);
         const auto first =
-            samples * static_cast<std::size_t>(uniform(engine) * static_cast<double>(spare + 1));
+            samples * static_cast<std::size_t>(uniform(engine) * static_cast<double>(unused + 1));
         const std::size_t count = std::min(samples * static_cast<std::size_t>(meshes), bare.size());
         MeasuredSignal signal;
         signal.has_sensor = true;
@@ -146,7 +148,7 @@ std::vector<std::vector<double>> places(const Study& study, std::span<const Cali
         Philox engine =
             gearbox_stream(study, {Group::threshold, number}, "calibrate.prior." + inputs[p].key);
         for (std::size_t k = 0; k < backgrounds; ++k) {
-            all[k][p] = k > 0 && !inputs[p].after_march()
+            all[k][p] = k > 0 && !inputs[p].independent_of_motion()
                             ? all[0][p]
                             : region.low[p] + (region.high[p] - region.low[p]) * uniform(engine);
         }
@@ -157,13 +159,14 @@ std::vector<std::vector<double>> places(const Study& study, std::span<const Cali
 }  // namespace
 
 std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const CalibratedInput> inputs,
-                                        const PriorRegion& region, const DrawPlan& plan,
+                                        const PriorRegion& region, const SetPlan& plan,
                                         const RecordLengths& lengths, const SetSummary& summary,
-                                        int threads, const std::function<void(double)>& told) {
+                                        int threads,
+                                        const std::function<void(double)>& report_time) {
     const std::size_t gearboxes = lengths.size();
     std::vector<SimulatedSet> sets;
     std::vector<Item> items;
-    for (std::size_t d = 0; d < plan.marched; ++d) {
+    for (std::size_t d = 0; d < plan.integrated; ++d) {
         const std::size_t number = plan.first + d;
         const auto units = places(scene.study(), inputs, region, number, plan.backgrounds);
         std::vector<std::vector<GivenInput>> given;
@@ -176,22 +179,22 @@ std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const Cali
         }
     }
     const Simulator simulator(scene, lengths, summary);
-    std::vector<RecordValues> heard(items.size());
+    std::vector<RecordValues> set_records(items.size());
     const auto lanes = static_cast<std::size_t>(simulator.lanes());
     const std::size_t tiles = (items.size() + lanes - 1) / lanes;
     const auto run = [&](std::size_t tile) {
         const std::size_t first = tile * lanes;
         auto own =
             simulator.run(std::span(items).subspan(first, std::min(lanes, items.size() - first)));
-        std::move(own.begin(), own.end(), heard.begin() + static_cast<std::ptrdiff_t>(first));
+        std::move(own.begin(), own.end(), set_records.begin() + static_cast<std::ptrdiff_t>(first));
     };
     const double start = thread_processor_s();
     run(0);
-    told((thread_processor_s() - start) * static_cast<double>(tiles));
+    report_time((thread_processor_s() - start) * static_cast<double>(tiles));
     machine::for_each_index(tiles - 1, threads, [&](std::size_t tile) { run(tile + 1); });
-    for (std::size_t d = 0; d < plan.marched; ++d) {
+    for (std::size_t d = 0; d < plan.integrated; ++d) {
         const std::span<const RecordValues> own =
-            std::span(heard).subspan(d * gearboxes, gearboxes);
+            std::span(set_records).subspan(d * gearboxes, gearboxes);
         if (std::ranges::any_of(own, [](const RecordValues& one) { return one.empty(); })) {
             continue;
         }

@@ -20,26 +20,27 @@ struct PriorRegion {
 };
 
 // Size of a simulation.
-struct DrawPlan {
+struct SetPlan {
     // samples of the inputs of the time integration, each for all gearboxes
-    std::size_t marched = 0;
+    std::size_t integrated = 0;
     std::size_t backgrounds = 1;  // samples of the other inputs for each of these
     std::size_t first = 0;  // number of the first integrated sample; determines the random numbers
 };
 
 struct SimulatedSet {
     std::vector<double> unit;     // quantile of each input in its prior
-    std::size_t march = 0;        // number of its integrated sample
+    std::size_t integration = 0;  // number of its integrated sample
     std::vector<double> summary;  // empty if a gearbox failed or a feature has no value
 };
 
-// Simulates the sets of a plan. Each input must be random in the scene's study. `told` is called
-// once, after the first tile, with the estimated time of one thread for all sets, s. The sets do
-// not depend on the number of threads.
+// Simulates the sets of a plan. Each input must be random in the scene's study. `report_time` is
+// called once, after the first tile, with the estimated time of one thread for all sets, s. The
+// sets do not depend on the number of threads.
 std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const CalibratedInput> inputs,
-                                        const PriorRegion& region, const DrawPlan& plan,
+                                        const PriorRegion& region, const SetPlan& plan,
                                         const RecordLengths& lengths, const SetSummary& summary,
-                                        int threads, const std::function<void(double)>& told);
+                                        int threads,
+                                        const std::function<void(double)>& report_time);
 
 // Features of one set: records of simulated gearboxes with `given` inputs and the random numbers of
 // set `number`. Empty if a gearbox failed.

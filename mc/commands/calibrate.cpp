@@ -134,7 +134,7 @@ class Command {
         }
         const double rms = set_.mean_of("sensor_rms");
         if (rms > 0.0) {
-            inputs_ = usual_inputs(study, rms);
+            inputs_ = default_inputs(study, rms);
         } else if (problems_.empty()) {
             problems_.push_back({"calibrate", 0, "",
                                  "the default prior of the background noise needs the feature "
@@ -169,10 +169,10 @@ class Command {
         task.lengths = set_.lengths;
         task.measured = set_.values;
         task.threads = thread_count(study);
-        task.marched = static_cast<std::size_t>(options_.draws);
+        task.integrated = static_cast<std::size_t>(options_.sets);
         const SetSummary summary(set_.features, set_.values);
         std::vector<SimulatedSet> first;
-        say_cost(task);
+        print_cost_of_rounds(task);
         const CalibrationResult result =
             calibrate(*scene, task, summary, first, [&](double seconds) {
                 if (!options_.quiet) {
@@ -185,14 +185,14 @@ class Command {
         return finish(*written.study, task, result);
     }
 
-    void say_cost(const CalibrationTask& task) const {
+    void print_cost_of_rounds(const CalibrationTask& task) const {
         if (!options_.quiet) {
             fmt::print(stderr,
                        "{} record(s) of {} gearbox(es){}\n{} rounds of {} parameter sets, {} "
                        "gearboxes, {} noise realizations each\n",
                        set_.records, set_.lengths.size(),
                        set_.left_out > 0 ? fmt::format(", {} more ignored", set_.left_out) : "",
-                       kCalibrationRounds, task.marched, task.marched * set_.lengths.size(),
+                       kCalibrationRounds, task.integrated, task.integrated * set_.lengths.size(),
                        task.backgrounds);
         }
     }
@@ -227,14 +227,16 @@ class Command {
 
     static void print_table(const CalibrationResult& result) {
         fmt::print("{:<36}{:>11}{:>11}{:>11}{:>8}\n", "input", "median", "5 %", "95 %", "width");
-        for (const FoundInput& one : result.found) {
+        for (const InputPosterior& one : result.found) {
             const std::string source =
-                one.told ? fmt::format("determined by {}", fmt::join(one.deciding, ", "))
-                         : "NOT DETERMINED by the recordings: this is the prior";
+                one.is_informed
+                    ? fmt::format("determined by {}", fmt::join(one.strongest_summaries, ", "))
+                    : "NOT DETERMINED by the recordings: this is the prior";
             fmt::print("{:<36}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %\n    {}\n", one.input.key,
-                       one.median, one.low, one.high, 100.0 * one.left, wrapped_text(source, 4));
+                       one.median, one.low, one.high, 100.0 * one.width_ratio,
+                       wrapped_text(source, 4));
         }
-        for (const BoundPair& pair : result.pairs) {
+        for (const CorrelatedPair& pair : result.pairs) {
             const std::string both =
                 fmt::format("{} and {} are only determined jointly, rank correlation {:+.2f}",
                             result.found[pair.first].input.key, result.found[pair.second].input.key,
@@ -261,11 +263,11 @@ class Command {
         json["records"] = set_.records;
         json["gearboxes"] = set_.lengths.size();
         json["left_out"] = set_.left_out;
-        json["marched_draws"] = kCalibrationRounds * task.marched;
+        json["marched_draws"] = kCalibrationRounds * task.integrated;
         json["simulated_sets"] = result.sets;
         json["failed_sets"] = result.failed;
         json["inputs"] = nlohmann::ordered_json::array();
-        for (const FoundInput& one : result.found) {
+        for (const InputPosterior& one : result.found) {
             json["inputs"].push_back({{"key", one.input.key},
                                       {"prior_low", one.input.low},
                                       {"prior_high", one.input.high},
@@ -273,12 +275,12 @@ class Command {
                                       {"median", one.median},
                                       {"low", one.low},
                                       {"high", one.high},
-                                      {"left", one.left},
-                                      {"told", one.told},
-                                      {"told_by", one.deciding}});
+                                      {"left", one.width_ratio},
+                                      {"told", one.is_informed},
+                                      {"told_by", one.strongest_summaries}});
         }
         json["together"] = nlohmann::ordered_json::array();
-        for (const BoundPair& pair : result.pairs) {
+        for (const CorrelatedPair& pair : result.pairs) {
             json["together"].push_back({{"first", result.found[pair.first].input.key},
                                         {"second", result.found[pair.second].input.key},
                                         {"correlation", pair.correlation}});

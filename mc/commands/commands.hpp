@@ -161,7 +161,7 @@ struct CalibrateOptions {
     SignalColumns columns;
     std::vector<std::string> priors;   // KEY=LOW:HIGH[:log]; empty: the default priors
     std::vector<std::string> feature;  // features to compare; empty: all
-    long draws = 200;                  // parameter sets integrated in each round
+    long sets = 200;                   // parameter sets integrated in each round
     std::string out, json;
     bool quiet = false;
 };

@@ -11,7 +11,6 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "mc/answers/run_report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -25,6 +24,7 @@
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/run/support.hpp"
+#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -42,7 +42,7 @@ struct Side {
 };
 
 // Describes an incomplete file (part of a study, interrupted run); "" if it is complete.
-std::string not_whole(const Results& frame, std::size_t gearboxes) {
+std::string incomplete_text(const Results& frame, std::size_t gearboxes) {
     const std::string part = frame.provenance_value("part");
     const std::string state = frame.provenance_value("state");
     const bool stopped = state == "running" || state.starts_with("interrupted");
@@ -76,7 +76,8 @@ Side read_side(const std::string& path) {
     }
     side.gearboxes = count_rows(rows, side.frame.request.threshold_records).all;
     const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
-    side.title = (study ? printable(study->title) : "") + not_whole(side.frame, side.gearboxes);
+    side.title =
+        (study ? printable(study->title) : "") + incomplete_text(side.frame, side.gearboxes);
     side.sampling = study ? study->ensemble.sampling : SamplingKind::plain;
     return side;
 }
@@ -322,9 +323,9 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
 std::vector<Side> read_sides(const std::vector<std::string>& paths) {
     std::vector<Side> sides;
     std::set<std::string> problems;  // a file may be named twice
-    std::string said;
+    std::string printed;
     const auto say = [&](const std::string& problem) {
-        said += problems.insert(problem).second ? problem : "";
+        printed += problems.insert(problem).second ? problem : "";
     };
     bool first_read = false;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -338,8 +339,8 @@ std::vector<Side> read_sides(const std::vector<std::string>& paths) {
             say(exception_text(error) + "\n");
         }
     }
-    fmt::print(stderr, "{}", said);
-    return said.empty() ? std::move(sides) : std::vector<Side>{};
+    fmt::print(stderr, "{}", printed);
+    return printed.empty() ? std::move(sides) : std::vector<Side>{};
 }
 
 }  // namespace

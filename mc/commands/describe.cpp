@@ -9,7 +9,7 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/description/describe_effects.hpp"
@@ -19,9 +19,9 @@
 #include "mc/description/effect_costs.hpp"
 #include "mc/description/entries.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/gearbox/march_cache.hpp"
+#include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
-#include "mc/gearbox/tile_draws.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/run/support.hpp"
 #include "mc/study/gears.hpp"
@@ -73,14 +73,15 @@ void print_false_alarms(const Study& study) {
     const long healthy = study.ensemble.threshold_instances,
                records = study.ensemble.threshold_records;
     print_heading("false alarms");
-    const std::string shortage = analysis::sample_shortage(
-        healthy, rate, confidence, analysis::Subject::gearboxes, records, study.ensemble.tilted());
+    const std::string shortage =
+        analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes, records,
+                                  study.ensemble.uses_importance_sampling());
     if (!shortage.empty()) {
         print_paragraph(shortage);
         return;
     }
     const analysis::Interval found = analysis::threshold_rate_interval(
-        healthy * (study.ensemble.tilted() ? 1 : records), rate, confidence);
+        healthy * (study.ensemble.uses_importance_sampling() ? 1 : records), rate, confidence);
     print_entry("rate",
                 fmt::format("{:g}; with {}{} healthy gearboxes the true rate is between {:.2g} and "
                             "{:.2g} at {:g} % confidence{}",
@@ -124,13 +125,14 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
         print_steps(scene);
     }
     if (plan.precision == lockstep::Precision::single_precision) {
-        print_entry("precision",
-                    fmt::format("single within a mesh period, double between mesh periods; "
-                                "convergence to the periodic orbit within {:g} (requested: {:g})",
-                                settle_tolerance(study), study.numerics.settle_tolerance));
+        print_entry(
+            "precision",
+            fmt::format("single within a mesh period, double between mesh periods; "
+                        "convergence to the periodic orbit within {:g} (requested: {:g})",
+                        convergence_tolerance(study), study.numerics.convergence_tolerance));
     }
     print_entry("mesh periods integrated",
-                fmt::format("about {:.0f}; the signals span {}{}{}", marched_meshes(scene),
+                fmt::format("about {:.0f}; the signals span {}{}{}", integrated_meshes(scene),
                             scene.span_meshes(),
                             superposition(scene).healthy
                                 ? fmt::format("; {:.0f} without the fault", healthy_meshes(scene))
@@ -138,27 +140,28 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                             compares_records(study) ? "; more for the baseline record" : ""));
     print_entry(
         "gearboxes",
-        fmt::format("{} to test and {} for the thresholds{}, {} noise level{}",
-                    study.ensemble.instances, study.ensemble.threshold_instances,
-                    study.ensemble.threshold_records > 1
-                        ? fmt::format(" ({} {}records of each)", study.ensemble.threshold_records,
-                                      study.ensemble.tilted() ? "exponentially tilted " : "")
-                        : "",
-                    study.sensor.noise_levels.size(),
-                    study.sensor.noise_levels.size() == 1 ? "" : "s"));
-    const std::optional<std::size_t> distinct = distinct_marches(scene);
+        fmt::format(
+            "{} to test and {} for the thresholds{}, {} noise level{}", study.ensemble.instances,
+            study.ensemble.threshold_instances,
+            study.ensemble.threshold_records > 1
+                ? fmt::format(
+                      " ({} {}records of each)", study.ensemble.threshold_records,
+                      study.ensemble.uses_importance_sampling() ? "exponentially tilted " : "")
+                : "",
+            study.sensor.noise_levels.size(), study.sensor.noise_levels.size() == 1 ? "" : "s"));
+    const std::optional<std::size_t> distinct = distinct_integrations(scene);
     print_entry("distinct solutions",
                 distinct ? fmt::format("{}; gearboxes that differ only in path exponent and noise "
                                        "share one time integration",
                                        *distinct)
                          : "every gearbox needs its own time integration");
-    if (!Ranks::of_mpi()) {
+    if (!Ranks::built_with_mpi()) {
         print_entry("processes", "built without MPI: one process");
     }
 }
 
 // Stops a description that takes longer than kSeconds.
-class Deadline final : public machine::StopWish {
+class Deadline final : public machine::CancellationSource {
   public:
     static constexpr int kSeconds = 7;
 
@@ -168,7 +171,7 @@ class Deadline final : public machine::StopWish {
     const WallClock::time_point start_ = WallClock::now();
 };
 
-void print_left_out(const char* what) {
+void print_omitted(const char* what) {
     print_heading("omitted");
     print_paragraph(
         fmt::format("{}; the time limit of {} s was reached", what, Deadline::kSeconds));
@@ -227,8 +230,8 @@ int describe_command(const DescribeOptions& options) {
         std::fflush(stdout);
         missing = "the forecast, which computes some gearboxes and their analysis";
         print_forecast(scene, begun_s + setup_s, options.ranks);
-    } catch (const machine::Stopped&) {
-        print_left_out(missing);
+    } catch (const machine::Cancelled&) {
+        print_omitted(missing);
     }
     return kDone;
 }

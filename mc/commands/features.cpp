@@ -34,7 +34,7 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal, const
             planet_turns(measured.change->signal, scene), measured.change->meshes,
             measured.change->correlation);
     }
-    if (!signal.losses_noticed) {
+    if (!signal.losses_detectable) {
         fmt::print(
             "lost samples cannot be detected: that needs six similar turns of the carrier or\n"
             "wheel\n");
@@ -57,7 +57,7 @@ nlohmann::ordered_json measured_json(const std::vector<MeasuredFeature>& all,
                                      const MeasuredSignal& signal, const Scene& scene) {
     nlohmann::ordered_json json;
     json["mesh_phase"] = signal.tracking;
-    json["losses_noticed"] = signal.losses_noticed;
+    json["losses_noticed"] = signal.losses_detectable;
     json["sensor_meshes"] = signal.sensor_meshes;
     json["te_meshes"] = signal.te_meshes;
     json["span_meshes"] = scene.span_meshes();
@@ -82,7 +82,8 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
                     nlohmann::ordered_json& json) {
     const Population population =
         read_population(options.against, options.noise_level, scene.study());
-    const auto verdicts = judge(population, values_of(measured.features), options.feature);
+    const auto verdicts =
+        compare_with_population(population, values_of(measured.features), options.feature);
     const std::string sentence =
         verdict_sentence(options.signals.front(), population, verdicts.front(), measured.teeth);
     std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
@@ -129,8 +130,8 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
 
 // Returns false and prints the reason if no feature could be computed; a signal that is too short
 // is reported with the smallest number of mesh periods needed.
-bool any_feature(const std::vector<MeasuredFeature>& all, const std::string& path,
-                 const Scene& scene, const MeasuredSignal& signal) {
+bool check_any_feature(const std::vector<MeasuredFeature>& all, const std::string& path,
+                       const Scene& scene, const MeasuredSignal& signal) {
     const auto good = [](const MeasuredFeature& one) { return one.missing.empty(); };
     if (std::any_of(all.begin(), all.end(), good)) {
         return true;
@@ -197,7 +198,7 @@ int features_command(const FeaturesOptions& options) {
         const Measurement measured =
             measure(*scene, signal, healthy, baseline ? &*baseline : nullptr);
         const auto& all = measured.features;
-        if (!any_feature(all, options.signals.front(), *scene, signal)) {
+        if (!check_any_feature(all, options.signals.front(), *scene, signal)) {
             return kBadInput;
         }
         nlohmann::ordered_json json = measured_json(all, signal, *scene);

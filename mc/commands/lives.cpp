@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "machine/wall_clock.hpp"
-#include "mc/answers/run_report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
@@ -26,18 +25,19 @@
 #include "mc/run/run_to_end.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
+#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 struct LivesOutputs {
     std::string json, html, figures;  // "": none; JSON "-": standard output instead of the text
-    bool says_text = true;
+    bool prints_text = true;
 };
 
 // Evaluates the rows and writes the requested outputs. Returns false after printing a problem.
-bool tell(const Study& study, const Results& frame, const RowSource& rows,
-          const LivesOutputs& outputs) {
+bool write_outputs(const Study& study, const Results& frame, const RowSource& rows,
+                   const LivesOutputs& outputs) {
     const Campaign campaign = campaign_of(study, frame, rows);
     const LifeMonitor monitor(study, campaign);
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty()) {
@@ -52,7 +52,7 @@ bool tell(const Study& study, const Results& frame, const RowSource& rows,
             }
         }
     }
-    if (outputs.json != "-" && outputs.says_text) {
+    if (outputs.json != "-" && outputs.prints_text) {
         fmt::print("{}", lives_text(monitor));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
@@ -62,8 +62,8 @@ bool tell(const Study& study, const Results& frame, const RowSource& rows,
 }
 
 // Rank 0's part of the run, after the checks. Returns the exit code.
-int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks& ranks,
-               Checkpoint& checkpoint, const Interruption& interruption) {
+int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles, const Ranks& ranks,
+                        Checkpoint& checkpoint, const Interruption& interruption) {
     const RunOptions& run = options.run;
     const Study& study = tiles.scene().study();
     const BatchPlan plan = lives_plan(study);
@@ -78,19 +78,19 @@ int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks&
     progress.finish();
     std::string trouble = outcome.failure;
     if (trouble.empty() && outcome.interruption.empty()) {
-        interruption.let_finish();
+        interruption.disable_cancellation();
         try {
             Results frame = lives_frame(study);
             for (const auto& entry : provenance(study, ranks.size(), outcome.threads())) {
                 frame.provenance.push_back(entry);
             }
             frame.provenance.emplace_back("state", "complete");
-            note_run(tiles.scene(), outcome, frame);
+            store_run_costs(tiles.scene(), outcome, frame);
             const StoredRows rows(checkpoint, plan, outcome.batches);
             const std::string path = results_path(run);
             write_results(path, frame, rows);
-            if (run.says_results) {
-                if (!tell(study, frame, rows, {options.json, options.html, "", true})) {
+            if (run.prints_results) {
+                if (!write_outputs(study, frame, rows, {options.json, options.html, "", true})) {
                     return kBadInput;
                 }
                 if (options.json != "-") {
@@ -107,7 +107,7 @@ int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks&
     if (!trouble.empty()) {
         fmt::print(stderr, "{}\n", trouble);
     }
-    print_kept(outcome, plan, checkpoint);
+    print_resume_hint(outcome, plan, checkpoint);
     return kResumable;
 }
 
@@ -140,7 +140,7 @@ std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study&
 }
 
 // Prints the study's keys that `lives` ignores, because they concern single records.
-void print_left_out(const RunOptions& run, const Study& study) {
+void print_omitted(const RunOptions& run, const Study& study) {
     std::vector<std::string> keys;
     if (study.numerics.verify) {
         keys.emplace_back("numerics.verify");
@@ -169,7 +169,7 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(run, limit);
     const Interruption interruption(limit);
-    const StudyScene made = load_scene_together(ranks, run.study, interruption);
+    const StudyScene made = load_scene_on_all_ranks(ranks, run.study, interruption);
     const std::unique_ptr<LifeTiles> tiles = made ? life_tiles(run, *made.scene, ranks) : nullptr;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
@@ -179,14 +179,14 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
         const bool good_page = can_write({"--html", options.html}, {study, results, json});
         const bool good_out = check_output(run), good_progress = check_progress(run);
         if (made) {
-            print_left_out(run, made.scene->study());
+            print_omitted(run, made.scene->study());
         }
         if (tiles && good_limit && good_json && good_page && good_out && good_progress) {
             checkpoint = lives_checkpoint(run, made.scene->study());
         }
     }
     const std::string refusal =
-        std::to_string(!made && left_off(made.problems) ? kResumable : kBadInput);
+        std::to_string(!made && was_interrupted(made.problems) ? kResumable : kBadInput);
     const std::string order = ranks.from_leader(checkpoint ? "go" : refusal);
     if (order != "go") {
         return std::stoi(order);
@@ -199,7 +199,7 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
             {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
         return std::stoi(ranks.from_leader(""));
     }
-    const int code = lead_lives(options, *tiles, ranks, *checkpoint, interruption);
+    const int code = run_lives_on_leader(options, *tiles, ranks, *checkpoint, interruption);
     ranks.from_leader(std::to_string(code));
     return code;
 }
@@ -217,7 +217,8 @@ int report_lives(const ReportOptions& options) {
         const FileRows rows(options.results, frame);
         check_lives(options.results, frame, rows);
         const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
-        return tell(*study, frame, rows, {options.json, options.html, options.figures, true})
+        return write_outputs(*study, frame, rows,
+                             {options.json, options.html, options.figures, true})
                    ? kDone
                    : kBadInput;
     } catch (const std::exception& error) {

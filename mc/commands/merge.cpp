@@ -72,7 +72,7 @@ class Merge {
             }
         }
         for (const PartFile& file : files_) {
-            problems += misfit(file);
+            problems += rank_mismatch(file);
         }
         return problems.empty() ? gaps() : problems;
     }
@@ -98,7 +98,7 @@ class Merge {
 
   private:
     // Reason why this program cannot merge the file with the first one; "" if it can.
-    std::string misfit(const PartFile& file) const {
+    std::string rank_mismatch(const PartFile& file) const {
         const PartFile& first = files_.front();
         RunIdentity here = identity_of(first.frame, first.path);
         here.version = version_text();

@@ -21,9 +21,9 @@
 namespace gearpod::mc {
 namespace {
 
+using analysis::InspectionNames;
 using analysis::InspectionRequest;
 using analysis::Inspections;
-using analysis::InspectionWords;
 
 constexpr const char* kUsualSizes[] = {"size", "a", "Size"};
 constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "Hit"};
@@ -233,7 +233,7 @@ InspectionRequest request_of(const PodOptions& options, const Columns& chosen, R
         refusals.add("--left must be less than --right");
     }
     request.powers = powers(options.response_scale, refusals);
-    request.insist = !options.size_scale.empty() && !options.response_scale.empty();
+    request.accept_failed_checks = !options.size_scale.empty() && !options.response_scale.empty();
     return request;
 }
 
@@ -270,8 +270,8 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals
     }
 }
 
-InspectionWords words_of(const TextTable& table, const Columns& chosen) {
-    InspectionWords words;
+InspectionNames words_of(const TextTable& table, const Columns& chosen) {
+    InspectionNames words;
     words.table = printable(table.path);
     const TableColumn& size = table.columns[chosen.size];
     words.size = {printable(size.name), size.unit.empty() ? "1" : printable(size.unit)};
@@ -311,7 +311,7 @@ int pod_command(const PodOptions& options) {
             fmt::print(stderr, "{}: {}\n", options.table, result.refusal);
             return kBadInput;
         }
-        const InspectionWords words = words_of(table, chosen);
+        const InspectionNames words = words_of(table, chosen);
         const nlohmann::json all = inspection_json(data, request, result, words);
         if (!options.html.empty() && !write_text_to(options.html, report_page(json_text(all)))) {
             return kBadInput;

@@ -75,7 +75,8 @@ void print_verdicts(const FeaturesOptions& options, const Population& population
                     const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (measured[i].problem.empty()) {
-            const auto verdicts = judge(population, measured[i].values, options.feature);
+            const auto verdicts =
+                compare_with_population(population, measured[i].values, options.feature);
             fmt::print("{}\n", wrapped_text(verdict_sentence(list.recordings[i].name(), population,
                                                              verdicts.front(), measured[i].teeth),
                                             2));

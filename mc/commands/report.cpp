@@ -7,7 +7,6 @@
 #include <span>
 #include <tuple>
 
-#include "mc/answers/run_report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -21,6 +20,7 @@
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/run/support.hpp"
+#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -36,10 +36,11 @@ std::vector<FaultColumn> fault_columns(const Scene& scene) {
             const auto mesh = scene.fault().mesh(curve, size);
             const int periods = static_cast<int>(std::ceil(start + mesh->duration()));
             for (int period = 0; period < periods; ++period) {
-                columns.push_back({fmt::format("{}_{}_{}_period{}", scene.drive().pair_name(pair),
-                                               choice_text(scene.study(), "fault", "kind"),
-                                               size_name(scene.study(), size), period + 1),
-                                   pair, period, mesh});
+                columns.push_back(
+                    {fmt::format("{}_{}_{}_period{}", scene.drivetrain().pair_name(pair),
+                                 choice_text(scene.study(), "fault", "kind"),
+                                 size_name(scene.study(), size), period + 1),
+                     pair, period, mesh});
             }
         }
     }
@@ -50,7 +51,7 @@ std::string csv_text(const Scene& scene, int points) {
     const auto columns = fault_columns(scene);
     std::string text = "phase";
     for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-        text += fmt::format(",{}", scene.drive().pair_name(pair));
+        text += fmt::format(",{}", scene.drivetrain().pair_name(pair));
     }
     for (const FaultColumn& column : columns) {
         text += fmt::format(",{}", column.name);
@@ -75,7 +76,7 @@ std::string csv_text(const Scene& scene, int points) {
 std::string te_text(const Scene& scene, int points) {
     std::string text = "phase";
     for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-        text += fmt::format(",{}_te_um", scene.drive().pair_name(pair));
+        text += fmt::format(",{}_te_um", scene.drivetrain().pair_name(pair));
     }
     text += "\n";
     for (int i = 0; i < points; ++i) {
@@ -114,7 +115,7 @@ void print_summary(const Scene& scene) {
         const Unit& unit = fault_size_key(scene.study()).unit;
         std::string names;
         for (const int pair : pairs) {
-            names += (names.empty() ? "" : " and ") + scene.drive().pair_name(pair);
+            names += (names.empty() ? "" : " and ") + scene.drivetrain().pair_name(pair);
         }
         fmt::print("faulty tooth in pair {}; largest possible {} {:.3f}{}\n", names,
                    fault_size_key(scene.study()).stem(), scene.fault().largest_size() / unit.to_si,

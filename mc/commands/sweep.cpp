@@ -42,7 +42,7 @@ RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
     run.out = (fs::path(folder_of(options)) / (point.name + ".h5")).string();
     run.force = options.force;
     run.quiet = options.quiet;
-    run.says_results = false;
+    run.prints_results = false;
     return run;
 }
 
@@ -50,7 +50,7 @@ RunOptions run_of(const SweepOptions& options, const SweepPoint& point) {
 Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& keys,
                      const std::vector<SweepPoint>& points) {
     Problems all;
-    std::set<std::string> said;
+    std::set<std::string> printed;
     for (const SweepPoint& point : points) {
         const RunOptions run = run_of(options, point);
         StudyReading reading = read_study(run.study.path, run.study.overrides);
@@ -66,7 +66,7 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
                     problem.file = "--vary";
                 }
             }
-            if (said.insert(format(problem)).second) {
+            if (printed.insert(format(problem)).second) {
                 all.push_back(std::move(problem));
             }
         }
@@ -75,7 +75,7 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
 }
 
 // Problems with varied keys that only `lives` uses, in a sweep of `run`.
-Problems keys_of_lives(const SweepOptions& options, const std::vector<VariedKey>& keys) {
+Problems lives_key_problems(const SweepOptions& options, const std::vector<VariedKey>& keys) {
     Problems all;
     for (const VariedKey& key : keys) {
         const bool of_lives = key.key.starts_with("life.") || key.key.starts_with("monitoring.") ||
@@ -89,33 +89,33 @@ Problems keys_of_lives(const SweepOptions& options, const std::vector<VariedKey>
 }
 
 // State of a point's results: none, resumable, or complete.
-enum class Progressed { nothing, some, all };
+enum class PointState { nothing, some, all };
 
-Progressed progressed(const RunOptions& run, bool lives) {
+PointState point_state(const RunOptions& run, bool lives) {
     const std::string path = results_path(run);
     if (fs::exists(checkpoint_path(path))) {
-        return run.force ? Progressed::nothing : Progressed::some;
+        return run.force ? PointState::nothing : PointState::some;
     }
     if (!fs::exists(path)) {
-        return Progressed::nothing;
+        return PointState::nothing;
     }
     try {
         const Results old = read_frame(path);
         const StudyScene made = make_scene(run.study);
         if (!made) {
-            return Progressed::nothing;  // the run will print the reason
+            return PointState::nothing;  // the run will print the reason
         }
         const Study& study = made.scene->study();
         const bool are_lives = old.provenance_value("kind") == kLivesKind;
-        if (are_lives != lives || !why_not_grown(old, path, study, Part{}).empty()) {
-            return Progressed::nothing;  // the run will print why it does not overwrite the file
+        if (are_lives != lives || !why_not_extendable(old, path, study, Part{}).empty()) {
+            return PointState::nothing;  // the run will print why it does not overwrite the file
         }
         const BatchPlan plan = lives ? lives_plan(study) : plan_of(run, study);
         const bool enough = FileRows(path, old).rows() >= plan.rows() ||
                             old.provenance_value("state") == "ended by ensemble.until";
-        return enough ? Progressed::all : Progressed::some;
+        return enough ? PointState::all : PointState::some;
     } catch (const std::exception&) {
-        return Progressed::nothing;  // not a results file, or damaged
+        return PointState::nothing;  // not a results file, or damaged
     }
 }
 
@@ -138,20 +138,20 @@ class Sweep {
   private:
     int run_point(std::size_t p) {
         RunOptions run = run_of(options_, points_[p]);
-        const Progressed there = ranks_.leads() ? progressed(run, options_.lives)
-                                                : Progressed::nothing;  // rank 0 decides
+        const PointState there = ranks_.leads() ? point_state(run, options_.lives)
+                                                : PointState::nothing;  // rank 0 decides
         const std::string order = ranks_.from_leader(std::to_string(static_cast<int>(there)));
-        const auto decided = static_cast<Progressed>(std::stoi(order));
+        const auto decided = static_cast<PointState>(std::stoi(order));
         if (ranks_.leads() && !options_.quiet) {
             fmt::print(stderr, "{} of {}, {}: {}\n", p + 1, points_.size(), points_[p].name,
-                       decided == Progressed::all    ? "finished before"
-                       : decided == Progressed::some ? "continued"
+                       decided == PointState::all    ? "finished before"
+                       : decided == PointState::some ? "continued"
                                                      : "started");
         }
-        if (decided == Progressed::all) {
+        if (decided == PointState::all) {
             return kDone;
         }
-        run.resume = decided == Progressed::some;
+        run.resume = decided == PointState::some;
         return options_.lives ? lives_study({run, "", ""}, ranks_) : run_study(run, ranks_);
     }
 
@@ -164,37 +164,37 @@ class Sweep {
     }
 
     // Summary of all points.
-    struct Told {
+    struct SweepSummary {
         std::string text;
         nlohmann::ordered_json json;
         bool failed = false;               // some gearboxes failed
         std::vector<std::string> results;  // results files
     };
 
-    Told told_of_runs(const std::string& title) const {
+    SweepSummary summary_of_runs(const std::string& title) const {
         std::vector<PointSummary> summaries;
-        Told told;
+        SweepSummary sweep_summary;
         for (const SweepPoint& point : points_) {
-            told.results.push_back(results_path(run_of(options_, point)));
-            summaries.push_back(summarise(point, told.results.back(), thread_count()));
-            told.failed = told.failed || summaries.back().failed > 0;
+            sweep_summary.results.push_back(results_path(run_of(options_, point)));
+            summaries.push_back(summarise(point, sweep_summary.results.back(), thread_count()));
+            sweep_summary.failed = sweep_summary.failed || summaries.back().failed > 0;
         }
-        told.text = sweep_text(keys_, summaries);
-        told.json = sweep_json(title, keys_, summaries);
-        return told;
+        sweep_summary.text = sweep_text(keys_, summaries);
+        sweep_summary.json = sweep_json(title, keys_, summaries);
+        return sweep_summary;
     }
 
-    Told told_of_lives(const std::string& title) const {
+    SweepSummary summary_of_lives(const std::string& title) const {
         std::vector<LivesPoint> summaries;
-        Told told;
+        SweepSummary sweep_summary;
         for (const SweepPoint& point : points_) {
-            told.results.push_back(results_path(run_of(options_, point)));
-            summaries.push_back(summarise_lives(point, told.results.back()));
-            told.failed = told.failed || summaries.back().failed > 0;
+            sweep_summary.results.push_back(results_path(run_of(options_, point)));
+            summaries.push_back(summarise_lives(point, sweep_summary.results.back()));
+            sweep_summary.failed = sweep_summary.failed || summaries.back().failed > 0;
         }
-        told.text = lives_sweep_text(keys_, summaries);
-        told.json = lives_sweep_json(title, keys_, summaries);
-        return told;
+        sweep_summary.text = lives_sweep_text(keys_, summaries);
+        sweep_summary.json = lives_sweep_json(title, keys_, summaries);
+        return sweep_summary;
     }
 
     // Writes JSON and page if requested. Returns false after printing a problem.
@@ -205,12 +205,12 @@ class Sweep {
     }
 
     int conclude() const {
-        Told told;
+        SweepSummary sweep_summary;
         try {
             const auto study = read_study(options_.study.path, options_.study.overrides).study;
             const std::string title = study ? printable(study->title) : "";
-            told = options_.lives ? told_of_lives(title) : told_of_runs(title);
-            if (!write_files(told.json)) {
+            sweep_summary = options_.lives ? summary_of_lives(title) : summary_of_runs(title);
+            if (!write_files(sweep_summary.json)) {
                 return kBadInput;
             }
         } catch (const std::exception& error) {
@@ -218,16 +218,16 @@ class Sweep {
             return kBadInput;
         }
         if (options_.json != "-") {
-            fmt::print("{}results: {}\n", told.text, folder_of(options_));
+            fmt::print("{}results: {}\n", sweep_summary.text, folder_of(options_));
             if (!options_.html.empty()) {
                 fmt::print("page: {}\n", options_.html);
             }
-            if (told.results.size() > 1 && !options_.lives) {
-                fmt::print("differences with intervals: gearpod compare {} {}\n", told.results[0],
-                           told.results[1]);
+            if (sweep_summary.results.size() > 1 && !options_.lives) {
+                fmt::print("differences with intervals: gearpod compare {} {}\n",
+                           sweep_summary.results[0], sweep_summary.results[1]);
             }
         }
-        return told.failed ? kSomeFailed : kDone;
+        return sweep_summary.failed ? kSomeFailed : kDone;
     }
 
     const SweepOptions& options_;
@@ -248,7 +248,7 @@ bool make_folder(const std::string& folder) {
     return true;
 }
 
-bool can_write_answers(const SweepOptions& options, const std::vector<SweepPoint>& points) {
+bool can_write_outputs(const SweepOptions& options, const std::vector<SweepPoint>& points) {
     std::vector<FileRole> others{{"the study", options.study.path}};
     for (const SweepPoint& point : points) {
         others.push_back({"the results of " + point.name, results_path(run_of(options, point))});
@@ -265,7 +265,7 @@ int sweep_command(const SweepOptions& options) {
     const Ranks ranks;
     Problems problems;
     const std::vector<VariedKey> keys = read_varied(options.vary, problems);
-    for (Problem& problem : keys_of_lives(options, keys)) {
+    for (Problem& problem : lives_key_problems(options, keys)) {
         problems.push_back(std::move(problem));
     }
     std::vector<SweepPoint> points;
@@ -276,7 +276,7 @@ int sweep_command(const SweepOptions& options) {
                                    "give fewer values"}}
                        : problems_of(options, keys, points);
     }
-    const bool good = !ranks.leads() || (problems.empty() && can_write_answers(options, points) &&
+    const bool good = !ranks.leads() || (problems.empty() && can_write_outputs(options, points) &&
                                          make_folder(folder_of(options)));
     if (ranks.leads() && !problems.empty()) {
         print_problems(problems);

@@ -61,7 +61,7 @@ void print_motion(const Study& study) {
 void print_foundation_warnings(const Study& study) {
     std::set<Member> members;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
-        members.insert({mesh.driver, mesh.driven});
+        members.insert({mesh.member_1, mesh.member_2});
     }
     for (const Member member : members) {
         for (const std::string& warning : stiffness::foundation_warnings(
@@ -77,7 +77,7 @@ void print_foundation_warnings(const Study& study) {
 void print_blanks(const Study& study) {
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
         std::vector<std::string> blanks;
-        for (const Member member : {mesh.driver, mesh.driven}) {
+        for (const Member member : {mesh.member_1, mesh.member_2}) {
             if (study.gearbox.bodies[member].web_m) {
                 blanks.push_back(
                     fmt::format("{} {:.4g}", member_name(member), blank_factor(study, member)));
@@ -131,8 +131,8 @@ std::string tooth_errors(const Study& study) {
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-std::string unlike_planets(const Study& study) {
-    const UnlikePlanets& p = study.planets;
+std::string unequal_planets_text(const Study& study) {
+    const PlanetDifferences& p = study.planets;
     std::vector<std::string> parts;
     for (const auto& [list, what] :
          {std::pair{&p.pin_tangential_m, "tangential pin errors"},
@@ -193,8 +193,8 @@ void print_meshes(const Study& study) {
     if (has_unilateral_teeth(study)) {
         print_entry("tooth pairs", "unilateral contact: pairs push but never pull");
     }
-    if (has_unlike_planets(study)) {
-        print_entry("unequal planets", unlike_planets(study));
+    if (has_unequal_planets(study)) {
+        print_entry("unequal planets", unequal_planets_text(study));
     }
 }
 
@@ -209,7 +209,7 @@ std::string sizes(double amplitude, const std::string& rate, double rms, double 
     return text;
 }
 
-void print_driving(const Study& study) {
+void print_excitation(const Study& study) {
     const FluctuationInstance f = Sampler(study).nominal().fluctuations;
     if (torque_fluctuates(study)) {
         const std::string rate = !torque_has_sine(study) ? ""
@@ -231,20 +231,20 @@ void print_driving(const Study& study) {
                                 study.effects.gravity_direction_rad * 180.0 / std::numbers::pi,
                                 gravity_turns(study) ? ", rotating in the carrier frame" : ""));
     }
-    if (const std::string why = why_no_mesh_repeats(study); !why.empty()) {
+    if (const std::string why = reason_not_periodic(study); !why.empty()) {
         print_entry("solution",
-                    study.numerics.horizon == Horizon::superpose
+                    study.numerics.horizon == Horizon::superposed
                         ? "superposition of the responses to the errors of each gear; "
                           "full integration where a tooth pair may lose contact"
                         : fmt::format("computed for every mesh period, because {}{}", why,
-                                      why_not_superposed(study).empty()
+                                      reason_not_superposed(study).empty()
                                           ? " (faster if no tooth pair loses contact: "
                                             "numerics.horizon = \"superpose\")"
                                           : ""));
     }
 }
 
-void print_driving_left_out(const Study& study) {
+void print_omitted_excitation(const Study& study) {
     if (!torque_fluctuates(study)) {
         print_entry("torque fluctuation", "no operation.torque_fluctuation or torque_noise");
     }
@@ -299,7 +299,7 @@ bool encoder_noise(const Study& study) {
     return study.sensor.encoder_noise_rad > 0.0 || random(study, "sensor.encoder_noise_arcsec");
 }
 
-void print_left_out(const Scene& scene) {
+void print_omitted(const Scene& scene) {
     const Study& study = scene.study();
     const Effects& e = study.effects;
     print_heading("effects omitted");
@@ -315,7 +315,7 @@ void print_left_out(const Scene& scene) {
     } else if (study.gearbox.kind == GearboxKind::planetary && !e.inertial_terms) {
         print_entry("inertial terms", "effects.inertial_terms = false");
     }
-    print_driving_left_out(study);
+    print_omitted_excitation(study);
     if (!stiffness_given(study) && e.foundation == Foundation::none) {
         print_entry("gear bodies", "effects.foundation = \"none\"");
     }
@@ -342,7 +342,7 @@ void print_left_out(const Scene& scene) {
     if (!has_tooth_errors(study)) {
         print_entry("tooth errors", "all teeth of a gear are identical");
     }
-    if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
+    if (study.gearbox.kind == GearboxKind::planetary && !has_unequal_planets(study)) {
         print_entry("unequal planets", "exact pin positions, equal bearings and masses");
     }
     if (!has_static_errors(study) && !has_tooth_errors(study) && !has_relief(study)) {
@@ -364,7 +364,7 @@ void print_effects(const Scene& scene) {
     print_heading("effects simulated");
     print_motion(study);
     print_meshes(study);
-    print_driving(study);
+    print_excitation(study);
     print_fault(study);
     if (!study.effects.quasi_static()) {
         print_sensor(study);
@@ -385,7 +385,7 @@ void print_effects(const Scene& scene) {
                                             "scatters by {:g} % (rms)",
                                             100.0 * study.features.baseline_torque_scatter));
     }
-    print_left_out(scene);
+    print_omitted(scene);
 }
 
 }  // namespace gearpod::mc

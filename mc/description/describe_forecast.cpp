@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "machine/dispatch.hpp"
-#include "mc/answers/contact_loss.hpp"
 #include "mc/description/entries.hpp"
 #include "mc/description/lives_forecast.hpp"
 #include "mc/description/rank_forecast.hpp"
@@ -16,6 +15,7 @@
 #include "mc/numerics/step_error.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/summary/contact_loss.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -30,8 +30,8 @@ std::string seconds_text(double seconds) {
                             : fmt::format("{:.0f} s", seconds);
 }
 
-std::string measured_text(const RunCalibration& calibration, const AnalysisTrial& trial) {
-    if (calibration.march_alone) {
+std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial) {
+    if (calibration.integration_only) {
         return "the time of one mesh period and the number of mesh periods that the damping "
                "requires, because a batch of gearboxes takes too long";
     }
@@ -51,7 +51,7 @@ std::string measured_text(const RunCalibration& calibration, const AnalysisTrial
 // Rows of the gearboxes computed to calibrate the forecast.
 class CalibrationRows final : public RowSource {
   public:
-    explicit CalibrationRows(const RunCalibration& calibration) : calibration_(calibration) {}
+    explicit CalibrationRows(const RunCost& calibration) : calibration_(calibration) {}
     std::size_t rows() const override { return calibration_.rows.count(); }
     void visit(const std::function<void(const RowBlock&)>& use) const override {
         RowBlock block{0, {}, calibration_.rows.status, calibration_.rows.values};
@@ -62,7 +62,7 @@ class CalibrationRows final : public RowSource {
     }
 
   private:
-    const RunCalibration& calibration_;
+    const RunCost& calibration_;
 };
 
 // Shares of the threads' time, with the same names as in the report of `run`.
@@ -71,7 +71,7 @@ std::string shares_text(const Seconds& work, double thread_s) {
     return fmt::format(
         "time integration {:.0f} %, stiffness {:.0f} %, signals {:.0f} %, noise {:.0f} %, "
         "features {:.0f} %",
-        share(work.march), share(work.stiffness + work.sampling), share(work.signals),
+        share(work.integration), share(work.stiffness + work.sampling), share(work.signals),
         share(work.noise), share(work.features));
 }
 
@@ -116,7 +116,7 @@ void print_ranks(const Study& study, const RankForecast& forecast, int threads, 
 // Prints the error of the time steps where teeth lose contact, if measuring it takes at most a
 // second.
 void print_step_error(const Scene& scene) {
-    if (scene.study().effects.quasi_static() || !teeth_can_part(scene.study())) {
+    if (scene.study().effects.quasi_static() || !teeth_can_separate(scene.study())) {
         return;
     }
     constexpr double kMost_s = 1.0;
@@ -150,10 +150,10 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     const Study& study = scene.study();
     const BatchPlan plan(study.ensemble);
     const int threads = thread_count(study);
-    const RunCalibration calibration = calibrate_run(scene, plan, threads, kBudget_s);
-    const AnalysisTrial trial = try_analysis(study, calibration, plan, threads, kBudget_s);
+    const RunCost calibration = measure_run_cost(scene, plan, threads, kBudget_s);
+    const AnalysisTrial trial = measure_analysis(study, calibration, plan, threads, kBudget_s);
     const RunForecast forecast = forecast_run(scene, plan, calibration, trial, setup_s);
-    if (teeth_can_part(study)) {
+    if (teeth_can_separate(study)) {
         print_heading("contact");
     }
     if (const std::string loss = contact_loss_text(

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mc/description/entries.hpp"
-#include "mc/scene/drive.hpp"
+#include "mc/scene/drivetrain.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -39,9 +39,9 @@ void print_planetary_members(const Study& study) {
     const InstanceInputs nominal = sampler.nominal();
     const gears::PowerFlow flow{fixed_member(study.operation.fixed),
                                 central_member(study.operation.input)};
-    const gears::Speeds turning = gears::driven_speeds(
+    const gears::Speeds turning = gears::signed_speeds(
         train, flow, central_member(sampler.speed_member()), nominal.speed_rad_s);
-    const gears::Members torque = gears::balanced_torques(
+    const gears::CentralMembers torque = gears::balanced_torques(
         train, central_member(study.operation.torque_on), nominal.torque_N_m);
     const double of_input = study.operation.input == Member::sun    ? turning.sun
                             : study.operation.input == Member::ring ? turning.ring
@@ -104,15 +104,15 @@ void print_fault_sizes(const Scene& scene) {
     print_entry("fault origin", study.fault.kind->origin(study, all));
 }
 
-void print_planetary(const PlanetaryDrive& drive) {
-    const auto& train = drive.train();
+void print_planetary(const PlanetaryDrivetrain& drivetrain) {
+    const auto& train = drivetrain.train();
     print_entry("teeth (sun/planet/ring)",
                 fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth,
                             train.ring_teeth, train.planets));
     std::vector<std::string> sun, ring;
     for (int n = 0; n < train.planets; ++n) {
-        sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drive.sense())));
-        ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drive.sense())));
+        sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drivetrain.sense())));
+        ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drivetrain.sense())));
     }
     if (!train.positions_rad.empty()) {
         const gears::PlanetPlaces places = gears::planet_places(train);
@@ -125,7 +125,7 @@ void print_planetary(const PlanetaryDrive& drive) {
     }
     print_entry("mesh phases, sun", joined(sun));
     print_entry("mesh phases, ring", fmt::format("{}; ring relative to sun {:g}", joined(ring),
-                                                 drive.ring_to_sun_phase()));
+                                                 drivetrain.ring_to_sun_phase()));
 }
 
 void print_fixed_shaft(const Study& study) {
@@ -154,7 +154,7 @@ void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry
                         fmt::format("contact on the {} reaches down to a diameter of {:.4f} mm, "
                                     "but its fillet begins at {:.4f} mm; shorter teeth of the "
                                     "mating gear avoid this",
-                                    member_name(which == 1 ? members.driver : members.driven),
+                                    member_name(which == 1 ? members.member_1 : members.member_2),
                                     2e3 * lowest, 2e3 * gear.form_radius()));
         }
     }
@@ -234,7 +234,7 @@ void print_rigid_bodies(const Scene& scene) {
 
 void print_gearbox(const Scene& scene) {
     print_heading("gearbox");
-    if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
+    if (const auto* planetary = dynamic_cast<const PlanetaryDrivetrain*>(&scene.drivetrain())) {
         print_planetary(*planetary);
     } else {
         print_fixed_shaft(scene.study());

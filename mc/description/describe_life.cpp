@@ -11,8 +11,8 @@ namespace gearpod::mc {
 namespace {
 
 // Describes how records at other torques or speeds are computed.
-std::string load_text(const RecordLaw& law, int count) {
-    const std::vector<double> factors = law.marched(count);
+std::string load_text(const RecordDistribution& law, int count) {
+    const std::vector<double> factors = law.integrated_factors(count);
     return law.text() +
            (factors.size() > 1
                 ? fmt::format("; interpolated between solutions at {:.3g} times {}",
@@ -56,7 +56,7 @@ void print_life(const Scene& scene) {
     }
     print_heading("lives");
     try {
-        check_composable(scene);
+        check_superposable(scene);
         print_entry("record", record_text(scene));
     } catch (const SceneError& error) {
         print_entry("no lives",
@@ -64,9 +64,9 @@ void print_life(const Scene& scene) {
         return;
     }
     print_entry("random per gearbox", of_gearbox(study));
-    const RecordLaws laws(study);
-    print_entry("torque per record", load_text(laws.torque, torques_marched(life)));
-    print_entry("speed per record", load_text(laws.speed, speeds_marched(life)));
+    const RecordDistributions laws(study);
+    print_entry("torque per record", load_text(laws.torque, integrated_torques(life)));
+    print_entry("speed per record", load_text(laws.speed, integrated_speeds(life)));
     print_entry("gain per record", laws.gain.text());
     print_entry("noise per record", laws.noise.text());
     print_entry("crack growth", growth_text(study));

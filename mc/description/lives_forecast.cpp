@@ -10,7 +10,7 @@
 #include "mc/description/entries.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/memory.hpp"
-#include "mc/gearbox/healthy_march.hpp"
+#include "mc/gearbox/healthy_solution.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/lives/life_rows.hpp"
 
@@ -18,28 +18,28 @@ namespace gearpod::mc {
 namespace {
 
 // Integrated mesh periods of a tile without a fault, and the additional ones of each crack depth.
-struct MarchedMeshes {
+struct IntegratedMeshes {
     double healthy, depth;
 };
 
-MarchedMeshes meshes_of(const Scene& scene) {
-    const double all = marched_meshes(scene);
-    return {all, marches_changes_alone(scene) ? std::min(passage_meshes(scene), all) : all};
+IntegratedMeshes meshes_of(const Scene& scene) {
+    const double all = integrated_meshes(scene);
+    return {all, integrates_perturbation_only(scene) ? std::min(passage_meshes(scene), all) : all};
 }
 
 // Integration time of one tile of a batch, s.
-double tile_s(const LifeTiles& tiles, const MarchedMeshes& meshes, double mesh_s, bool cracked,
-              bool looked) {
+double tile_s(const LifeTiles& tiles, const IntegratedMeshes& meshes, double mesh_s, bool cracked,
+              bool tested) {
     const Life& life = tiles.scene().study().life;
     const auto loads = static_cast<double>(tiles.load_count());
-    double marched = loads * meshes.healthy;
+    double integrated = loads * meshes.healthy;
     if (cracked) {
-        marched += loads * life.depth_steps * meshes.depth;
+        integrated += loads * life.depth_steps * meshes.depth;
     }
-    if (looked) {
-        marched += 2.0 * meshes.depth + static_cast<double>(tiles.gap_count()) * meshes.healthy;
+    if (tested) {
+        integrated += 2.0 * meshes.depth + static_cast<double>(tiles.gap_count()) * meshes.healthy;
     }
-    return marched * mesh_s;
+    return integrated * mesh_s;
 }
 
 // Mean number of records until the end of life, over the first gearboxes with a crack.
@@ -63,7 +63,7 @@ double tile_bytes(const LifeTiles& tiles) {
     const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
     const auto lanes = static_cast<double>(tiles.lanes()),
                loads = static_cast<double>(tiles.load_count());
-    const double signals = (marches_changes_alone(scene) ? 5.0 : 4.0) * loads + 2.0;
+    const double signals = (integrates_perturbation_only(scene) ? 5.0 : 4.0) * loads + 2.0;
     const double basis = 3.0 * loads + 1.0;
     const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
     return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
@@ -94,34 +94,34 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     LivesForecast all;
     all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
     all.setup_s = setup_s;
-    const MarchedMeshes meshes = meshes_of(scene);
+    const IntegratedMeshes meshes = meshes_of(scene);
     const double mesh_s = study.effects.quasi_static() ? 0.0 : mesh_period_s(scene);
-    const RecordTrial trial = tiles.try_records();
+    const RecordTimes trial = tiles.time_records();
     const double cracked_records = mean_records(tiles);
     std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);
-    double marched_s = 0.0, heard_s = 0.0, heard = 0.0;
+    double integrating_s = 0.0, records_s = 0.0, record_count = 0.0;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
         const bool cracked = batch.group == Group::graded;
         const double records = cracked ? cracked_records : study.life.records;
         double batch_s = 0.0;
         for (std::size_t first = 0; first < batch.gearboxes; first += tiles.lanes()) {
-            const bool looked = looked_at({batch.group, batch.first_index + first});
-            batch_s += tile_s(tiles, meshes, mesh_s, cracked, looked);
+            const bool tested = measures_interpolation({batch.group, batch.first_index + first});
+            batch_s += tile_s(tiles, meshes, mesh_s, cracked, tested);
         }
-        marched_s += batch_s;
+        integrating_s += batch_s;
         const double own_s =
             static_cast<double>(batch.gearboxes) *
             (records * trial.record_s + (cracked ? study.life.depth_steps : 1) * trial.step_s);
-        heard += static_cast<double>(batch.gearboxes) * records;
-        heard_s += own_s;
+        record_count += static_cast<double>(batch.gearboxes) * records;
+        records_s += own_s;
         *std::ranges::min_element(busy_s) += batch_s + own_s;
     }
     all.gearboxes = static_cast<long>(plan.rows());
-    all.records = std::lround(heard);
-    all.gearbox_s = marched_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
-    all.record_s = heard_s / std::max(1.0, heard);
-    all.marches_s = std::ranges::max(busy_s);
+    all.records = std::lround(record_count);
+    all.gearbox_s = integrating_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
+    all.record_s = records_s / std::max(1.0, record_count);
+    all.integration_s = std::ranges::max(busy_s);
     all.file_bytes = file_bytes(study);
     all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(tiles) + all.file_bytes;
     return all;

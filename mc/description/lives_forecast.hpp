@@ -15,12 +15,12 @@ struct LivesForecast {
     double gearbox_s = 0.0;  // processor time to integrate a gearbox, mean over all
     double record_s = 0.0;   // processor time of a record
     long gearboxes = 0, records = 0;
-    double marches_s = 0.0;  // wall-clock time until the last thread finishes its last batch
+    double integration_s = 0.0;  // wall-clock time until the last thread finishes its last batch
     double setup_s = 0.0;
     double memory_bytes = 0.0;  // tiles of all threads, and the memory already in use
     double file_bytes = 0.0;    // results file; the checkpoint is as large until the run ends
 
-    double total_s() const { return setup_s + marches_s; }
+    double total_s() const { return setup_s + integration_s; }
 };
 
 LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s);

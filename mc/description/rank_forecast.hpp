@@ -7,7 +7,7 @@ namespace gearpod::mc {
 
 // Processor time of rank 0's main thread for a batch of another rank: messages, packing and the
 // checkpoint. Measured by tests/bench/bench_ranks (mc/README.md).
-double leader_s(double batch_bytes);
+double leader_time_s(double batch_bytes);
 
 // Disk space of the checkpoint with all batches, and of the results file.
 double checkpoint_bytes(const BatchPlan& plan, const RowShape& shape);
@@ -27,8 +27,7 @@ struct RankForecast {
     double bounding_ranks = 0.0;    // number of ranks from which rank 0 delays the others
 };
 
-RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan,
-                            const RunCalibration& calibration, const AnalysisTrial& analysis,
-                            const RunForecast& alone, int ranks);
+RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
+                            const AnalysisTrial& analysis, const RunForecast& alone, int ranks);
 
 }  // namespace gearpod::mc

@@ -28,7 +28,7 @@ std::string mesh_damping_key(const Study& study) {
     return "";
 }
 
-std::vector<Member> held_members(const Study& study) {
+std::vector<Member> supported_members(const Study& study) {
     if (study.gearbox.kind == GearboxKind::fixed_shaft) {
         return {Member::pinion, Member::gear};
     }
@@ -47,7 +47,7 @@ std::string undamped(const Study& study) {
     if (none(study, mesh_damping_key(study), nominal.mesh_damping)) {
         parts.push_back("meshes");
     }
-    for (const Member member : held_members(study)) {
+    for (const Member member : supported_members(study)) {
         const std::string name(member_name(member));
         if (!study.effects.torsional() && none(study, "gearbox." + name + "_bearing_damping_N_s_m",
                                                g.bodies[member].bearing_damping_N_s_m)) {

@@ -14,9 +14,9 @@ namespace {
 // Interval at which a main thread polls for messages. Each poll takes a processor, and its caches,
 // from a computing thread. The interval is therefore long while the threads have batches in
 // reserve: a fraction of the time of one batch. A single process only polls for signals.
-class Naps {
+class PollInterval {
   public:
-    explicit Naps(const Ranks& ranks) : alone_(ranks.size() == 1) {}
+    explicit PollInterval(const Ranks& ranks) : alone_(ranks.size() == 1) {}
     void finished(const FinishedBatch& batch) {
         shortest_s_ = std::min(shortest_s_, batch.seconds);
     }
@@ -38,44 +38,44 @@ class Naps {
     double shortest_s_ = 1.0;
 };
 
-void say(const Ranks& ranks, int to, Say what, const std::vector<std::byte>& bytes = {}) {
+void send(const Ranks& ranks, int to, MessageKind what, const std::vector<std::byte>& bytes = {}) {
     ranks.send(to, static_cast<int>(what), bytes);
 }
 
 class Leader {
   public:
-    Leader(BatchCrew& crew, const BatchPlan& plan, const EnsembleRun& run)
-        : crew_(crew),
+    Leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run)
+        : team_(team),
           plan_(plan),
           run_(run),
-          naps_(run.ranks),
-          dealt_(static_cast<std::size_t>(run.ranks.size())) {
-        for (const std::string& threads : run.ranks.gather(std::to_string(crew.threads()))) {
+          poll_interval_(run.ranks),
+          assigned_(static_cast<std::size_t>(run.ranks.size())) {
+        for (const std::string& threads : run.ranks.gather(std::to_string(team.threads()))) {
             threads_.push_back(static_cast<std::size_t>(std::stoul(threads)));
         }
         all_threads_ = std::accumulate(threads_.begin(), threads_.end(), std::size_t{0});
-        outcome_.crews.resize(threads_.size());
+        outcome_.teams.resize(threads_.size());
     }
 
     EnsembleOutcome run() {
         const auto start = WallClock::now();
         last_sync_ = start;
-        look();
+        update_watch();
         while (true) {
-            deal();
+            assign_batches();
             if (outstanding_ == 0) {
                 break;
             }
-            crew_.wait(naps_.next(batches_ahead()));
+            team_.wait(poll_interval_.next(batches_ahead()));
             receive();
-            consider_stopping();
+            check_stop_conditions();
             checkpoint();
         }
         close();
-        outcome_.crews[0].output = outcome_.output_s;
+        outcome_.teams[0].output = outcome_.output_s;
         outcome_.wall_s = seconds_since(start);
         outcome_.batches =
-            run_.watch != nullptr && run_.watch->enough() ? run_.watch->batches() : first_missing();
+            run_.watch != nullptr && run_.watch->done() ? run_.watch->batches() : first_missing();
         return std::move(outcome_);
     }
 
@@ -95,103 +95,103 @@ class Leader {
         return next_ < plan_.batches();
     }
 
-    void deal() {
-        for (bool dealt = true; dealt && !stopping_;) {
-            dealt = false;
-            for (std::size_t rank = 0; rank < dealt_.size(); ++rank) {
-                if (dealt_[rank] < share(rank) && next_missing()) {
+    void assign_batches() {
+        for (bool assigned = true; assigned && !stopping_;) {
+            assigned = false;
+            for (std::size_t rank = 0; rank < assigned_.size(); ++rank) {
+                if (assigned_[rank] < share(rank) && next_missing()) {
                     give(rank, next_++);
-                    dealt = true;
+                    assigned = true;
                 }
             }
         }
     }
 
     void give(std::size_t rank, std::size_t batch) {
-        ++dealt_[rank];
+        ++assigned_[rank];
         ++outstanding_;
         if (rank == 0) {
-            crew_.give(batch);
+            team_.give(batch);
         } else {
-            say(run_.ranks, static_cast<int>(rank), Say::compute, bytes_of_number(batch));
+            send(run_.ranks, static_cast<int>(rank), MessageKind::compute, bytes_of_number(batch));
         }
     }
 
     void receive() {
-        while (auto finished = crew_.take()) {
+        while (auto finished = team_.take()) {
             accept(0, *finished);
         }
         while (auto message = run_.ranks.receive()) {
             const auto rank = static_cast<std::size_t>(message->from);
-            switch (static_cast<Say>(message->kind)) {
-                case Say::finished:
+            switch (static_cast<MessageKind>(message->kind)) {
+                case MessageKind::finished:
                     accept(rank, batch_of(message->bytes));
                     break;
-                case Say::dropped:
-                    settle(rank, number_of(message->bytes));
+                case MessageKind::dropped:
+                    mark_returned(rank, number_of(message->bytes));
                     break;
-                case Say::stop:
+                case MessageKind::stop:
                     interrupt(text_of(message->bytes));
-                    leave_off(Interruption::kGrace);
+                    cancel_running(Interruption::kGrace);
                     break;
-                case Say::times:
-                    outcome_.crews[rank] = times_of(message->bytes);
+                case MessageKind::times:
+                    outcome_.teams[rank] = times_of(message->bytes);
                     ++closed_;
                     break;
-                case Say::compute:
-                case Say::drop:
-                case Say::leave:
-                case Say::close:
+                case MessageKind::compute:
+                case MessageKind::drop:
+                case MessageKind::cancel:
+                case MessageKind::close:
                     break;  // only rank 0 sends these
             }
         }
     }
 
-    void settle(std::size_t rank, std::size_t batches) {
-        dealt_[rank] -= batches;
+    void mark_returned(std::size_t rank, std::size_t batches) {
+        assigned_[rank] -= batches;
         outstanding_ -= batches;
     }
 
     void accept(std::size_t rank, const FinishedBatch& finished) {
-        settle(rank, 1);
+        mark_returned(rank, 1);
         if (finished.stopped) {
             interrupt(reason_now());
             return;
         }
         longest_batch_s_ = std::max(longest_batch_s_, finished.seconds);
-        naps_.finished(finished);
+        poll_interval_.finished(finished);
         if (!finished.failure.empty()) {
             fail(finished.failure);
             return;
         }
         store([&] { run_.store.write(finished.batch, finished.rows); });
-        look();
+        update_watch();
         run_.progress.advance(static_cast<long>(finished.rows.count()));
     }
 
     // Runs an action that writes. If writing fails, the run ends; earlier output is kept.
     template <class Action>
     void store(Action action) {
-        if (unwritable_) {
+        if (write_failed_) {
             return;
         }
         const auto start = WallClock::now();
         try {
             action();
         } catch (const std::exception& error) {
-            unwritable_ = true;
+            write_failed_ = true;
             fail(error.what());
         }
         outcome_.output_s += seconds_since(start);
     }
 
-    void look() {
+    void update_watch() {
         if (run_.watch == nullptr || stopping_) {
             return;
         }
         store([&] { run_.watch->advance(run_.store); });
         run_.progress.watch(run_.watch->text(), run_.watch->rows_left());
-        if (run_.watch->enough()) {
+        if (run_.watch->done()) {
             stop();
         }
     }
@@ -211,7 +211,7 @@ class Leader {
 
     // Starts no batch that may not finish in time. Cancels running batches when the remaining time
     // is needed for saving.
-    void consider_stopping() {
+    void check_stop_conditions() {
         if (run_.interruption == nullptr) {
             return;
         }
@@ -221,7 +221,7 @@ class Leader {
             interrupt(run_.interruption->reason(Time(1.2 * longest_batch_s_ + saving_s_)));
         }
         if (stopping_ && !run_.interruption->reason(Time(saving_s_ + kSlack_s)).empty()) {
-            leave_off(run_.interruption->signalled() ? Interruption::kGrace : Time(0.0));
+            cancel_running(run_.interruption->signalled() ? Interruption::kGrace : Time(0.0));
         }
     }
 
@@ -240,14 +240,14 @@ class Leader {
         }
     }
 
-    void leave_off(std::chrono::duration<double> grace) {
-        if (std::exchange(leaving_, true)) {
+    void cancel_running(std::chrono::duration<double> grace) {
+        if (std::exchange(cancelling_, true)) {
             return;
         }
-        run_.interruption->leave_off_in(grace);
+        run_.interruption->cancel_in(grace);
         const auto milliseconds = static_cast<std::size_t>(1e3 * grace.count());
         for (int rank = 1; rank < run_.ranks.size(); ++rank) {
-            say(run_.ranks, rank, Say::leave, bytes_of_number(milliseconds));
+            send(run_.ranks, rank, MessageKind::cancel, bytes_of_number(milliseconds));
         }
     }
 
@@ -262,19 +262,19 @@ class Leader {
         if (std::exchange(stopping_, true)) {
             return;
         }
-        settle(0, crew_.drop());
+        mark_returned(0, team_.drop());
         for (int rank = 1; rank < run_.ranks.size(); ++rank) {
-            say(run_.ranks, rank, Say::drop);
+            send(run_.ranks, rank, MessageKind::drop);
         }
     }
 
     void close() {
         for (int rank = 1; rank < run_.ranks.size(); ++rank) {
-            say(run_.ranks, rank, Say::close);
+            send(run_.ranks, rank, MessageKind::close);
         }
-        outcome_.crews[0] = crew_.close();
+        outcome_.teams[0] = team_.close();
         while (closed_ + 1 < run_.ranks.size()) {
-            std::this_thread::sleep_for(naps_.next(false));
+            std::this_thread::sleep_for(poll_interval_.next(false));
             receive();
         }
         store([&] { run_.store.sync(); });
@@ -291,16 +291,16 @@ class Leader {
     // Time in which cancelled batches end.
     static constexpr double kSlack_s = 0.2;
 
-    BatchCrew& crew_;
+    WorkerTeam& team_;
     const BatchPlan plan_;
     const EnsembleRun& run_;
-    Naps naps_;
-    std::vector<std::size_t> dealt_, threads_;  // indexed by rank
+    PollInterval poll_interval_;
+    std::vector<std::size_t> assigned_, threads_;  // indexed by rank
     std::size_t all_threads_ = 0;
     std::size_t outstanding_ = 0;
     std::size_t next_ = 0;
     int closed_ = 0;
-    bool stopping_ = false, leaving_ = false, unwritable_ = false;
+    bool stopping_ = false, cancelling_ = false, write_failed_ = false;
     double longest_batch_s_ = 0.0, saving_s_ = 0.0;
     WallClock::time_point last_sync_;
     EnsembleOutcome outcome_;
@@ -308,91 +308,91 @@ class Leader {
 
 class Follower {
   public:
-    Follower(BatchCrew& crew, const EnsembleRun& run)
-        : crew_(crew),
+    Follower(WorkerTeam& team, const EnsembleRun& run)
+        : team_(team),
           run_(run),
-          naps_(run.ranks),
-          threads_(static_cast<std::size_t>(crew.threads())) {
-        run.ranks.gather(std::to_string(crew.threads()));
+          poll_interval_(run.ranks),
+          threads_(static_cast<std::size_t>(team.threads())) {
+        run.ranks.gather(std::to_string(team.threads()));
     }
 
     void run() {
         while (!closed_) {
-            crew_.wait(naps_.next(batches_ > threads_));
-            while (auto finished = crew_.take()) {
+            team_.wait(poll_interval_.next(batches_ > threads_));
+            while (auto finished = team_.take()) {
                 --batches_;
-                naps_.finished(*finished);
+                poll_interval_.finished(*finished);
                 if (!finished->failure.empty()) {
                     finished->failure = rank_name(run_.ranks) + ": " + finished->failure;
                 }
-                say(run_.ranks, 0, Say::finished, bytes_of_batch(*finished));
+                send(run_.ranks, 0, MessageKind::finished, bytes_of_batch(*finished));
             }
-            pass_on_signal();
+            report_signal();
             receive();
         }
-        say(run_.ranks, 0, Say::times, bytes_of_times(crew_.close()));
+        send(run_.ranks, 0, MessageKind::times, bytes_of_times(team_.close()));
     }
 
   private:
-    void pass_on_signal() {
-        if (told_ || run_.interruption == nullptr) {
+    void report_signal() {
+        if (signal_reported_ || run_.interruption == nullptr) {
             return;
         }
         const std::string reason = run_.interruption->reason({});
         if (!reason.empty()) {
-            told_ = true;
-            say(run_.ranks, 0, Say::stop, bytes_of_text(reason));
+            signal_reported_ = true;
+            send(run_.ranks, 0, MessageKind::stop, bytes_of_text(reason));
         }
     }
 
     void receive() {
         while (auto message = run_.ranks.receive()) {
-            switch (static_cast<Say>(message->kind)) {
-                case Say::compute:
-                    crew_.give(number_of(message->bytes));
+            switch (static_cast<MessageKind>(message->kind)) {
+                case MessageKind::compute:
+                    team_.give(number_of(message->bytes));
                     ++batches_;
                     break;
-                case Say::drop:
+                case MessageKind::drop:
                     drop();
                     break;
-                case Say::leave:
-                    run_.interruption->leave_off_in(
+                case MessageKind::cancel:
+                    run_.interruption->cancel_in(
                         std::chrono::milliseconds(number_of(message->bytes)));
                     break;
-                case Say::close:
+                case MessageKind::close:
                     closed_ = true;
                     break;
-                case Say::finished:
-                case Say::dropped:
-                case Say::stop:
-                case Say::times:
+                case MessageKind::finished:
+                case MessageKind::dropped:
+                case MessageKind::stop:
+                case MessageKind::times:
                     break;  // only rank 0 receives these
             }
         }
     }
 
     void drop() {
-        const std::size_t dropped = crew_.drop();
+        const std::size_t dropped = team_.drop();
         batches_ -= dropped;
-        say(run_.ranks, 0, Say::dropped, bytes_of_number(dropped));
+        send(run_.ranks, 0, MessageKind::dropped, bytes_of_number(dropped));
     }
 
-    BatchCrew& crew_;
+    WorkerTeam& team_;
     const EnsembleRun& run_;
-    Naps naps_;
+    PollInterval poll_interval_;
     const std::size_t threads_;
     std::size_t batches_ = 0;  // received and not yet sent back
-    bool closed_ = false, told_ = false;
+    bool closed_ = false, signal_reported_ = false;
 };
 
 }  // namespace
 
-EnsembleOutcome lead(BatchCrew& crew, const BatchPlan& plan, const EnsembleRun& run) {
-    return Leader(crew, plan, run).run();
+EnsembleOutcome run_leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run) {
+    return Leader(team, plan, run).run();
 }
 
-EnsembleOutcome follow(BatchCrew& crew, const EnsembleRun& run) {
-    Follower(crew, run).run();
+EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run) {
+    Follower(team, run).run();
     return {};
 }
 

@@ -8,9 +8,9 @@
 namespace gearpod::mc {
 
 // Runs the part of rank 0.
-EnsembleOutcome lead(BatchCrew& crew, const BatchPlan& plan, const EnsembleRun& run);
+EnsembleOutcome run_leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run);
 
 // Runs the part of the other ranks; returns an empty outcome.
-EnsembleOutcome follow(BatchCrew& crew, const EnsembleRun& run);
+EnsembleOutcome run_follower(WorkerTeam& team, const EnsembleRun& run);
 
 }  // namespace gearpod::mc

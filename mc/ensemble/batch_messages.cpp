@@ -95,13 +95,13 @@ FinishedBatch batch_of(std::span<const std::byte> bytes) {
     return batch;
 }
 
-std::vector<std::byte> bytes_of_times(const CrewTimes& times) {
+std::vector<std::byte> bytes_of_times(const TeamTimes& times) {
     Packer packer;
     packer.put(times);
     return packer.take();
 }
-CrewTimes times_of(std::span<const std::byte> bytes) {
-    return Unpacker(bytes).get<CrewTimes>();
+TeamTimes times_of(std::span<const std::byte> bytes) {
+    return Unpacker(bytes).get<TeamTimes>();
 }
 
 }  // namespace gearpod::mc

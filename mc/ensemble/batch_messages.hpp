@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "mc/ensemble/batch_crew.hpp"
+#include "mc/ensemble/worker_team.hpp"
 
 namespace gearpod::mc {
 
-enum class Say {
+enum class MessageKind {
     compute,   // to a rank: compute this batch
     drop,      // to a rank: start none of its waiting batches
-    leave,     // to a rank: cancel its batches after this number of milliseconds
+    cancel,    // to a rank: cancel its batches after this number of milliseconds
     close,     // to a rank: the run is finished
     finished,  // to rank 0: rows of a batch, or its error
     dropped,   // to rank 0: number of batches that were not started
@@ -31,7 +31,7 @@ std::string text_of(std::span<const std::byte> bytes);
 std::vector<std::byte> bytes_of_batch(const FinishedBatch& batch);
 FinishedBatch batch_of(std::span<const std::byte> bytes);
 
-std::vector<std::byte> bytes_of_times(const CrewTimes& times);
-CrewTimes times_of(std::span<const std::byte> bytes);
+std::vector<std::byte> bytes_of_times(const TeamTimes& times);
+TeamTimes times_of(std::span<const std::byte> bytes);
 
 }  // namespace gearpod::mc

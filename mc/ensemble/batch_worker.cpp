@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"
@@ -13,13 +13,13 @@ namespace gearpod::mc {
 Seconds& Seconds::operator+=(const Seconds& other) {
     sampling += other.sampling;
     stiffness += other.stiffness;
-    march += other.march;
+    integration += other.integration;
     signals += other.signals;
     noise += other.noise;
     features += other.features;
     meshes += other.meshes;
     superposed += other.superposed;
-    marched_instead += other.marched_instead;
+    superposition_fallbacks += other.superposition_fallbacks;
     gearboxes += other.gearboxes;
     records += other.records;
     return *this;
@@ -27,7 +27,7 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 
 RowShape row_shape(const Sampler& sampler, const Study& study) {
     const std::size_t meshes =
-        teeth_can_part(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
+        teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
     return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size(),
             meshes};
 }
@@ -38,11 +38,12 @@ BatchWorker::BatchWorker(const BatchTask& task)
       shape_(row_shape(task.sampler, task.scene.study())) {}
 
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
-    const NoiseDraws draws =
-        batch.group == Group::threshold ? threshold_draws(task_.scene.study()) : task_.graded_draws;
+    const NoiseSampling noise_sampling = batch.group == Group::threshold
+                                             ? threshold_noise_sampling(task_.scene.study())
+                                             : task_.graded_noise;
     std::vector<GearboxId> ids;
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {
-        ids.push_back({batch.group, batch.first_index + i, Record::judged, 0, draws});
+        ids.push_back({batch.group, batch.first_index + i, Record::test, 0, noise_sampling});
     }
     return compute(ids, batch.records, seconds);
 }
@@ -62,25 +63,25 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
                            Seconds& seconds) {
     GearboxTile computed = run_gearboxes(
         task_.scene, task_.sampler, task_.path, ids, task_.scene.study().numerics.lanes,
-        {.signal_meshes = features_.meshes(), .marches = &task_.marches});
+        {.signal_meshes = features_.meshes(), .cache = &task_.cache});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
-    computed.heard = nullptr;  // frees memory: `signals` holds copies
+    computed.sensor_response = nullptr;  // frees memory: `signals` holds copies
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        machine::leave_if_stopped();
+        machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
         const LaneSignals own = std::move(signals[lane]);
         GearboxId id = ids[lane];
         const std::vector<double> parameters = task_.sampler.row(id);
-        const bool tilted = id.draws != NoiseDraws::plain;
+        const bool importance_sampled = id.noise_sampling != NoiseSampling::plain;
         for (id.repeat = 0; id.repeat < records; ++id.repeat) {
             rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
             // second last parameter; the fault size is the last
             const std::size_t weight = rows.values.size() - 2;
             add_features(id, computed, lane, own, rows);
-            if (tilted && computed.status[lane] == Status::ok) {
+            if (importance_sampled && computed.status[lane] == Status::ok) {
                 rows.values[weight] = features_.noise_weight();
             }
         }
@@ -89,13 +90,13 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     const double noise = features_.noise_s() - noise_before;
     seconds += {computed.sampling_s,
                 computed.stiffness_s,
-                computed.march_s,
+                computed.integration_s,
                 computed.signals_s,
                 noise,
                 spent_s - noise,
                 computed.meshes,
                 computed.superposed,
-                computed.marched_instead};
+                computed.superposition_fallbacks};
 }
 
 void BatchWorker::add_features(const GearboxId& id, const GearboxTile& computed, std::size_t lane,

@@ -7,21 +7,22 @@
 
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
-#include "mc/gearbox/instance_features.hpp"
-#include "mc/gearbox/march_cache.hpp"
+#include "mc/gearbox/integration_cache.hpp"
+#include "mc/gearbox/realization_features.hpp"
 #include "mc/results/batch_rows.hpp"
 
 namespace gearpod::mc {
 
 // Time of one thread in seconds, by task, with counts of the work done.
 struct Seconds {
-    double sampling = 0.0, stiffness = 0.0, march = 0.0, signals = 0.0, noise = 0.0, features = 0.0;
-    long meshes = 0;                           // mesh periods integrated, each for a full tile
-    long superposed = 0, marched_instead = 0;  // records, as in GearboxTile
-    long gearboxes = 0, records = 0;           // of lives: number computed
+    double sampling = 0.0, stiffness = 0.0, integration = 0.0, signals = 0.0, noise = 0.0,
+           features = 0.0;
+    long meshes = 0;  // mesh periods integrated, each for a full tile
+    long superposed = 0, superposition_fallbacks = 0;  // records, as in GearboxTile
+    long gearboxes = 0, records = 0;                   // of lives: number computed
 
     Seconds& operator+=(const Seconds& other);
-    double sum() const { return sampling + stiffness + march + signals + noise + features; }
+    double sum() const { return sampling + stiffness + integration + signals + noise + features; }
 };
 
 // Shape of the result rows of a study.
@@ -33,17 +34,17 @@ struct BatchTask {
         : scene(shared_scene),
           sampler(scene.study()),
           path(path_grid(scene)),
-          marches(scene),
+          cache(scene),
           healthy(healthy_reference(scene, sampler, path)) {}
 
     const Scene& scene;
     const Sampler sampler;
     const signals::PathGrid path;
-    const MarchCache marches;
+    const IntegrationCache cache;
     const HealthyReference healthy;
     // Noise of graded gearboxes with several records. If it is tilted, the sampler must have a
     // column for the importance weights.
-    NoiseDraws graded_draws = NoiseDraws::plain;
+    NoiseSampling graded_noise = NoiseSampling::plain;
 };
 
 // Computes rows on one thread. Holds scratch memory: use one object per thread.
@@ -64,7 +65,7 @@ class BatchWorker {
                       const LaneSignals& signals, BatchRows& rows);
 
     const BatchTask& task_;
-    InstanceFeatures features_;
+    RealizationFeatures features_;
     RowShape shape_;
 };
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 #include "mc/ensemble/batch_exchange.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
@@ -28,7 +28,7 @@ Results results_frame(const Study& study) {
                                     analysis::alarm_of(*feature),
                                     {}});
     }
-    if (teeth_can_part(study)) {
+    if (teeth_can_separate(study)) {
         for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
             results.contact_loss.push_back({mesh_name(mesh), {}});
         }
@@ -43,7 +43,7 @@ std::string prepare(const std::function<BatchComputers()>& make, const EnsembleR
                     BatchComputers& computers) {
     try {
         computers = make();
-    } catch (const machine::Stopped&) {
+    } catch (const machine::Cancelled&) {
         const std::string reason = run.interruption == nullptr ? "" : run.interruption->reason({});
         return reason.empty() ? "the time limit" : reason;
     }
@@ -70,8 +70,8 @@ EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const Ens
         std::max(1, static_cast<int>(std::min<std::size_t>(
                         static_cast<std::size_t>(thread_count(study, run.ranks.on_this_machine())),
                         plan.batches())));
-    BatchCrew crew(computers, plan, threads);
-    return run.ranks.leads() ? lead(crew, plan, run) : follow(crew, run);
+    WorkerTeam team(computers, plan, threads);
+    return run.ranks.leads() ? run_leader(team, plan, run) : run_follower(team, run);
 }
 
 EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
@@ -109,17 +109,18 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& results) {
 std::vector<Timing> timing_of(const EnsembleOutcome& outcome) {
     const Seconds work = outcome.work();
     double waiting = 0.0;
-    for (const CrewTimes& crew : outcome.crews) {
-        waiting += crew.waiting;
+    for (const TeamTimes& team : outcome.teams) {
+        waiting += team.waiting;
     }
     std::vector<Timing> all{
         {"sampling_thread_s", work.sampling}, {"stiffness_thread_s", work.stiffness},
-        {"march_thread_s", work.march},       {"signals_thread_s", work.signals},
+        {"march_thread_s", work.integration}, {"signals_thread_s", work.signals},
         {"noise_thread_s", work.noise},       {"features_thread_s", work.features},
         {"waiting_thread_s", waiting},        {"ensemble_s", outcome.wall_s}};
-    if (work.superposed + work.marched_instead > 0) {
+    if (work.superposed + work.superposition_fallbacks > 0) {
         all.push_back({"superposed_records", static_cast<double>(work.superposed), "1"});
-        all.push_back({"marched_instead_records", static_cast<double>(work.marched_instead), "1"});
+        all.push_back(
+            {"marched_instead_records", static_cast<double>(work.superposition_fallbacks), "1"});
     }
     return all;
 }

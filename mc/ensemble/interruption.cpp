@@ -82,7 +82,7 @@ bool Interruption::signalled() const {
     return caught != 0;
 }
 
-void Interruption::leave_off_in(std::chrono::duration<double> grace) const {
+void Interruption::cancel_in(std::chrono::duration<double> grace) const {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(grace);
     auto before = end_.load();
@@ -90,7 +90,7 @@ void Interruption::leave_off_in(std::chrono::duration<double> grace) const {
     }
 }
 
-void Interruption::let_finish() const {
+void Interruption::disable_cancellation() const {
     finishing_ = true;
 }
 

@@ -6,17 +6,17 @@
 #include <optional>
 #include <string>
 
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 
 namespace gearpod::mc {
 
 // Handles SIGINT, SIGTERM and SIGUSR1 (a batch queue's warning) during its lifetime: the first
 // signal asks the run to end and save. A second SIGINT or SIGTERM ends the program at once, unless
 // it follows the first within kSameRequest. `timeout` and batch queues send a signal to a program
-// and then to its process group. Computations are cancelled (StopWish) one second after the first
-// signal, or at the time limit. SIGXFSZ is ignored, so that writing beyond a limit on the file size
-// is a write error. Only one object may exist at a time.
-class Interruption final : public machine::StopWish {
+// and then to its process group. Computations are cancelled (CancellationSource) one second after
+// the first signal, or at the time limit. SIGXFSZ is ignored, so that writing beyond a limit on the
+// file size is a write error. Only one object may exist at a time.
+class Interruption final : public machine::CancellationSource {
   public:
     // Time for computations that are about to finish when a signal arrives.
     static constexpr std::chrono::seconds kGrace{1};
@@ -36,9 +36,9 @@ class Interruption final : public machine::StopWish {
     bool signalled() const;
 
     // Cancels computations after `grace`, or earlier if that was decided before.
-    void leave_off_in(std::chrono::duration<double> grace) const;
+    void cancel_in(std::chrono::duration<double> grace) const;
     // Disables cancellation: the remaining computations are needed for saving.
-    void let_finish() const;
+    void disable_cancellation() const;
     bool stop() const override;
 
   private:

@@ -46,7 +46,7 @@ void Progress::advance(long count) {
 
 void Progress::watch(std::string rate, std::optional<std::size_t> left) {
     rate_ = std::move(rate);
-    wanted_ = left;
+    rows_left_ = left;
 }
 
 void Progress::show(std::chrono::steady_clock::time_point now) {
@@ -54,7 +54,7 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     const double rate = static_cast<double>(done_ - before_) / elapsed;
     // Rows that the requested interval still needs, if that is less.
     const long missing = total_ - done_;
-    const long left = wanted_ ? std::min(missing, static_cast<long>(*wanted_)) : missing;
+    const long left = rows_left_ ? std::min(missing, static_cast<long>(*rows_left_)) : missing;
     if (form_ == Form::json) {
         return show_json(elapsed, rate, left, false);
     }

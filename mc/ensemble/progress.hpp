@@ -44,7 +44,7 @@ class Progress {
     const long before_;
     long done_ = 0;
     std::string rate_;
-    std::optional<std::size_t> wanted_;
+    std::optional<std::size_t> rows_left_;
 };
 
 }  // namespace gearpod::mc

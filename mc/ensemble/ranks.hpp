@@ -9,13 +9,13 @@
 namespace gearpod::mc {
 
 // Access to the MPI ranks. MPI is initialized only if a launcher is present, so that the program
-// also runs without it. Without MPI in the build (rank_alone.cpp instead of ranks_of_mpi.cpp) there
+// also runs without it. Without MPI in the build (single_rank.cpp instead of mpi_ranks.cpp) there
 // is one rank, and a launcher with several processes is an error. Each process has one object; all
 // calls come from the thread that created it. MPI failures end all ranks.
 class Ranks {
   public:
     // True if the program was built with MPI.
-    static bool of_mpi();
+    static bool built_with_mpi();
     // True if an MPI launcher has started this process.
     static bool launched();
 

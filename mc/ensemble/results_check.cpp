@@ -22,7 +22,7 @@ bool group_after(const analysis::SizeGroup& group, double before) {
 }
 
 // Finds values that no run writes for any study; returns "" if there are none.
-std::string impossible(const Results& frame) {
+std::string invalid_values(const Results& frame) {
     double before = -1.0;
     for (const double level : frame.noise_levels) {
         if (!std::isfinite(level) || level < 0.0 || level <= before) {
@@ -46,7 +46,7 @@ std::string impossible(const Results& frame) {
 }
 
 // Describes the first column whose name or unit differs from the study's.
-std::string unlike(const std::string& where, const auto& columns, const auto& own) {
+std::string column_difference(const std::string& where, const auto& columns, const auto& own) {
     const auto text = [](const auto& list, std::size_t i) {
         return i < list.size() ? list[i].name + " (" + list[i].unit + ")" : "none";
     };
@@ -60,10 +60,10 @@ std::string unlike(const std::string& where, const auto& columns, const auto& ow
 }
 
 // Describes the first difference from the frame of the study's own run.
-std::string unlike_study(const Results& frame, const Results& own) {
-    std::string why = unlike("/instances", frame.parameters, own.parameters);
+std::string study_difference(const Results& frame, const Results& own) {
+    std::string why = column_difference("/instances", frame.parameters, own.parameters);
     if (why.empty()) {
-        why = unlike("/features", frame.features, own.features);
+        why = column_difference("/features", frame.features, own.features);
     }
     if (why.empty() && frame.noise_levels != own.noise_levels) {
         why = fmt::format("/noise_levels has {} levels that differ from the study's {}",
@@ -92,10 +92,10 @@ std::string unlike_study(const Results& frame, const Results& own) {
 class RowCheck {
   public:
     // `healthy`: number of rows of the threshold group, if the study is known.
-    RowCheck(const RowShape& shape, std::optional<std::size_t> healthy, bool open_instances)
-        : shape_(shape), healthy_(healthy), open_(open_instances) {}
+    RowCheck(const RowShape& shape, std::optional<std::size_t> healthy, bool nan_parameters_allowed)
+        : shape_(shape), healthy_(healthy), nan_allowed_(nan_parameters_allowed) {}
 
-    void look_at(const RowBlock& block) {
+    void check_rows(const RowBlock& block) {
         for (std::size_t i = 0; i < block.count() && why_.empty(); ++i) {
             const std::size_t row = block.first + i;
             const int group = block.group[i];
@@ -110,7 +110,7 @@ class RowCheck {
             }
             const double* values = block.values.data() + i * shape_.values();
             if (!std::all_of(values, values + shape_.parameters, [&](double value) {
-                    return std::isfinite(value) || (open_ && std::isnan(value));
+                    return std::isfinite(value) || (nan_allowed_ && std::isnan(value));
                 })) {
                 why_ =
                     fmt::format("/instances of row {} contains a number that is not finite", row);
@@ -126,18 +126,18 @@ class RowCheck {
   private:
     const RowShape shape_;
     const std::optional<std::size_t> healthy_;
-    const bool open_;
+    const bool nan_allowed_;
     std::string why_;
 };
 
 }  // namespace
 
-void check_like(const std::string& path, const Results& frame, const RowSource& rows,
-                const std::optional<ExpectedResults>& expected) {
-    std::string why = impossible(frame);
+void check_against(const std::string& path, const Results& frame, const RowSource& rows,
+                   const std::optional<ExpectedResults>& expected) {
+    std::string why = invalid_values(frame);
     std::optional<std::size_t> healthy;
     if (why.empty() && expected) {
-        why = unlike_study(frame, expected->frame);
+        why = study_difference(frame, expected->frame);
         const auto part = read_part(frame.provenance_value("part"));
         healthy = expected->plan.threshold_rows();
         const std::size_t most = expected->plan.rows();
@@ -150,8 +150,8 @@ void check_like(const std::string& path, const Results& frame, const RowSource& 
         }
     }
     if (why.empty()) {
-        RowCheck check(row_shape(frame), healthy, expected && expected->open_instances);
-        rows.visit([&](const RowBlock& block) { check.look_at(block); });
+        RowCheck check(row_shape(frame), healthy, expected && expected->nan_parameters_allowed);
+        rows.visit([&](const RowBlock& block) { check.check_rows(block); });
         why = check.why();
     }
     if (!why.empty()) {
@@ -170,7 +170,7 @@ void check_results(const std::string& path, const Results& frame, const RowSourc
         const auto part = read_part(frame.provenance_value("part"));
         expected = {results_frame(*study), BatchPlan(study->ensemble, part.value_or(Part{}))};
     }
-    check_like(path, frame, rows, expected);
+    check_against(path, frame, rows, expected);
 }
 
 }  // namespace gearpod::mc

@@ -14,12 +14,12 @@ struct ExpectedResults {
     Results frame;
     BatchPlan plan;
     const char* command = "run";
-    bool open_instances = false;  // true if columns of /instances may be NaN
+    bool nan_parameters_allowed = false;  // true if columns of /instances may be NaN
 };
 // The check of check_results(), with given expectations. `expected` is empty for a study that this
 // program cannot read.
-void check_like(const std::string& path, const Results& frame, const RowSource& rows,
-                const std::optional<ExpectedResults>& expected);
+void check_against(const std::string& path, const Results& frame, const RowSource& rows,
+                   const std::optional<ExpectedResults>& expected);
 
 // Throws std::runtime_error naming the file and the first problem: values that no run writes, or
 // datasets that do not belong to the study in the file. A study of another version that this

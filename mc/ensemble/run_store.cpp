@@ -45,8 +45,8 @@ void BatchFiller::add(const RowBlock& block) {
     }
 }
 
-std::string why_not_grown(const Results& old, const std::string& path, const Study& study,
-                          const Part& part) {
+std::string why_not_extendable(const Results& old, const std::string& path, const Study& study,
+                               const Part& part) {
     const auto there = read_study_text(old.provenance_value("study"), path).study;
     Study as_there = study;
     const auto healthy = there ? there->ensemble.threshold_instances : 0;
@@ -78,12 +78,12 @@ RowBlock of_group(const RowBlock& block, Group group, std::size_t shift) {
     return out;
 }
 
-std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::string& path,
-                                 const RunIdentity& identity, const Study& study,
-                                 const BatchPlan& plan, const StoreOptions& options) {
+std::unique_ptr<Checkpoint> extend_results(const std::string& results_path, const std::string& path,
+                                           const RunIdentity& identity, const Study& study,
+                                           const BatchPlan& plan, const StoreOptions& options) {
     const Results old = read_frame(results_path);
     const FileRows rows(results_path, old);
-    const std::string why = why_not_grown(old, results_path, study, options.part);
+    const std::string why = why_not_extendable(old, results_path, study, options.part);
     if (!why.empty()) {
         throw std::runtime_error(results_path + ": cannot be continued: it " + why);
     }
@@ -114,7 +114,7 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
 
 // Reason why a run of `identity` must not overwrite the existing file, or "". Results of the same
 // study by another version of the program may be overwritten.
-std::string why_precious(const std::string& results_path, const RunIdentity& identity) {
+std::string why_not_overwritable(const std::string& results_path, const RunIdentity& identity) {
     std::error_code none;
     if (!Checkpoint::exists(results_path) || std::filesystem::file_size(results_path, none) == 0) {
         return "";
@@ -130,7 +130,7 @@ std::string why_precious(const std::string& results_path, const RunIdentity& ide
     }
 }
 
-void tell(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string& from) {
+void report_resumed(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string& from) {
     for (const std::string& finding : checkpoint.findings()) {
         fmt::print(stderr, "{}\n", finding);
     }
@@ -141,7 +141,7 @@ void tell(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string
 }  // namespace
 
 std::string checkpoint_path(const std::string& results_path) {
-    return behind_links(results_path) + ".part";
+    return resolve_links(results_path) + ".part";
 }
 
 std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
@@ -161,12 +161,12 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& 
     if (options.resume && Checkpoint::exists(path)) {
         from = path;
         checkpoint = Checkpoint::resume(path, identity, plan);
-    } else if (options.resume && Checkpoint::exists(behind_links(results_path))) {
+    } else if (options.resume && Checkpoint::exists(resolve_links(results_path))) {
         from = results_path;
-        checkpoint = grow(results_path, path, identity, study, plan, options);
+        checkpoint = extend_results(results_path, path, identity, study, plan, options);
     } else {
         const std::string why =
-            options.force ? "" : why_precious(behind_links(results_path), identity);
+            options.force ? "" : why_not_overwritable(resolve_links(results_path), identity);
         if (!why.empty()) {
             throw std::runtime_error(why +
                                      "; name another file with --out, or overwrite this one with "
@@ -179,7 +179,7 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& 
         }
     }
     if (!from.empty() && (!options.quiet || !checkpoint->findings().empty())) {
-        tell(*checkpoint, plan, from);
+        report_resumed(*checkpoint, plan, from);
     }
     return checkpoint;
 }

@@ -22,8 +22,8 @@ RunIdentity identity_of(const Results& results, const std::string& path);
 // Reason why finished results cannot be extended to those of the study, as text to follow the
 // file's name, or "". The results may have fewer gearboxes in either group. The threshold sample of
 // a part must be unchanged, because it determines the other parts.
-std::string why_not_grown(const Results& old, const std::string& path, const Study& study,
-                          const Part& part);
+std::string why_not_extendable(const Results& old, const std::string& path, const Study& study,
+                               const Part& part);
 // Part of the ensemble that the results cover.
 Part part_of(const Results& results);
 

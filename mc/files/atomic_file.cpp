@@ -146,7 +146,7 @@ std::string why_not_replaceable(const std::string& path) {
 
 }  // namespace
 
-std::string behind_links(std::string path) {
+std::string resolve_links(std::string path) {
     constexpr int kMostLinks = 40;  // the kernel's limit
     for (int i = 0; i < kMostLinks; ++i) {
         std::error_code error;
@@ -164,7 +164,7 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
     if (!kind.empty()) {
         throw std::runtime_error(path + ": cannot be written (" + kind + ")");
     }
-    const std::string target = behind_links(path);
+    const std::string target = resolve_links(path);
     Temporary file(target);
     int error = file.error();
     if (error == 0) {
@@ -180,7 +180,7 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
 }
 
 PendingFile::PendingFile(const std::string& path)
-    : path_(path), target_(behind_links(path)), name_(target_ + ".new") {
+    : path_(path), target_(resolve_links(path)), name_(target_ + ".new") {
     std::string kind = why_not_replaceable(path);
     if (kind.empty()) {
         kind = why_not_pending(path);
@@ -210,7 +210,7 @@ void PendingFile::fail(int error) const {
 }
 
 std::string why_not_pending(const std::string& path) {
-    const std::string name = behind_links(path) + ".new";
+    const std::string name = resolve_links(path) + ".new";
     struct stat status {};
     if (::lstat(name.c_str(), &status) != 0) {
         return "";
@@ -231,7 +231,7 @@ bool same_file(const std::string& one, const std::string& other) {
     }
     const auto place = [](const std::string& path) {
         std::error_code none;
-        const std::filesystem::path end = behind_links(path);
+        const std::filesystem::path end = resolve_links(path);
         const auto whole = std::filesystem::weakly_canonical(end, none);
         return none ? end : whole;
     };
@@ -263,7 +263,7 @@ std::string why_not_writable(const std::string& name) {
         return kind;
     }
     struct stat status {};
-    const std::string path = behind_links(name);
+    const std::string path = resolve_links(name);
     const std::string folder = folder_of(path);
     if (::stat(folder.c_str(), &status) != 0) {
         return "its folder " + folder + " cannot be used (" + std::strerror(errno) + ")";

@@ -54,6 +54,6 @@ int create_exclusively(const std::string& path, std::span<const std::byte> bytes
 
 // Target of a chain of symbolic links, whether it exists or not. Returns the last link followed if
 // the chain has no end.
-std::string behind_links(std::string path);
+std::string resolve_links(std::string path);
 
 }  // namespace gearpod::mc

@@ -29,10 +29,10 @@ namespace {
 constexpr std::size_t kFreeMemory = std::size_t{256} << 20, kMemoryPerByte = 1000;
 // Time without any reply after which reading fails: this time, plus one second per ten megabytes of
 // the file.
-constexpr std::uintmax_t kPatience_ms = 8000, kBytes_ms = 10000, kMostPatience_ms = 3600000;
+constexpr std::uintmax_t kTimeout_ms = 8000, kBytes_ms = 10000, kLongestTimeout_ms = 3600000;
 
-enum class Question : char { names, read, unit, sampling_Hz };
-enum class Answer : char { good, refused };
+enum class Request : char { names, read, unit, sampling_Hz };
+enum class Reply : char { good, refused };
 
 bool send_all(int fd, const void* data, std::size_t size) {
     const char* at = static_cast<const char*>(data);
@@ -50,12 +50,12 @@ bool send_all(int fd, const void* data, std::size_t size) {
     return true;
 }
 
-// Waits at most `patience_ms` for each part; -1 waits without limit.
-bool receive_all(int fd, void* data, std::size_t size, int patience_ms) {
+// Waits at most `timeout_ms` for each part; -1 waits without limit.
+bool receive_all(int fd, void* data, std::size_t size, int timeout_ms) {
     char* at = static_cast<char*>(data);
     while (size > 0) {
         pollfd ready{fd, POLLIN, 0};
-        const int found = ::poll(&ready, 1, patience_ms);
+        const int found = ::poll(&ready, 1, timeout_ms);
         if (found < 0 && errno == EINTR) {
             continue;
         }
@@ -75,14 +75,14 @@ bool send_message(int fd, char kind, std::span<const char> bytes) {
     return send_all(fd, &kind, 1) && send_all(fd, &length, sizeof length) &&
            send_all(fd, bytes.data(), bytes.size());
 }
-bool receive_message(int fd, char& kind, std::string& bytes, int patience_ms) {
+bool receive_message(int fd, char& kind, std::string& bytes, int timeout_ms) {
     std::uint64_t length = 0;
-    if (!receive_all(fd, &kind, 1, patience_ms) ||
-        !receive_all(fd, &length, sizeof length, patience_ms)) {
+    if (!receive_all(fd, &kind, 1, timeout_ms) ||
+        !receive_all(fd, &length, sizeof length, timeout_ms)) {
         return false;
     }
     bytes.resize(length);
-    return receive_all(fd, bytes.data(), length, patience_ms);
+    return receive_all(fd, bytes.data(), length, timeout_ms);
 }
 
 std::string bytes_of_doubles(std::span<const double> values) {
@@ -101,20 +101,20 @@ std::vector<double> doubles_in(const std::string& bytes) {
     return values;
 }
 
-std::string answer_to(Question question, const std::string& name, SignalFile& file) {
-    switch (question) {
-        case Question::names: {
+std::string reply_to(Request request, const std::string& name, SignalFile& file) {
+    switch (request) {
+        case Request::names: {
             std::string all;
             for (const std::string& one : file.names()) {
                 all += one + '\0';
             }
             return all;
         }
-        case Question::read:
+        case Request::read:
             return bytes_of_doubles(file.read(name));
-        case Question::unit:
+        case Request::unit:
             return file.unit(name);
-        case Question::sampling_Hz:
+        case Request::sampling_Hz:
             break;
     }
     const std::optional<double> rate = file.sampling_Hz();
@@ -144,22 +144,22 @@ void limit_memory(std::size_t more) {
     }
     limit_memory(memory);
     std::unique_ptr<SignalFile> file;
-    Question question = Question::names;  // the first reply reports whether the file can be opened
+    Request request = Request::names;  // the first reply reports whether the file can be opened
     std::string name;
-    for (char kind = 0;; question = static_cast<Question>(kind)) {
-        Answer answer = Answer::good;
+    for (char kind = 0;; request = static_cast<Request>(kind)) {
+        Reply reply = Reply::good;
         std::string text;
         try {
             file = file ? std::move(file) : open();
-            text = answer_to(question, name, *file);
+            text = reply_to(request, name, *file);
         } catch (const SignalError& error) {
-            answer = Answer::refused;
+            reply = Reply::refused;
             text = error.what();
         } catch (const std::bad_alloc&) {
-            answer = Answer::refused;
+            reply = Reply::refused;
             text = path + ": needs more memory than allowed, or is damaged";
         }
-        if (!send_message(fd, static_cast<char>(answer), text) || !file ||
+        if (!send_message(fd, static_cast<char>(reply), text) || !file ||
             !receive_message(fd, kind, name, -1)) {
             ::_exit(0);
         }
@@ -181,8 +181,8 @@ class IsolatedSignal : public SignalFile {
         std::error_code error;
         const auto found = std::filesystem::file_size(path, error);
         const std::uintmax_t size = error ? 0 : found;
-        patience_ms_ =
-            static_cast<int>(std::min(kPatience_ms + size / kBytes_ms, kMostPatience_ms));
+        timeout_ms_ =
+            static_cast<int>(std::min(kTimeout_ms + size / kBytes_ms, kLongestTimeout_ms));
         child_ = ::fork();
         if (child_ < 0) {
             throw SignalError(fmt::format("{}: cannot be read: creating a process failed ({})",
@@ -198,7 +198,7 @@ class IsolatedSignal : public SignalFile {
         }
         there.close();
         try {
-            const std::string all = answer();
+            const std::string all = receive_reply();
             for (std::size_t at = 0; at < all.size(); at = all.find('\0', at) + 1) {
                 names_.emplace_back(all.c_str() + at);
             }
@@ -213,28 +213,28 @@ class IsolatedSignal : public SignalFile {
 
     std::vector<std::string> names() const override { return names_; }
     std::vector<double> read(const std::string& name) override {
-        return doubles_in(ask(Question::read, name));
+        return doubles_in(send_request(Request::read, name));
     }
-    std::string unit(const std::string& name) override { return ask(Question::unit, name); }
+    std::string unit(const std::string& name) override { return send_request(Request::unit, name); }
     std::optional<double> sampling_Hz() override {
-        const std::vector<double> rate = doubles_in(ask(Question::sampling_Hz, ""));
+        const std::vector<double> rate = doubles_in(send_request(Request::sampling_Hz, ""));
         return rate.empty() ? std::nullopt : std::optional(rate.front());
     }
 
   private:
-    std::string ask(Question question, const std::string& name) {
-        send_message(here_->get(), static_cast<char>(question), name);
-        return answer();
+    std::string send_request(Request request, const std::string& name) {
+        send_message(here_->get(), static_cast<char>(request), name);
+        return receive_reply();
     }
-    std::string answer() {
+    std::string receive_reply() {
         char kind = 0;
         std::string text;
-        if (!receive_message(here_->get(), kind, text, patience_ms_)) {
+        if (!receive_message(here_->get(), kind, text, timeout_ms_)) {
             throw SignalError(
                 path_ +
                 ": is damaged: the library for this file type crashes on it, or does not finish");
         }
-        if (static_cast<Answer>(kind) == Answer::refused) {
+        if (static_cast<Reply>(kind) == Reply::refused) {
             throw SignalError(text);
         }
         return text;
@@ -252,7 +252,7 @@ class IsolatedSignal : public SignalFile {
     std::string path_;
     std::unique_ptr<Descriptor> here_;
     pid_t child_ = -1;
-    int patience_ms_ = 0;
+    int timeout_ms_ = 0;
     std::vector<std::string> names_;
 };
 

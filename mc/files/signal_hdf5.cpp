@@ -12,7 +12,7 @@ namespace {
 
 // True if the values of a member are in another file. The author of the file could choose any path
 // for it.
-bool lies_elsewhere(hid_t group, const std::string& name) {
+bool is_external(hid_t group, const std::string& name) {
     H5L_info_t link{};
     check(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), name);
     if (link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) {
@@ -50,8 +50,8 @@ Shape shape_of(hid_t group, const std::string& name) {
     return shape;
 }
 
-void refuse_elsewhere(const std::string& path, hid_t group, const std::string& name) {
-    if (lies_elsewhere(group, name)) {
+void reject_external(const std::string& path, hid_t group, const std::string& name) {
+    if (is_external(group, name)) {
         throw SignalError(
             fmt::format("{}: {} is stored in another file (by a link, or external or virtual "
                         "storage), which is not supported; copy it into this file, for example "
@@ -65,7 +65,7 @@ Hdf5Handle signals_of(const std::string& path, hid_t file) {
     if (H5Lexists(file, "signals", H5P_DEFAULT) <= 0) {
         return open_group(file, "/");
     }
-    refuse_elsewhere(path, file, "signals");
+    reject_external(path, file, "signals");
     return open_group(file, "signals");
 }
 
@@ -83,7 +83,7 @@ std::vector<std::string> columns_of(const std::string& path, hid_t group, int di
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
                            H5P_DEFAULT);
         name.pop_back();
-        refuse_elsewhere(path, group, name);
+        reject_external(path, group, name);
         if (dimensions_of(group, name) == dimensions) {
             names.push_back(name);
         }

@@ -21,9 +21,9 @@ struct History {
     std::vector<double> values;
 };
 
-class Reading {
+class UffReader {
   public:
-    explicit Reading(const std::string& path) : path_(path), stream_(path, std::ios::binary) {}
+    explicit UffReader(const std::string& path) : path_(path), stream_(path, std::ios::binary) {}
 
     std::vector<History> read() {
         std::vector<History> all;
@@ -152,7 +152,7 @@ class Reading {
 
 class SignalUff : public SignalFile {
   public:
-    explicit SignalUff(const std::string& path) : path_(path), all_(Reading(path).read()) {}
+    explicit SignalUff(const std::string& path) : path_(path), all_(UffReader(path).read()) {}
 
     std::vector<std::string> names() const override {
         std::vector<std::string> names;

@@ -80,7 +80,7 @@ class Trend {
 // Computed gearboxes of one group, sorted by fault size.
 class Pool {
   public:
-    Pool(const RunCalibration& calibration, const RowShape& shape, Group group)
+    Pool(const RunCost& calibration, const RowShape& shape, Group group)
         : rows_(calibration.rows), shape_(shape) {
         for (std::size_t row = 0; row < calibration.gearboxes.size(); ++row) {
             if (calibration.gearboxes[row].group == group) {
@@ -94,12 +94,12 @@ class Pool {
     bool empty() const { return order_.empty(); }
 
     // Random gearbox with this fault size, or any gearbox of the group if there is none.
-    std::size_t draw(double wanted, Philox& engine) const {
-        auto [low, high] =
-            std::pair(std::partition_point(order_.begin(), order_.end(),
-                                           [&](std::size_t row) { return size(row) < wanted; }),
-                      std::partition_point(order_.begin(), order_.end(),
-                                           [&](std::size_t row) { return size(row) <= wanted; }));
+    std::size_t draw(double requested, Philox& engine) const {
+        auto [low, high] = std::pair(
+            std::partition_point(order_.begin(), order_.end(),
+                                 [&](std::size_t row) { return size(row) < requested; }),
+            std::partition_point(order_.begin(), order_.end(),
+                                 [&](std::size_t row) { return size(row) <= requested; }));
         if (low == high) {
             low = order_.begin();
             high = order_.end();
@@ -182,9 +182,8 @@ double seconds_of_analysis(Results results, int threads, bool assessed) {
 
 }  // namespace
 
-Results made_up_results(const Study& study, const RunCalibration& calibration,
-                        const BatchPlan& plan, std::size_t rows,
-                        const std::vector<std::size_t>& levels) {
+Results synthetic_results(const Study& study, const RunCost& calibration, const BatchPlan& plan,
+                          std::size_t rows, const std::vector<std::size_t>& levels) {
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
     Results results = results_frame(study);
@@ -218,9 +217,9 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
         boost::random::normal_distribution<double> normal;
         const Pool& own = pools[static_cast<std::size_t>(id.group)];
         const Pool& pool = own.empty() ? scatter : own;
-        const std::size_t like = pool.draw(parameters.back(), engine);
+        const std::size_t template_row = pool.draw(parameters.back(), engine);
         results.group.push_back(static_cast<int>(id.group));
-        results.status.push_back(calibration.rows.status[like]);
+        results.status.push_back(calibration.rows.status[template_row]);
         for (std::size_t p = 0; p < shape.parameters; ++p) {
             results.parameters[p].values.push_back(parameters[p]);
         }
@@ -229,8 +228,8 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
                 const std::size_t at = f * levels.size() + l;
                 const Trend& trend = trends[static_cast<std::size_t>(id.group)][at];
                 results.features[f].values.push_back(
-                    pool.value(like, f, levels[l]) + trend.at(parameters.back()) -
-                    trend.at(pool.size(like)) + smoothing[at] * normal(engine));
+                    pool.value(template_row, f, levels[l]) + trend.at(parameters.back()) -
+                    trend.at(pool.size(template_row)) + smoothing[at] * normal(engine));
             }
         }
     }
@@ -256,8 +255,8 @@ double assessment_bytes(const Study& study, const BatchPlan& plan) {
                     kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
 }
 
-AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration,
-                           const BatchPlan& plan, int threads, double budget_s) {
+AnalysisTrial measure_analysis(const Study& study, const RunCost& calibration,
+                               const BatchPlan& plan, int threads, double budget_s) {
     AnalysisTrial trial;
     const std::size_t levels = study.sensor.noise_levels.size();
     const bool assessed = values_of(study, plan) <= kMostAssessedValues;
@@ -277,7 +276,7 @@ AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration
         std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
         std::sort(now.begin(), now.end());
         trial.total_s += seconds_of_analysis(
-            made_up_results(gearboxes, calibration, plan, trial.rows, now), threads, assessed);
+            synthetic_results(gearboxes, calibration, plan, trial.rows, now), threads, assessed);
         trial.levels += count;
         trial.trial_s = seconds_since(start);
     }

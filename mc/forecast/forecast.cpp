@@ -19,55 +19,56 @@ constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
 // Costs of the tiles of a group in order: first those to integrate, then those found in the cache.
 class Tiles {
   public:
-    Tiles(const GroupCost& cost, std::size_t marched) : cost_(cost), marches_left_(marched) {}
+    Tiles(const GroupCost& cost, std::size_t integrated)
+        : cost_(cost), integrations_left_(integrated) {}
 
     const TileCost& next() {
-        if (marches_left_ == 0) {
+        if (integrations_left_ == 0) {
             return cost_.reused;
         }
-        --marches_left_;
-        return cost_.fresh;
+        --integrations_left_;
+        return cost_.integrated;
     }
 
   private:
     const GroupCost& cost_;
-    std::size_t marches_left_;
+    std::size_t integrations_left_;
 };
 
 // Calls visit(cost, rows) for the tiles of a batch.
 template <class Visit>
-void each_tile(const Batch& batch, std::size_t lanes, Tiles& tiles, Visit visit) {
+void for_each_tile(const Batch& batch, std::size_t lanes, Tiles& tiles, Visit visit) {
     for (std::size_t first = 0; first < batch.gearboxes; first += lanes) {
         visit(tiles.next(), std::min(lanes, batch.gearboxes - first) * batch.records);
     }
 }
 
-std::array<Tiles, 2> tiles_of(const RunCalibration& calibration, const MarchCounts& marches) {
-    return {Tiles(calibration.cost[0], marches.marched[0]),
-            Tiles(calibration.cost[1], marches.marched[1])};
+std::array<Tiles, 2> tiles_of(const RunCost& calibration, const IntegrationCounts& integrations) {
+    return {Tiles(calibration.cost[0], integrations.integrated[0]),
+            Tiles(calibration.cost[1], integrations.integrated[1])};
 }
 
-Seconds all_work(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
-                 const MarchCounts& marches) {
-    auto tiles = tiles_of(calibration, marches);
+Seconds all_work(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+                 const IntegrationCounts& integrations) {
+    auto tiles = tiles_of(calibration, integrations);
     Seconds work;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
-        each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
-                  [&](const TileCost& cost, std::size_t rows) {
-                      work += cost.whole;
-                      work.noise += static_cast<double>(rows) * cost.row.noise;
-                      work.features += static_cast<double>(rows) * cost.row.features;
-                  });
+        for_each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+                      [&](const TileCost& cost, std::size_t rows) {
+                          work += cost.whole;
+                          work.noise += static_cast<double>(rows) * cost.row.noise;
+                          work.features += static_cast<double>(rows) * cost.row.features;
+                      });
     }
     return work;
 }
 
 }  // namespace
 
-double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
-                   const MarchCounts& marches) {
-    auto tiles = tiles_of(calibration, marches);
+double gearboxes_s(const RunCost& calibration, const BatchPlan& plan, std::size_t lanes,
+                   const IntegrationCounts& integrations) {
+    auto tiles = tiles_of(calibration, integrations);
     // Times at which the threads become free; the earliest is on top.
     std::priority_queue<double, std::vector<double>, std::greater<>> free(
         {},
@@ -76,8 +77,9 @@ double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
         double seconds = 0.0;
-        each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
-                  [&](const TileCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
+        for_each_tile(
+            batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+            [&](const TileCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
         const double done = free.top() + seconds;
         free.pop();
         free.push(done);
@@ -86,23 +88,23 @@ double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std
     return last;
 }
 
-double verification_s(const Scene& scene, const RunCalibration& calibration) {
+double verification_s(const Scene& scene, const RunCost& calibration) {
     const auto start = WallClock::now();
     const FinerScene finer = finer_scene(scene);
     if (!finer.scene) {
         return 0.0;
     }
     const double setup_s = seconds_since(start);
-    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].fresh;
+    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].integrated;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const double march_s = mesh_period_s(*finer.scene) * marched_meshes(*finer.scene);
-    return setup_s + 2.0 * own.seconds(lanes) - own.whole.march + march_s;
+    const double integration_s = mesh_period_s(*finer.scene) * integrated_meshes(*finer.scene);
+    return setup_s + 2.0 * own.seconds(lanes) - own.whole.integration + integration_s;
 }
 
-double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double motion_bytes,
-                    double analysis_bytes) {
+double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integrations,
+                    double motion_bytes, double analysis_bytes) {
     const double kept =
-        std::max(0.0, memory.kept + static_cast<double>(marches.kept) * motion_bytes);
+        std::max(0.0, memory.kept + static_cast<double>(integrations.kept) * motion_bytes);
     // The analysis reuses the memory of the gearboxes.
     return std::max(memory.peak + memory.records + kept,
                     memory.before + analysis_bytes + kFileBytes);
@@ -114,18 +116,17 @@ double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads
                     assessment_bytes(scene.study(), plan));
 }
 
-RunForecast forecast_run(const Scene& scene, const BatchPlan& plan,
-                         const RunCalibration& calibration, const AnalysisTrial& analysis,
-                         double setup_s) {
+RunForecast forecast_run(const Scene& scene, const BatchPlan& plan, const RunCost& calibration,
+                         const AnalysisTrial& analysis, double setup_s) {
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double motion = motion_bytes(scene);
-    const MarchCounts marches = count_marches(scene, plan, motion);
+    const IntegrationCounts integrations = count_integrations(scene, plan, motion);
     RunForecast forecast;
     forecast.setup_s = setup_s + calibration.task_s + kFiles_s;
-    forecast.gearboxes_s = gearboxes_s(calibration, plan, lanes, marches);
-    forecast.work = all_work(calibration, plan, lanes, marches);
+    forecast.gearboxes_s = gearboxes_s(calibration, plan, lanes, integrations);
+    forecast.work = all_work(calibration, plan, lanes, integrations);
     forecast.detection_s = analysis.total_s + verification_s(scene, calibration);
-    forecast.memory_bytes = memory_bytes(calibration.memory, marches, motion, analysis.bytes);
+    forecast.memory_bytes = memory_bytes(calibration.memory, integrations, motion, analysis.bytes);
     return forecast;
 }
 

@@ -49,7 +49,7 @@ double peak_memory_bytes() {
     return entry_of("/proc/self/status", "VmHWM:", 0.0);
 }
 
-double memory_at_hand_bytes() {
+double available_memory_bytes() {
     return std::min(
         {entry_of("/proc/meminfo", "MemAvailable:", kUnlimited), left_in_group(), left_of_limit()});
 }

@@ -8,6 +8,6 @@ double peak_memory_bytes();
 
 // Memory that this process may still allocate: the minimum for the machine, its control group and
 // its own limit.
-double memory_at_hand_bytes();
+double available_memory_bytes();
 
 }  // namespace gearpod::mc

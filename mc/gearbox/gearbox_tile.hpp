@@ -11,12 +11,12 @@
 #include "mc/scene/scene.hpp"
 #include "signals/noise/tones.hpp"
 #include "signals/path/transmission_path.hpp"
-#include "signals/sensor/heard_span.hpp"
+#include "signals/sensor/sensor_response.hpp"
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::mc {
 
-class MarchCache;  // march_cache.hpp
+class IntegrationCache;  // integration_cache.hpp
 
 // Signals of one lane of a tile.
 struct LaneSignals {
@@ -28,33 +28,35 @@ struct LaneSignals {
     const LaneSignals* baseline = nullptr;
 };
 
-// Results of a tile. `march.records` owns the data that `views` refers to. If `heard` recorded the
-// sensor signal, `march.records` holds only the healthy mesh period.
+// Results of a tile. `integration.records` owns the data that `views` refers to. If
+// `sensor_response` recorded the sensor signal, `integration.records` holds only the healthy mesh
+// period.
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one entry per lane
-    lockstep::TileResult march;
+    lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
-    std::unique_ptr<signals::HeardSpan> heard;  // null if the records were kept
-    signals::Tones tones;                       // interfering tones; may be empty
+    std::unique_ptr<signals::SensorResponse> sensor_response;  // null if the records were kept
+    signals::Tones tones;                                      // interfering tones; may be empty
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
     // One entry per requested gearbox. Empty unless a feature compares with the baseline record.
     std::vector<LaneSignals> baseline;
 
-    double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+    double sampling_s = 0.0, stiffness_s = 0.0, integration_s = 0.0, signals_s = 0.0;
     // Number of records (baselines included) computed by superposition, and number that fell back
     // to full integration.
-    std::ptrdiff_t superposed = 0, marched_instead = 0;
-    int meshes = 0;  // mesh periods integrated for this tile; 0 if `march` came from the cache
-    double march_cpu_s = 0.0;  // processor time of this thread for the time integration
+    std::ptrdiff_t superposed = 0, superposition_fallbacks = 0;
+    int meshes =
+        0;  // mesh periods integrated for this tile; 0 if `integration` came from the cache
+    double integration_cpu_s = 0.0;  // processor time of this thread for the time integration
 };
 
 // Tables of the transfer path of a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
 // Optional outputs of a tile.
-struct TileWishes {
+struct TileOptions {
     // If with_motion, keep_states or with_records is set, the records of every mesh period are
     // kept.
     bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
@@ -63,7 +65,7 @@ struct TileWishes {
     // Number of mesh periods of sensor samples to keep if the signal is recorded during
     // integration; -1 keeps all.
     int signal_meshes = -1;
-    const MarchCache* marches = nullptr;  // earlier results, which are reused
+    const IntegrationCache* cache = nullptr;  // earlier results, which are reused
 };
 
 // Runs the gearboxes in `ids`, at most one per lane. The number of lanes is `fewest` (16, 8, 4 or
@@ -73,28 +75,28 @@ struct TileWishes {
 // integrated, the sensor signals are recorded during integration and the motion is not kept.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
-                          const TileWishes& wishes = {});
+                          const TileOptions& options = {});
 
 // Runs the test records of gearboxes with the given inputs, without baselines. The distributions of
 // the study are not used.
-GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
-                      std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                      int fewest, const TileWishes& wishes = {});
+GearboxTile run_with_inputs(const Scene& scene, const signals::PathGrid& path,
+                            std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
+                            int fewest, const TileOptions& options = {});
 
 // Integrates only the mesh periods that the faults of gearboxes with the given inputs change.
 // Starts from the healthy states of the same gearboxes; their number must equal the number of
 // lanes. Sets only inputs, march and status of the result.
-GearboxTile run_changes(const Scene& scene, std::span<const GearboxId> ids,
-                        std::vector<InstanceInputs> inputs,
-                        const std::vector<lockstep::TileState>& healthy);
+GearboxTile run_fault_perturbations(const Scene& scene, std::span<const GearboxId> ids,
+                                    std::vector<InstanceInputs> inputs,
+                                    const std::vector<lockstep::TileState>& healthy);
 
 // Views of the recorded motion of a tile, which must outlive them.
 signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
 
 // Completes a tile from a time integration made elsewhere, as run_gearboxes does. The number of
-// lanes is the number of status entries of `march`.
-GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, lockstep::TileResult march);
+// lanes is the number of status entries of `integration`.
+GearboxTile complete_tile(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult integration);
 
 // Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.
 // `meshes` is the number of meshes; 0 gives an empty result.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "machine/stop.hpp"
-#include "mc/gearbox/instance_signals.hpp"
+#include "machine/cancellation.hpp"
+#include "mc/gearbox/realization_signals.hpp"
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
@@ -63,7 +63,7 @@ HealthyReference healthy_reference(const Scene& scene, const Sampler& sampler,
 HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
                                      const signals::PathGrid& path) {
     const int lanes = scene.study().numerics.lanes;
-    InstanceSignals records(scene, features::kSensorTurn);
+    RealizationSignals records(scene, features::kSensorTurn);
     const std::size_t levels = scene.study().sensor.noise_levels.size();
     HealthyRecordsMean mean(levels);
     for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
@@ -75,7 +75,7 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
             run_gearboxes(scene, sampler, path, ids, lanes, {.signal_meshes = records.meshes()});
         const auto signals = all_lane_signals(scene, path, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-            machine::leave_if_stopped();
+            machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
                 records.load(signals[lane], tile.inputs[lane], ids[lane]);
                 for (std::size_t level = 0; level < levels; ++level) {

@@ -1,6 +1,6 @@
 // Extracts the signals of one gearbox of a tile, or of all of them.
-#include "mc/gearbox/ears.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
@@ -11,7 +11,7 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
                                scene.samples_per_mesh(),
                                {},
                                {}};
-    for (const lockstep::MeshRecord& record : tile.march.records) {
+    for (const lockstep::MeshRecord& record : tile.integration.records) {
         views.accel.push_back(record.acceleration.data());
         views.te.push_back(record.te.data());
     }
@@ -23,30 +23,30 @@ namespace {
 // All signals of a lane except the sensor samples.
 LaneSignals folded_lane(const GearboxTile& tile, int lane) {
     const auto lanes = static_cast<std::size_t>(tile.views.lanes);
-    LaneSignals own;
-    own.folded.resize(tile.folded.size() / lanes);
-    own.te_turn.resize(tile.te_turn.size() / lanes);
-    signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
-    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
+    LaneSignals lane_result;
+    lane_result.folded.resize(tile.folded.size() / lanes);
+    lane_result.te_turn.resize(tile.te_turn.size() / lanes);
+    signals::copy_lane(tile.folded, tile.views.lanes, lane, lane_result.folded);
+    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, lane_result.te_turn);
     if (!tile.baseline.empty()) {
-        own.baseline = &tile.baseline[static_cast<std::size_t>(lane)];
+        lane_result.baseline = &tile.baseline[static_cast<std::size_t>(lane)];
     }
-    return own;
+    return lane_result;
 }
 
 }  // namespace
 
 LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
                          int lane, int meshes) {
-    LaneSignals own = folded_lane(tile, lane);
-    if (meshes > 0 && tile.heard != nullptr) {
-        own.sensor = tile.heard->signal(lane, meshes);
+    LaneSignals lane_result = folded_lane(tile, lane);
+    if (meshes > 0 && tile.sensor_response != nullptr) {
+        lane_result.sensor = tile.sensor_response->signal(lane, meshes);
     } else if (meshes > 0) {
-        own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
-                                         tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
-                                         0, meshes, tile.tones);
+        lane_result.sensor = signals::synthesize(
+            tile.views, lane, tile.integration.content, scene.span(), path,
+            tile.inputs[static_cast<std::size_t>(lane)].path_exponent, 0, meshes, tile.tones);
     }
-    return own;
+    return lane_result;
 }
 
 std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
@@ -57,9 +57,9 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::Pat
     }
     if (meshes > 0) {
         auto sensor =
-            tile.heard != nullptr
-                ? tile.heard->signals(all.size(), meshes)
-                : signals::synthesize(tile.views, tile.march.content, scene.span(), path,
+            tile.sensor_response != nullptr
+                ? tile.sensor_response->signals(all.size(), meshes)
+                : signals::synthesize(tile.views, tile.integration.content, scene.span(), path,
                                       path_exponents(std::span(tile.inputs).first(all.size())), 0,
                                       meshes, tile.tones);
         for (std::size_t lane = 0; lane < all.size(); ++lane) {

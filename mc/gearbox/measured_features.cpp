@@ -24,8 +24,8 @@ using features::Feature;
 constexpr int kFewestOfParts = 4;  // samples per mesh period that mesh_separation.hpp needs
 
 // Reason why a feature cannot be computed from this signal; "" if it can.
-std::string missing(const Feature& feature, const Scene& scene, const MeasuredSignal& signal,
-                    bool has_reference) {
+std::string why_unavailable(const Feature& feature, const Scene& scene,
+                            const MeasuredSignal& signal, bool has_reference) {
     const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
     if ((feature.needs & (features::kSun | features::kRing)) != 0 && !planetary) {
         return "the gearbox has no sun and no ring";
@@ -195,23 +195,24 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
         }
     }
     std::vector<MeasuredFeature>& all = measurement.features;
-    std::vector<const Feature*> there;
+    std::vector<const Feature*> available;
     for (const Feature& feature : measurable(baseline)) {
-        const bool of_change = feature.compared == features::Compared::change;
-        std::string why = missing(feature, scene, signal, has_reference);
+        const bool of_change = feature.baseline_use == features::BaselineUse::change;
+        std::string why = why_unavailable(feature, scene, signal, has_reference);
         if (why.empty() && of_change) {
-            why = measurement.change ? missing(feature, scene, measurement.change->signal, true)
-                                     : no_change;
-        } else if (why.empty() && feature.compared == features::Compared::baseline) {
-            why = missing(feature, scene, baseline->signal, has_reference);
+            why = measurement.change
+                      ? why_unavailable(feature, scene, measurement.change->signal, true)
+                      : no_change;
+        } else if (why.empty() && feature.baseline_use == features::BaselineUse::baseline) {
+            why = why_unavailable(feature, scene, baseline->signal, has_reference);
             why = why.empty() ? why : baseline->file + ": " + why;
         }
         all.push_back({&feature, 0.0, why});
         if (why.empty()) {
-            there.push_back(&feature);
+            available.push_back(&feature);
         }
     }
-    const ComparedNeeds needs = compared_needs(there);
+    const ComparedNeeds needs = compared_needs(available);
     MeasuredInput own(scene, needs.record), earlier(scene, needs.baseline),
         changed(scene, needs.change);
     features::FeatureInput input = own.of(signal), before, change;
@@ -246,19 +247,19 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
 }
 
 std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
-                                    std::span<const Feature* const> wanted) {
+                                    std::span<const Feature* const> requested) {
     unsigned needs = 0;
-    std::vector<char> there;
-    for (const Feature* feature : wanted) {
-        there.push_back(missing(*feature, scene, signal, false).empty() ? 1 : 0);
-        needs |= there.back() != 0 ? feature->needs : 0U;
+    std::vector<char> available;
+    for (const Feature* feature : requested) {
+        available.push_back(why_unavailable(*feature, scene, signal, false).empty() ? 1 : 0);
+        needs |= available.back() != 0 ? feature->needs : 0U;
     }
     MeasuredInput measured(scene, needs);
     const features::FeatureInput input = measured.of(signal);
     std::vector<double> values;
-    for (std::size_t f = 0; f < wanted.size(); ++f) {
-        values.push_back(there[f] != 0 ? wanted[f]->compute(input)
-                                       : std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t f = 0; f < requested.size(); ++f) {
+        values.push_back(available[f] != 0 ? requested[f]->compute(input)
+                                           : std::numeric_limits<double>::quiet_NaN());
     }
     return values;
 }

@@ -57,10 +57,10 @@ struct Measurement {
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,
                     const HealthyReference& healthy, const MeasuredBaseline* baseline = nullptr);
 
-// Values of `wanted` features that need no healthy reference, in this order. NaN where the signal
-// is insufficient.
+// Values of `requested` features that need no healthy reference, in this order. NaN where the
+// signal is insufficient.
 std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
-                                    std::span<const features::Feature* const> wanted);
+                                    std::span<const features::Feature* const> requested);
 
 // Mean over recordings of healthy gearboxes; each must have at least `turns` planet turns. Throws
 // SignalError.

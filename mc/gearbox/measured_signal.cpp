@@ -34,10 +34,10 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
     return values;
 }
 
-class Reading {
+class SignalReader {
   public:
-    Reading(const std::string& path, const SignalColumns& columns, const Scene& scene)
-        : path_(path), wanted_(columns), scene_(scene) {}
+    SignalReader(const std::string& path, const SignalColumns& columns, const Scene& scene)
+        : path_(path), columns_(columns), scene_(scene) {}
 
     MeasuredSignal read() {
         // The libraries that read files are not thread-safe.
@@ -47,9 +47,9 @@ class Reading {
             std::unique_ptr<SignalFile>& file;
             ~Closed() { file.reset(); }
         } closed{file_};
-        file_ = open_signal_file(path_, wanted_.row);
-        std::vector<double> sensor = chosen(wanted_.sensor, kSensor, Quantity::acceleration);
-        std::vector<double> te = chosen(wanted_.te, "te", Quantity::angle);
+        file_ = open_signal_file(path_, columns_.row);
+        std::vector<double> sensor = chosen(columns_.sensor, kSensor, Quantity::acceleration);
+        std::vector<double> te = chosen(columns_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
             reject(
                 fmt::format("it has neither a column sensor nor a column te; its columns are {}; "
@@ -67,9 +67,9 @@ class Reading {
         lock.unlock();
         check_rate(phase, !sensor.empty(), !te.empty());
         stop_at_problems();
-        if (wanted_.samples_per_mesh > 0.0) {
-            close_turn({&sensor, &te}, phase,
-                       wanted_.samples_per_mesh * scene_.span().planet_teeth);
+        if (columns_.samples_per_mesh > 0.0) {
+            extend_periodically({&sensor, &te}, phase,
+                                columns_.samples_per_mesh * scene_.span().planet_teeth);
         }
         keep(sensor, phase.size());
         keep(te, phase.size());
@@ -132,7 +132,7 @@ class Reading {
     double factor(const std::string& name, Quantity quantity) {
         std::string unit = file_->unit(name);
         if (unit.empty() && quantity == Quantity::acceleration) {
-            unit = wanted_.sensor_unit;
+            unit = columns_.sensor_unit;
         }
         const auto factor = unit_factor(quantity, unit);
         if (!factor) {
@@ -183,7 +183,7 @@ class Reading {
 
     // Time of every sample, s.
     std::vector<double> times(std::size_t samples) {
-        if (wanted_.sampling_Hz <= 0.0 && file_->has(kTime)) {
+        if (columns_.sampling_Hz <= 0.0 && file_->has(kTime)) {
             std::vector<double> written = column(kTime, Quantity::time);
             if (!problems_.empty()) {
                 return {};
@@ -193,7 +193,7 @@ class Reading {
             return std::move(time.seconds);
         }
         const double rate =
-            wanted_.sampling_Hz > 0.0 ? wanted_.sampling_Hz : file_->sampling_Hz().value_or(0.0);
+            columns_.sampling_Hz > 0.0 ? columns_.sampling_Hz : file_->sampling_Hz().value_or(0.0);
         if (!(rate > 0.0 && std::isfinite(rate))) {
             reject(
                 fmt::format("no sampling rate: the file has neither a column {} or {} nor "
@@ -201,22 +201,22 @@ class Reading {
                             kTime, kPhase, columns_text()));
             return {};
         }
-        return counted(samples, rate);
+        return evenly_spaced(samples, rate);
     }
 
     // Mesh phase of every sample.
     std::vector<double> phases(std::size_t samples, std::string& how) {
-        if (wanted_.samples_per_mesh > 0.0) {
-            how = fmt::format("{:.6g} samples per mesh period", wanted_.samples_per_mesh);
-            return counted(samples, wanted_.samples_per_mesh);
+        if (columns_.samples_per_mesh > 0.0) {
+            how = fmt::format("{:.6g} samples per mesh period", columns_.samples_per_mesh);
+            return evenly_spaced(samples, columns_.samples_per_mesh);
         }
-        if (!wanted_.tachometer.empty()) {
+        if (!columns_.tachometer.empty()) {
             return phases_of_pulses(how);
         }
-        if (!wanted_.encoder.empty()) {
+        if (!columns_.encoder.empty()) {
             return phases_of_angle(how);
         }
-        if (file_->has(kPhase) && wanted_.sampling_Hz <= 0.0) {
+        if (file_->has(kPhase) && columns_.sampling_Hz <= 0.0) {
             how = "column mesh_phase";
             return rising(column(kPhase, Quantity::phase));
         }
@@ -231,7 +231,7 @@ class Reading {
             return scaled(std::move(phase), scene_.nominal_mesh_frequency_Hz());
         }
         const std::vector<double> speed_rpm = column(kSpeed, Quantity::speed);
-        reject_column(kSpeed, turning_about(speed_rpm));
+        reject_column(kSpeed, sign_change_text(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
                   : "column speed_rpm, which is negative: backward rotation";
@@ -240,28 +240,28 @@ class Reading {
 
     // Mesh phase from a tachometer. Keeps the samples between its first and last pulse.
     std::vector<double> phases_of_pulses(std::string& how) {
-        const std::vector<double> heights = present(wanted_.tachometer, Quantity::phase);
+        const std::vector<double> heights = present(columns_.tachometer, Quantity::phase);
         const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
-        reject_column(wanted_.tachometer, pulses.problem);
+        reject_column(columns_.tachometer, pulses.problem);
         if (!problems_.empty()) {
             return {};
         }
         how = fmt::format("{} pulses of column {}, {:g} per turn", pulses.at.size(),
-                          wanted_.tachometer, wanted_.pulses_per_turn);
+                          columns_.tachometer, columns_.pulses_per_turn);
         PulseCount counted = count_pulses(pulses.at);
         first_sample_ = counted.first;
-        return scaled(std::move(counted.count), meshes_per_turn() / wanted_.pulses_per_turn);
+        return scaled(std::move(counted.count), meshes_per_turn() / columns_.pulses_per_turn);
     }
 
     // Mesh phase from an encoder. Removes samples before its first and after its last count.
     std::vector<double> phases_of_angle(std::string& how) {
-        std::vector<double> written = present(wanted_.encoder, Quantity::angle);
+        std::vector<double> written = present(columns_.encoder, Quantity::angle);
         if (!problems_.empty()) {
             return {};
         }
         ShaftAngle angle = shaft_angle(std::move(written));
-        reject_column(wanted_.encoder, angle.problem);
-        how = fmt::format("angles of column {}", wanted_.encoder);
+        reject_column(columns_.encoder, angle.problem);
+        how = fmt::format("angles of column {}", columns_.encoder);
         first_sample_ = angle.first;
         return scaled(std::move(angle.rad), meshes_per_turn() / (2.0 * std::numbers::pi));
     }
@@ -269,7 +269,7 @@ class Reading {
     // Mesh periods per turn of the member whose speed the study gives.
     double meshes_per_turn() const {
         // The argument 2 pi rad/s is one turn per second.
-        return std::abs(scene_.drive().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
+        return std::abs(scene_.drivetrain().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
                (2.0 * std::numbers::pi);
     }
 
@@ -283,7 +283,7 @@ class Reading {
     // Ratio of the speed shown by the mesh lines to the stated speed; 1 if the lines do not
     // contradict it.
     double speed_of_lines(const MeasuredSignal& measured) {
-        if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor) {
+        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor) {
             return 1.0;
         }
         const auto found =
@@ -297,7 +297,7 @@ class Reading {
         const std::string lines = fmt::format(
             "the mesh lines fit {:.4f}{} times the stated speed ({})", found->ratio,
             found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "", measured.tracking);
-        if (wanted_.speed == SpeedCheck::refuse) {
+        if (columns_.speed == SpeedCheck::refuse) {
             reject(fmt::format(
                 "{}: they hold {:.0f} % of the amplitudes at that speed, {:.0f} % at the stated "
                 "one; correct the speed, or use the fitted one with --speed found",
@@ -311,12 +311,12 @@ class Reading {
     // Checks for lost samples if the phase comes only from sample numbers, times and speed. Lost
     // samples then leave a jump in the phase.
     void check_losses(MeasuredSignal& measured) {
-        if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_) {
+        if (columns_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_) {
             return;
         }
-        reject_column(wanted_.sensor.empty() ? kSensor : wanted_.sensor,
+        reject_column(columns_.sensor.empty() ? kSensor : columns_.sensor,
                       losses_text(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes(),
-                                  measured.losses_noticed));
+                                  measured.losses_detectable));
     }
 
     // Mesh phase from the absolute speed; the direction of rotation does not matter.
@@ -328,7 +328,7 @@ class Reading {
         std::vector<double> frequency_Hz;
         for (const double rpm : speed_rpm) {
             frequency_Hz.push_back(
-                std::abs(scene_.drive().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
+                std::abs(scene_.drivetrain().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
                 (2.0 * std::numbers::pi));
         }
         return rising(integral(time, frequency_Hz));
@@ -357,7 +357,7 @@ class Reading {
                             per_mesh));
         }
         const double low_pass = scene_.study().sensor.low_pass_Hz;
-        if (sensor && per_mesh > kSpareRate * scene_.samples_per_mesh()) {
+        if (sensor && per_mesh > kRateTolerance * scene_.samples_per_mesh()) {
             reject(
                 fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
                             "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
@@ -379,10 +379,10 @@ class Reading {
     }
 
     static constexpr double kFewestSamples = 2.0;  // per mesh period
-    static constexpr double kSpareRate = 1.02;
+    static constexpr double kRateTolerance = 1.02;
 
     const std::string& path_;
-    const SignalColumns& wanted_;
+    const SignalColumns& columns_;
     const Scene& scene_;
     std::unique_ptr<SignalFile> file_;
     std::string problems_, first_;
@@ -394,7 +394,7 @@ class Reading {
 
 MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
                                     const Scene& scene) {
-    return Reading(path, columns, scene).read();
+    return SignalReader(path, columns, scene).read();
 }
 
 }  // namespace gearpod::mc

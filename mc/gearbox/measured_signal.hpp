@@ -39,7 +39,7 @@ struct MeasuredSignal {
     int sensor_meshes = 0, te_meshes = 0;     // whole mesh periods of the recording
     std::string tracking;                     // source of the mesh phase of the samples
     // True if lost samples would have been detected even if the times do not show them.
-    bool losses_noticed = true;
+    bool losses_detectable = true;
 };
 
 // Reads a file (signal_file.hpp) and resamples it unless it is on the grid already. The mesh phase

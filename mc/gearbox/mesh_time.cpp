@@ -9,14 +9,14 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/transmission_error.hpp"
 #include "lockstep/steps/step_pilot.hpp"
-#include "lockstep/tile/composition.hpp"
-#include "lockstep/tile/driven_march.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/excited_integrator.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/superposed_motion.hpp"
 #include "machine/thread_clock.hpp"
+#include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/lane_count.hpp"
-#include "mc/gearbox/march_cache.hpp"
-#include "mc/gearbox/tile_draws.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/noise.hpp"
@@ -28,41 +28,42 @@ namespace {
 // several integrations from rest. The motion may grow without bound, which does not change the
 // cost.
 template <int W>
-double least_mesh_s(const Scene& scene, const lockstep::MarchPlan& plan, bool as_driven,
-                    int marches) {
+double least_mesh_s(const Scene& scene, const lockstep::IntegrationPlan& plan, bool with_excitation,
+                    int repetitions) {
     const std::vector<InstanceInputs> instances(W, Sampler(scene.study()).nominal());
     const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(instances[0]));
     const std::vector<GearboxId> ids(W);
-    const auto excitation = as_driven ? draw_excitation(scene, ids, instances) : std::nullopt;
+    const auto excitation = with_excitation ? draw_excitation(scene, ids, instances) : std::nullopt;
     lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
-    std::function<void(lockstep::TileState&)> march;
+    std::function<void(lockstep::TileState&)> integrate;
     if constexpr (W <= 8) {  // there is no kernel with variable excitation for 16 lanes
         if (excitation) {
-            march = [&, driven = std::shared_ptr<lockstep::DrivenMarch<W>>(
-                            lockstep::make_driven_march<W>(plan, *excitation, inputs))](
-                        lockstep::TileState& state) { (*driven)(0, {}, state, record); };
+            integrate = [&, variable_kernel = std::shared_ptr<lockstep::ExcitedIntegrator<W>>(
+                                lockstep::make_excited_integrator<W>(plan, *excitation, inputs))](
+                            lockstep::TileState& state) {
+                (*variable_kernel)(0, {}, state, record);
+            };
         }
     }
-    if (!march) {
-        march = [&, steady = std::shared_ptr<const lockstep::MeshMarch<W>>(
-                        lockstep::make_mesh_march<W>(plan, inputs))](lockstep::TileState& state) {
-            (*steady)({}, state, record);
-        };
+    if (!integrate) {
+        integrate = [&, steady = std::shared_ptr<const lockstep::MeshIntegrator<W>>(
+                            lockstep::make_mesh_integrator<W>(plan, inputs))](
+                        lockstep::TileState& state) { (*steady)({}, state, record); };
     }
     const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < marches; ++i) {
-        lockstep::TileState state = lockstep::still_state(degrees, plan.channels(), W);
+    for (int i = 0; i < repetitions; ++i) {
+        lockstep::TileState state = lockstep::zero_state(degrees, plan.channels(), W);
         const double start = thread_processor_s();
-        march(state);
+        integrate(state);
         least = std::min(least, thread_processor_s() - start);
     }
     return least;
 }
 
 // Integration plan of the scene with the classical Runge-Kutta method.
-lockstep::MarchPlan explicit_plan(const Scene& scene, int steps) {
-    lockstep::MarchPlan plan = scene.plan();
+lockstep::IntegrationPlan explicit_plan(const Scene& scene, int steps) {
+    lockstep::IntegrationPlan plan = scene.plan();
     plan.integrator = lockstep::Integrator::rk4;
     plan.grid = lockstep::make_phase_grid(plan.grid.samples, steps, {});
     plan.grid.stage_nodes = lockstep::stage_nodes(plan.integrator);
@@ -78,8 +79,8 @@ lockstep::MarchPlan explicit_plan(const Scene& scene, int steps) {
 
 // Mesh periods recorded in addition to the periodic orbit: all of them, or the passages of the
 // fault.
-double recorded_beside_orbit(const Scene& scene) {
-    if (scene.study().numerics.horizon != Horizon::reuse) {
+double additional_recorded_meshes(const Scene& scene) {
+    if (scene.study().numerics.horizon != Horizon::periodic) {
         return scene.recorded_meshes();
     }
     return passage_meshes(scene);
@@ -102,12 +103,12 @@ std::vector<int> part_periods(const Scene& scene) {
 }
 
 // Mesh periods to integrate if every one of the recorded mesh periods is integrated.
-double meshes_of_march(const Scene& scene) {
+double full_integration_meshes(const Scene& scene) {
     return approach_meshes(scene) + run_in_meshes(scene) + scene.recorded_meshes();
 }
 
 // Mesh periods to integrate for superposed gearboxes without a fault.
-double meshes_of_parts(const Scene& scene) {
+double superposition_meshes(const Scene& scene) {
     return approach_meshes(scene) +
            lockstep::part_meshes(part_periods(scene), run_in_meshes(scene));
 }
@@ -123,29 +124,29 @@ double approach_meshes(const Scene& scene) {
     if (scene.study().effects.quasi_static()) {
         return 0.0;
     }
-    return std::min(1.0 + scene.decay_meshes() * -std::log(settle_tolerance(scene.study())),
+    return std::min(1.0 + scene.decay_meshes() * -std::log(convergence_tolerance(scene.study())),
                     static_cast<double>(scene.max_meshes()));
 }
 
 Superposition superposition(const Scene& scene) {
-    if (scene.study().numerics.horizon != Horizon::superpose) {
+    if (scene.study().numerics.horizon != Horizon::superposed) {
         return {};
     }
-    const double all = meshes_of_march(scene), parts = meshes_of_parts(scene);
+    const double all = full_integration_meshes(scene), parts = superposition_meshes(scene);
     return {parts < all, parts + superposed_passages(scene) < all};
 }
 
 double healthy_meshes(const Scene& scene) {
-    return scene.study().numerics.horizon == Horizon::reuse ? approach_meshes(scene)
-           : superposition(scene).healthy                   ? meshes_of_parts(scene)
-                                                            : meshes_of_march(scene);
+    return scene.study().numerics.horizon == Horizon::periodic ? approach_meshes(scene)
+           : superposition(scene).healthy                      ? superposition_meshes(scene)
+                                                               : full_integration_meshes(scene);
 }
 
-double marched_meshes(const Scene& scene) {
-    return scene.study().numerics.horizon == Horizon::reuse
+double integrated_meshes(const Scene& scene) {
+    return scene.study().numerics.horizon == Horizon::periodic
                ? approach_meshes(scene) + passage_meshes(scene)
-           : superposition(scene).faulty ? meshes_of_parts(scene) + superposed_passages(scene)
-                                         : meshes_of_march(scene);
+           : superposition(scene).faulty ? superposition_meshes(scene) + superposed_passages(scene)
+                                         : full_integration_meshes(scene);
 }
 
 double passage_meshes(const Scene& scene) {
@@ -158,49 +159,50 @@ double passage_meshes(const Scene& scene) {
                     static_cast<double>(scene.pattern().length));
 }
 
-bool hears_march(const Scene& scene) {
-    return scene.study().numerics.horizon != Horizon::reuse &&
-           !scene.study().effects.quasi_static() && !distinct_marches(scene);
+bool records_during_integration(const Scene& scene) {
+    return scene.study().numerics.horizon != Horizon::periodic &&
+           !scene.study().effects.quasi_static() && !distinct_integrations(scene);
 }
 
-int looked_at_meshes(const Scene& scene, unsigned needs) {
+int needed_sensor_meshes(const Scene& scene, unsigned needs) {
     return needs_samples(needs)              ? scene.signal_meshes()
            : noise_by_density(scene.study()) ? scene.span_meshes()
                                              : 0;
 }
 
-int looked_at_meshes(const Scene& scene) {
-    return looked_at_meshes(scene, needs_of(used_features(scene.study())));
+int needed_sensor_meshes(const Scene& scene) {
+    return needed_sensor_meshes(scene, needs_of(used_features(scene.study())));
 }
 
 double motion_bytes(const Scene& scene) {
-    if (!hears_march(scene)) {
+    if (!records_during_integration(scene)) {
         return record_bytes(scene);
     }
     // Copies: samples as recorded and by lane, plus those of the baseline records.
     const double copies = compares_records(scene.study()) ? 3.0 : 2.0;
-    const double samples = static_cast<double>(looked_at_meshes(scene)) * scene.samples_per_mesh();
+    const double samples =
+        static_cast<double>(needed_sensor_meshes(scene)) * scene.samples_per_mesh();
     return copies * 8.0 * samples * scene.study().numerics.lanes +
            (superposition(scene).healthy ? record_bytes(scene) : 2.0 * mesh_record_bytes(scene));
 }
 
 double record_bytes(const Scene& scene) {
     return mesh_record_bytes(scene) *
-           (1.0 + recorded_beside_orbit(scene) +
+           (1.0 + additional_recorded_meshes(scene) +
             (superposition(scene).healthy ? lockstep::part_meshes(part_periods(scene), 0) : 0));
 }
 
 double mesh_period_s(const Scene& scene) {
-    constexpr int kMarches = 5;
+    constexpr int kRepetitions = 5;
     return with_lane_count(scene.study().numerics.lanes, [&](auto lanes) {
-        return least_mesh_s<lanes()>(scene, scene.plan(), true, kMarches);
+        return least_mesh_s<lanes()>(scene, scene.plan(), true, kRepetitions);
     });
 }
 
 double explicit_step_s(const Scene& scene) {
-    constexpr int kSteps = 2000, kMarches = 20;
-    const lockstep::MarchPlan plan = explicit_plan(scene, kSteps);
-    return least_mesh_s<lockstep::kPilotLanes>(scene, plan, false, kMarches) /
+    constexpr int kSteps = 2000, kRepetitions = 20;
+    const lockstep::IntegrationPlan plan = explicit_plan(scene, kSteps);
+    return least_mesh_s<lockstep::kPilotLanes>(scene, plan, false, kRepetitions) /
            static_cast<double>(plan.grid.steps.size()) / lockstep::kPilotLanes;
 }
 

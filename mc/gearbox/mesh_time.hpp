@@ -12,7 +12,7 @@ double approach_meshes(const Scene& scene);
 // Mesh periods that a tile integrates or solves: approach, run-in, and the passages of the fault or
 // all recorded periods, as the strategy requires. Estimated from the nominal damping; most
 // gearboxes need about as many.
-double marched_meshes(const Scene& scene);
+double integrated_meshes(const Scene& scene);
 
 // Mesh periods that a fault changes: its passages and the decay after them.
 double passage_meshes(const Scene& scene);
@@ -29,12 +29,12 @@ Superposition superposition(const Scene& scene);
 
 // True if sensor signals are recorded during integration and the motion is not kept. This is so if
 // every mesh period is integrated and no other tile can use the result.
-bool hears_march(const Scene& scene);
+bool records_during_integration(const Scene& scene);
 
 // Number of mesh periods of sensor samples that must be synthesized: for features with these needs
 // (features::Need), or for all features of the study.
-int looked_at_meshes(const Scene& scene, unsigned needs);
-int looked_at_meshes(const Scene& scene);
+int needed_sensor_meshes(const Scene& scene, unsigned needs);
+int needed_sensor_meshes(const Scene& scene);
 
 // Memory in bytes for the motion that a tile keeps, and for the records of all its mesh periods.
 double motion_bytes(const Scene& scene);

@@ -36,16 +36,16 @@ LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record)
     return change;
 }
 
-NoiseOfInstance noise_of_change(const Scene& scene, const LaneSignals& change,
-                                const NoiseOfInstance& record, const NoiseOfInstance& baseline,
-                                double baseline_rms) {
-    NoiseOfInstance noise;
+RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
+                                 const RealizationNoise& record, const RealizationNoise& baseline,
+                                 double baseline_rms) {
+    RealizationNoise noise;
     noise.samples.resize(record.samples.size());
     std::transform(record.samples.begin(), record.samples.end(), baseline.samples.begin(),
                    noise.samples.begin(), [&](double a, double b) { return a - baseline_rms * b; });
     noise.encoder = less(record.encoder, baseline.encoder);
-    noise.sensor = signals::draw_of_samples(folding(scene, change.sensor),
-                                            folding(scene, noise.samples), turn_samples(scene));
+    noise.sensor = signals::noise_variates_of_samples(
+        folding(scene, change.sensor), folding(scene, noise.samples), turn_samples(scene));
     return noise;
 }
 

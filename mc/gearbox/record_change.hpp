@@ -1,7 +1,7 @@
 // Change of a gearbox since its baseline record: the difference of both, sample by sample.
 #pragma once
 
-#include "mc/gearbox/instance_signals.hpp"
+#include "mc/gearbox/realization_signals.hpp"
 
 namespace gearpod::mc {
 
@@ -10,8 +10,8 @@ LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record)
 
 // Noise of that change: the difference of the noises of both records. `baseline_rms`: rms of the
 // sensor noise in the baseline record divided by that in the test record.
-NoiseOfInstance noise_of_change(const Scene& scene, const LaneSignals& change,
-                                const NoiseOfInstance& record, const NoiseOfInstance& baseline,
-                                double baseline_rms);
+RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
+                                 const RealizationNoise& record, const RealizationNoise& baseline,
+                                 double baseline_rms);
 
 }  // namespace gearpod::mc

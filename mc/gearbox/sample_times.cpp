@@ -39,7 +39,7 @@ double unevenness(const std::vector<double>& time, double start, double step) {
     return most;
 }
 
-std::string what_is_uneven(const std::vector<double>& time, double unit, double average) {
+std::string spacing_problem(const std::vector<double>& time, double unit, double average) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) {
         steps.push_back(time[i] - time[i - 1]);
@@ -103,7 +103,7 @@ SampleTimes sample_times(std::vector<double> column) {
     }
     const double step = slope / squares, start = mean - 0.5 * last * step;
     if (!(step > 0.0 && unevenness(column, start, step) <= std::max(kEven * step, 1.01 * unit))) {
-        return {{}, what_is_uneven(column, unit, average)};
+        return {{}, spacing_problem(column, unit, average)};
     }
     for (std::size_t i = 0; i < column.size(); ++i) {
         column[i] = start + static_cast<double>(i) * step;
@@ -233,7 +233,7 @@ ShaftAngle shaft_angle(std::vector<double> column) {
     return angle;
 }
 
-std::vector<double> counted(std::size_t samples, double rate) {
+std::vector<double> evenly_spaced(std::size_t samples, double rate) {
     std::vector<double> values(samples);
     for (std::size_t i = 0; i < samples; ++i) {
         values[i] = static_cast<double>(i) / rate;
@@ -241,7 +241,7 @@ std::vector<double> counted(std::size_t samples, double rate) {
     return values;
 }
 
-std::string turning_about(std::span<const double> speed) {
+std::string sign_change_text(std::span<const double> speed) {
     const auto other =
         std::ranges::find_if(speed, [&](double value) { return value * speed.front() < 0.0; });
     return other == speed.end()
@@ -258,8 +258,8 @@ std::vector<double> integral(std::span<const double> time, std::span<const doubl
     return sum;
 }
 
-void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<double>& phase,
-                double samples_per_turn) {
+void extend_periodically(const std::vector<std::vector<double>*>& signals,
+                         std::vector<double>& phase, double samples_per_turn) {
     constexpr std::size_t kMore = 8;
     const double turns = static_cast<double>(phase.size()) / samples_per_turn;
     if (std::abs(turns - std::round(turns)) > 1e-9 || phase.size() < kMore) {
@@ -331,9 +331,9 @@ std::string clipping(std::span<const double> samples) {
 }
 
 std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
-                        bool& noticed) {
+                        bool& detectable) {
     const auto lost = signals::lost_samples(samples, per_mesh, turn_meshes);
-    noticed = lost.has_value();
+    detectable = lost.has_value();
     if (!lost || !lost->found) {
         return "";
     }

@@ -47,11 +47,11 @@ struct ShaftAngle {
 ShaftAngle shaft_angle(std::vector<double> column);
 
 // The values 0, 1, 2, ... divided by `rate`.
-std::vector<double> counted(std::size_t samples, double rate);
+std::vector<double> evenly_spaced(std::size_t samples, double rate);
 
 // Returns "" unless the speed changes its sign. A gearbox that reverses passes its meshes again and
 // loads the other flanks.
-std::string turning_about(std::span<const double> speed);
+std::string sign_change_text(std::span<const double> speed);
 
 // Integral of `rate` over `time` from the first sample on, by the trapezoidal rule.
 std::vector<double> integral(std::span<const double> time, std::span<const double> rate);
@@ -59,8 +59,8 @@ std::vector<double> integral(std::span<const double> time, std::span<const doubl
 // Continues a signal of whole planet turns periodically by some samples; does nothing for other
 // lengths and for empty signals. Otherwise a finer grid would lose its points after the last
 // sample, and with them the last mesh period.
-void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<double>& phase,
-                double samples_per_turn);
+void extend_periodically(const std::vector<std::vector<double>*>& signals,
+                         std::vector<double>& phase, double samples_per_turn);
 
 // Returns "" unless values are not finite or too large to compute with.
 std::string bad_values(std::span<const double> values);
@@ -70,8 +70,9 @@ std::string bad_values(std::span<const double> values);
 std::string clipping(std::span<const double> samples);
 
 // Returns "" unless samples are missing within a signal on the mesh-phase grid
-// (signals/spectra/lost_samples.hpp). `noticed` is set to true if missing samples can be detected.
+// (signals/spectra/lost_samples.hpp). `detectable` is set to true if missing samples can be
+// detected.
 std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
-                        bool& noticed);
+                        bool& detectable);
 
 }  // namespace gearpod::mc

@@ -5,10 +5,10 @@
 #include <span>
 #include <stdexcept>
 
-#include "lockstep/driven/excitation_rows.hpp"
+#include "lockstep/excitation/excitation_rows.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
-#include "mc/gearbox/instance_features.hpp"
-#include "mc/gearbox/tile_draws.hpp"
+#include "mc/gearbox/realization_features.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/study/fluctuations.hpp"
 
@@ -23,10 +23,10 @@ template <typename Value>
 std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
     std::vector<double> all;
     for (long k = 0; k < meshes; ++k) {
-        const auto& content = tile.march.content;
+        const auto& content = tile.integration.content;
         const int id = content[static_cast<std::size_t>(k) % content.size()];
         for (int p = 0; p < samples; ++p) {
-            all.push_back(value(tile.march.records[static_cast<std::size_t>(id)],
+            all.push_back(value(tile.integration.records[static_cast<std::size_t>(id)],
                                 static_cast<std::size_t>(p)));
         }
     }
@@ -48,7 +48,7 @@ void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simula
     }
     const auto pairs = static_cast<std::size_t>(scene.plan().nodes.pairs);
     for (std::size_t pair = 0; pair < pairs; ++pair) {
-        out.columns.push_back({scene.drive().pair_name(static_cast<int>(pair)) + "_force", "N",
+        out.columns.push_back({scene.drivetrain().pair_name(static_cast<int>(pair)) + "_force", "N",
                                unroll(tile, samples, meshes, [&](const auto& r, auto p) {
                                    return r.mesh_force[(p * pairs + pair) * lanes];
                                })});
@@ -56,7 +56,7 @@ void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simula
 }
 
 void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::PathGrid& path,
-                const InstanceFeatures& features, const GearboxId& id, std::size_t rows,
+                const RealizationFeatures& features, const GearboxId& id, std::size_t rows,
                 Simulation& out) {
     const InstanceInputs& inputs = tile.inputs[0];
     const auto clean = lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
@@ -107,8 +107,8 @@ GearboxId id_of_row(const Study& study, long row) {
     const long thresholds = study.ensemble.threshold_instances * records;
     return row < thresholds
                ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
-                           Record::judged, static_cast<std::uint64_t>(row % records),
-                           threshold_draws(study)}
+                           Record::test, static_cast<std::uint64_t>(row % records),
+                           threshold_noise_sampling(study)}
                : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
 }
 
@@ -122,7 +122,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
     const HealthyReference healthy = healthy_reference(scene, sampler, path);
-    InstanceFeatures features(scene, &healthy);
+    RealizationFeatures features(scene, &healthy);
     Simulation out;
     out.noise_levels = scene.study().sensor.noise_levels;
     out.feature_names = scene.study().features.use;
@@ -149,7 +149,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         add_sensor(scene, tile, path, features, id, rows, out);
     }
     add_motion(scene, tile, meshes, out);
-    if (!tile.march.contact_loss.empty()) {
+    if (!tile.integration.contact_loss.empty()) {
         const auto meshes_of_kind = meshes_of(scene.study().gearbox.kind);
         const auto loss = contact_loss(tile, 0, meshes_of_kind.size());
         for (std::size_t m = 0; m < loss.size(); ++m) {

@@ -34,15 +34,16 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
         const auto part =
             std::span(ids).subspan(first, std::min(tiles.lanes(), ids.size() - first));
         std::vector<InterpolationErrors> errors(part.size());
-        const auto looked = static_cast<std::size_t>(std::ranges::count_if(part, looked_at));
-        const auto lives =
-            tiles.run(part, batch.group == Group::graded, costs, std::span(errors).first(looked));
+        const auto measured_count =
+            static_cast<std::size_t>(std::ranges::count_if(part, measures_interpolation));
+        const auto lives = tiles.run(part, batch.group == Group::graded, costs,
+                                     std::span(errors).first(measured_count));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
             add_life(tiles.scene().study(), sampler.row(part[lane]), lives[lane], errors[lane],
                      rows);
         }
     }
-    seconds.march += costs.gearboxes;
+    seconds.integration += costs.gearboxes;
     seconds.features += costs.records;
     seconds.gearboxes += costs.gearbox_count;
     seconds.records += costs.record_count;
@@ -61,10 +62,10 @@ EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const E
                        [&]() -> BatchComputers { return [compute] { return compute; }; });
 }
 
-void note_run(const Scene& scene, const EnsembleOutcome& outcome, Results& frame) {
+void store_run_costs(const Scene& scene, const EnsembleOutcome& outcome, Results& frame) {
     frame.provenance.emplace_back(kRecordText, record_text(scene));
     const Seconds work = outcome.work();
-    frame.timing.push_back({kGearboxTime, work.march});
+    frame.timing.push_back({kGearboxTime, work.integration});
     frame.timing.push_back({kRecordTime, work.features});
     frame.timing.push_back({"lives_s", outcome.wall_s});
     frame.provenance.emplace_back(kGearboxCount, std::to_string(work.gearboxes));
@@ -73,15 +74,15 @@ void note_run(const Scene& scene, const EnsembleOutcome& outcome, Results& frame
 
 Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows) {
     Campaign campaign;
-    const auto setting = static_cast<std::size_t>(study.ensemble.threshold_instances);
+    const auto threshold_lives = static_cast<std::size_t>(study.ensemble.threshold_instances);
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
             LifeRow read = life_of_row(study, frame, block, row);
             campaign.interpolation.take(read.interpolation);
             campaign.failed += read.life.status == Status::ok ? 0 : 1;
             auto& lives = block.group[row] == static_cast<int>(Group::graded) ? campaign.cracked
-                          : block.first + row < setting                       ? campaign.setting
-                                                                              : campaign.healthy;
+                          : block.first + row < threshold_lives ? campaign.threshold_lives
+                                                                : campaign.healthy;
             lives.push_back(std::move(read.life));
         }
     });
@@ -108,7 +109,7 @@ Campaign run_campaign(const Scene& scene) {
         throw std::runtime_error(outcome.failure);
     }
     Results frame = lives_frame(study);
-    note_run(scene, outcome, frame);
+    store_run_costs(scene, outcome, frame);
     return campaign_of(study, frame, StoredRows(store, plan, outcome.batches));
 }
 

@@ -13,7 +13,7 @@ namespace gearpod::mc {
 // life.healthy_lives further ones count false alarms, and ensemble.instances lives have growing
 // cracks.
 struct Campaign {
-    std::vector<GearboxLife> setting, healthy, cracked;
+    std::vector<GearboxLife> threshold_lives, healthy, cracked;
     LifeCosts costs;
     InterpolationErrors interpolation;  // maximum over the first eight gearboxes with a crack
     long failed = 0;
@@ -24,7 +24,7 @@ struct Campaign {
 // does not depend on threads, ranks, lanes and interruptions, to the last bit.
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run);
 // Stores the description of a record and the cost of the rows in the frame.
-void note_run(const Scene& scene, const EnsembleOutcome& outcome, Results& frame);
+void store_run_costs(const Scene& scene, const EnsembleOutcome& outcome, Results& frame);
 
 // Reads a campaign from finished rows; the costs are those of the run that wrote them.
 Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows);

@@ -35,7 +35,7 @@ double interpolated(const std::vector<double>& at, const std::vector<double>& va
 }  // namespace
 
 CrackLife::CrackLife(const Scene& scene)
-    : scene_(scene), laws_(scene.study()), crack_(root_crack(scene)) {}
+    : scene_(scene), distributions_(scene.study()), crack_(root_crack(scene)) {}
 
 double CrackLife::cycles_per_hour(const InstanceInputs& inputs) const {
     const Study& study = scene_.study();
@@ -43,7 +43,7 @@ double CrackLife::cycles_per_hour(const InstanceInputs& inputs) const {
     // A tooth of a central gear meets every planet in turn.
     const int meetings = member == Member::sun ? study.gearbox.planets : 1;
     const double meshes_a_second =
-        std::abs(scene_.drive().mesh_frequency_rad_s(inputs.speed_rad_s)) /
+        std::abs(scene_.drivetrain().mesh_frequency_rad_s(inputs.speed_rad_s)) /
         (2.0 * std::numbers::pi);
     return 3600.0 * meshes_a_second * meetings / teeth_of(study, member).value();
 }
@@ -62,16 +62,16 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
     for (int i = 0; i < life.records; ++i) {
         LifeRecord record;
         record.hours = i * *life.interval_h;
-        record.torque = laws_.torque.factor(unit(engine));
-        record.gain = laws_.gain.factor(unit(engine));
-        record.noise = laws_.noise.factor(unit(engine));
+        record.torque = distributions_.torque.factor(unit(engine));
+        record.gain = distributions_.gain.factor(unit(engine));
+        record.noise = distributions_.noise.factor(unit(engine));
         history.records.push_back(record);
     }
-    if (laws_.speed.varies()) {
+    if (distributions_.speed.varies()) {
         Philox speeds = gearbox_stream(study, id, "life.speeds");
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
-            record.speed = laws_.speed.factor(of_speed(speeds));
+            record.speed = distributions_.speed.factor(of_speed(speeds));
         }
     }
     history.first_cracked = history.records.size();
@@ -85,7 +85,7 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
 double CrackLife::force_N(const InstanceInputs& inputs, const LifeRecord& record) const {
     InstanceInputs loaded = inputs;
     loaded.torque_N_m *= record.torque;
-    return scene_.drive().mesh_force_N(loaded);
+    return scene_.drivetrain().mesh_force_N(loaded);
 }
 
 bool CrackLife::breaks(const InstanceInputs& inputs, const LifeRecord& record) const {

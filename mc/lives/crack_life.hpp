@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "mc/lives/record_laws.hpp"
+#include "mc/lives/record_distributions.hpp"
 #include "mc/scene/scene.hpp"
 #include "stiffness/growth/root_crack.hpp"
 
@@ -49,7 +49,7 @@ class CrackLife {
     double force_N(const InstanceInputs& inputs, const LifeRecord& record) const;
 
     const Scene& scene_;
-    const RecordLaws laws_;
+    const RecordDistributions distributions_;
     stiffness::RootCrack crack_;
 };
 

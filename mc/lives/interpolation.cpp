@@ -33,15 +33,16 @@ double last_interpolated_m(const Life& life) {
     return *life.last_depth_m - first_interpolated_m(life);
 }
 
-void LifeTiles::Look::between_depths(int step, const Marched& healthy, const Marched& low,
-                                     const Marched& high) {
+void LifeTiles::InterpolationCheck::between_depths(int step, const SignalsByLoad& healthy,
+                                                   const SignalsByLoad& low,
+                                                   const SignalsByLoad& high) {
     const Life& life = tiles_.scene_.study().life;
     const bool first = step == 0, last = step + 1 == life.depth_steps;
     if (errors_.empty() || !(first || last)) {
         return;
     }
-    const HealthyMarch::Signals middle =
-        march_.with_fault(last ? last_interpolated_m(life) : first_interpolated_m(life));
+    const HealthySolution::Signals middle =
+        solution_.with_fault(last ? last_interpolated_m(life) : first_interpolated_m(life));
     for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
         const auto& none = healthy[lane][0].sensor;
         const auto& at = middle.lane[lane].sensor;
@@ -61,7 +62,7 @@ void LifeTiles::Look::between_depths(int step, const Marched& healthy, const Mar
     }
 }
 
-void LifeTiles::Look::between_loads(const Marched& healthy) {
+void LifeTiles::InterpolationCheck::between_loads(const SignalsByLoad& healthy) {
     if (errors_.empty() || tiles_.load_count() == 1) {
         for (InterpolationErrors& one : errors_) {
             one.load = 0.0;
@@ -69,16 +70,18 @@ void LifeTiles::Look::between_loads(const Marched& healthy) {
         return;
     }
     const Life& life = tiles_.scene_.study().life;
-    for (const double torque : tiles_.laws_.torque.between(torques_marched(life))) {
-        for (const double speed : tiles_.laws_.speed.between(speeds_marched(life))) {
+    for (const double torque :
+         tiles_.distributions_.torque.factors_between(integrated_torques(life))) {
+        for (const double speed :
+             tiles_.distributions_.speed.factors_between(integrated_speeds(life))) {
             at_load({torque, speed}, healthy);
         }
     }
 }
 
-void LifeTiles::Look::at_load(const Load& load, const Marched& healthy) {
-    const HealthyMarch there = tiles_.march(ids_, load);
-    const std::vector<double> shares = tiles_.shares(load);
+void LifeTiles::InterpolationCheck::at_load(const Load& load, const SignalsByLoad& healthy) {
+    const HealthySolution there = tiles_.healthy_solution(ids_, load);
+    const std::vector<double> load_weights = tiles_.load_weights(load);
     for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
         const auto& at = there.healthy().lane[lane].sensor;
         const bool failed =
@@ -88,13 +91,13 @@ void LifeTiles::Look::at_load(const Load& load, const Marched& healthy) {
         if (failed) {
             continue;
         }
-        std::vector<double> composed(at.size(), 0.0);
-        for (std::size_t l = 0; l < shares.size(); ++l) {
-            for (std::size_t i = 0; i < composed.size() && shares[l] != 0.0; ++i) {
-                composed[i] += shares[l] * healthy[lane][l].sensor[i];
+        std::vector<double> superposed(at.size(), 0.0);
+        for (std::size_t l = 0; l < load_weights.size(); ++l) {
+            for (std::size_t i = 0; i < superposed.size() && load_weights[l] != 0.0; ++i) {
+                superposed[i] += load_weights[l] * healthy[lane][l].sensor[i];
             }
         }
-        errors_[lane].load = std::fmax(errors_[lane].load, rms_apart(at, composed, 1.0, at, 0.0) /
+        errors_[lane].load = std::fmax(errors_[lane].load, rms_apart(at, superposed, 1.0, at, 0.0) /
                                                                rms_apart(at, at, 0.0, at, 0.0));
     }
 }

@@ -7,25 +7,26 @@
 namespace gearpod::mc {
 
 // All arguments must outlive the object.
-class LifeTiles::Look {
+class LifeTiles::InterpolationCheck {
   public:
-    // `march` holds these gearboxes at the first load.
-    Look(const LifeTiles& tiles, std::span<const GearboxId> ids, const HealthyMarch& march,
-         std::span<InterpolationErrors> errors)
-        : tiles_(tiles), ids_(ids), march_(march), errors_(errors) {}
+    // `solution` holds these gearboxes at the first load.
+    InterpolationCheck(const LifeTiles& tiles, std::span<const GearboxId> ids,
+                       const HealthySolution& solution, std::span<InterpolationErrors> errors)
+        : tiles_(tiles), ids_(ids), solution_(solution), errors_(errors) {}
 
     // Computes the largest error halfway between neighbouring loads.
-    void between_loads(const Marched& healthy);
+    void between_loads(const SignalsByLoad& healthy);
     // Computes the error at the middle of a depth step at the first load. Only the first and last
     // steps are evaluated.
-    void between_depths(int step, const Marched& healthy, const Marched& low, const Marched& high);
+    void between_depths(int step, const SignalsByLoad& healthy, const SignalsByLoad& low,
+                        const SignalsByLoad& high);
 
   private:
-    void at_load(const Load& load, const Marched& healthy);
+    void at_load(const Load& load, const SignalsByLoad& healthy);
 
     const LifeTiles& tiles_;
     const std::span<const GearboxId> ids_;
-    const HealthyMarch& march_;
+    const HealthySolution& solution_;
     const std::span<InterpolationErrors> errors_;
 };
 

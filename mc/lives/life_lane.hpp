@@ -5,10 +5,10 @@
 #include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 
-#include "machine/stop.hpp"
-#include "mc/gearbox/instance_signals.hpp"
-#include "mc/lives/composed_signals.hpp"
+#include "machine/cancellation.hpp"
+#include "mc/gearbox/realization_signals.hpp"
 #include "mc/lives/life_tile.hpp"
+#include "mc/lives/superposed_signals.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "signals/noise/normals.hpp"
 
@@ -25,7 +25,8 @@ class LifeTiles::Lane {
           features_(used_features(tiles.scene_.study())),
           compares_(std::ranges::any_of(features_,
                                         [](const features::Feature* one) {
-                                            return one->compared == features::Compared::change;
+                                            return one->baseline_use ==
+                                                   features::BaselineUse::change;
                                         })),
           span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
           record_(tiles.scene_, 0, span_.turns * span_.recordings),
@@ -46,7 +47,7 @@ class LifeTiles::Lane {
     // Computes the reference pattern from which changes are measured: the average of as many
     // records as the baseline has, taken before the first record, each at its own torque and speed.
     // Recordings shorter than the span count in proportion, with at least one span in total.
-    void learn(const std::vector<LaneSignals>& healthy) {
+    void compute_reference_pattern(const std::vector<LaneSignals>& healthy) {
         if (!compares_) {
             return;
         }
@@ -58,23 +59,25 @@ class LifeTiles::Lane {
         Philox engine = gearbox_stream(study, id_, "life.pattern.noise");
         signals::draw_normals(engine, std::span(noise_.sensor));
         const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
-                             std::sqrt(std::max(1.0, records * spans)) * tiles_.laws_.noise.rms();
+                             std::sqrt(std::max(1.0, records * spans)) *
+                             tiles_.distributions_.noise.rms();
         for (double& value : noise_.sensor) {
             value *= sigma;
         }
-        const auto draws = [&](const char* purpose) {
+        const auto normals = [&](const char* purpose) {
             Philox own = gearbox_stream(study, id_, purpose);
             std::vector<double> unit(static_cast<std::size_t>(records));
             signals::draw_normals(own, std::span(unit));
             return unit;
         };
-        const auto torques = draws("life.pattern.torque"), speeds = draws("life.pattern.speed");
+        const auto torques = normals("life.pattern.torque"), speeds = normals("life.pattern.speed");
         pattern_.assign(healthy.size(), 0.0);
         for (std::size_t i = 0; i < torques.size(); ++i) {
-            const auto shares = tiles_.shares(
-                {tiles_.laws_.torque.factor(torques[i]), tiles_.laws_.speed.factor(speeds[i])});
-            for (std::size_t t = 0; t < shares.size(); ++t) {
-                pattern_[t] += inputs_.gain * shares[t] / records;
+            const auto load_weights =
+                tiles_.load_weights({tiles_.distributions_.torque.factor(torques[i]),
+                                     tiles_.distributions_.speed.factor(speeds[i])});
+            for (std::size_t t = 0; t < load_weights.size(); ++t) {
+                pattern_[t] += inputs_.gain * load_weights[t] / records;
             }
         }
     }
@@ -82,8 +85,9 @@ class LifeTiles::Lane {
     // Computes the records whose depth lies in (low, high]; for `low` = 0 also those without a
     // crack. The signals are given by load for zero depth, `low` and `high`. Those at `high` may be
     // empty if no record is deeper than `low`.
-    void listen(double low, double high, const std::vector<LaneSignals>& healthy,
-                const std::vector<LaneSignals>& at_low, const std::vector<LaneSignals>& at_high) {
+    void compute_records(double low, double high, const std::vector<LaneSignals>& healthy,
+                         const std::vector<LaneSignals>& at_low,
+                         const std::vector<LaneSignals>& at_high) {
         std::vector<std::size_t> here;
         for (std::size_t r = 0; r < life_.history.records.size(); ++r) {
             const double depth = life_.history.records[r].depth_m;
@@ -96,10 +100,10 @@ class LifeTiles::Lane {
         }
         const std::vector<LaneSignals> none;
         const auto basis = basis_of(healthy, low > 0.0 ? at_low : none, at_high);
-        const ComposedSignals composed = compose(basis);
+        const SuperposedSignals superposed = superpose(basis);
         for (const std::size_t r : here) {
-            machine::leave_if_stopped();
-            add_record(r, low, high, composed, basis.size());
+            machine::throw_if_cancelled();
+            add_record(r, low, high, superposed, basis.size());
         }
     }
 
@@ -119,7 +123,7 @@ class LifeTiles::Lane {
         return basis;
     }
 
-    ComposedSignals compose(const std::vector<const LaneSignals*>& basis) const {
+    SuperposedSignals superpose(const std::vector<const LaneSignals*>& basis) const {
         const std::size_t bins = static_cast<std::size_t>(tiles_.scene_.span().planet_teeth) *
                                  static_cast<std::size_t>(tiles_.scene_.samples_per_mesh());
         return {basis, bins, span_.turns >= span_.all_turns};
@@ -133,25 +137,26 @@ class LifeTiles::Lane {
         return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
     }
 
-    void add_record(std::size_t r, double low, double high, const ComposedSignals& composed,
+    void add_record(std::size_t r, double low, double high, const SuperposedSignals& superposed,
                     std::size_t parts) {
         const LifeRecord& record = life_.history.records[r];
-        const std::vector<double> shares = tiles_.shares({record.torque, record.speed});
-        const double deep = record.depth_m > 0.0 ? (record.depth_m - low) / (high - low) : 0.0;
+        const std::vector<double> load_weights = tiles_.load_weights({record.torque, record.speed});
+        const double depth_fraction =
+            record.depth_m > 0.0 ? (record.depth_m - low) / (high - low) : 0.0;
         std::vector<double> coefficients(parts, 0.0);
-        const std::size_t n = shares.size();
+        const std::size_t n = load_weights.size();
         for (std::size_t t = 0; t < n; ++t) {
-            const double one = inputs_.gain * record.gain * shares[t];
-            coefficients[(low > 0.0 ? n : 0) + t] += (1.0 - deep) * one;
-            if (deep > 0.0) {
-                coefficients[(low > 0.0 ? 2 * n : n) + t] += deep * one;
+            const double one = inputs_.gain * record.gain * load_weights[t];
+            coefficients[(low > 0.0 ? n : 0) + t] += (1.0 - depth_fraction) * one;
+            if (depth_fraction > 0.0) {
+                coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * one;
             }
         }
         InstanceInputs inputs = inputs_;
         inputs.noise_m_s2 *= record.noise;
-        inputs.encoder_noise_rad *= tiles_.laws_.noise_of_sensor_alone ? 1.0 : record.noise;
+        inputs.encoder_noise_rad *= tiles_.distributions_.sensor_noise_only ? 1.0 : record.noise;
         const std::vector<std::size_t> starts = starts_of(r);
-        LaneSignals own = heard(composed, coefficients, starts);
+        LaneSignals own = fold_record(superposed, coefficients, starts);
         for (double& value : own.te_turn) {
             value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
         }
@@ -163,7 +168,7 @@ class LifeTiles::Lane {
                 coefficients[t] -= pattern_[t];
             }
             coefficients.back() = -1.0;
-            changed = heard(composed, coefficients, starts);
+            changed = fold_record(superposed, coefficients, starts);
             change_.load(changed, inputs, record_id(id_, r, true));
             change = change_.at(0);
             input.change = &change;
@@ -190,16 +195,18 @@ class LifeTiles::Lane {
     }
 
     // Signals folded over all recordings of a record.
-    LaneSignals heard(const ComposedSignals& composed, std::span<const double> coefficients,
-                      const std::vector<std::size_t>& starts) const {
+    LaneSignals fold_record(const SuperposedSignals& superposed,
+                            std::span<const double> coefficients,
+                            const std::vector<std::size_t>& starts) const {
         const int spans = span_.turns / span_.all_turns * span_.recordings;
-        LaneSignals sum = composed.at(coefficients);
+        LaneSignals sum = superposed.at(coefficients);
         for (double& value : sum.folded) {
             value *= spans;
         }
         for (const std::size_t start : starts) {
-            composed.add_turns(coefficients, start,
-                               static_cast<std::size_t>(span_.turns % span_.all_turns), sum.folded);
+            superposed.add_turns(coefficients, start,
+                                 static_cast<std::size_t>(span_.turns % span_.all_turns),
+                                 sum.folded);
         }
         return sum;
     }
@@ -210,7 +217,7 @@ class LifeTiles::Lane {
     const LaneFeatures features_;
     const bool compares_;
     const RecordSpan span_;
-    InstanceSignals record_, change_;
+    RealizationSignals record_, change_;
     GearboxLife life_;
     LaneSignals noise_;            // noise of the reference pattern
     std::vector<double> pattern_;  // coefficients of the healthy signals

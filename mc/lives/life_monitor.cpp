@@ -7,32 +7,33 @@
 #include <tuple>
 
 #include "analysis/detection/feature_alarm.hpp"
-#include "analysis/monitoring/own_baseline.hpp"
+#include "analysis/monitoring/baseline_deviations.hpp"
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
 
 // A feature of all lives, or the combination of several features.
-class LifeMonitor::Watched {
+class LifeMonitor::MonitoredDeviations {
   public:
-    Watched(const Study& study, const Campaign& campaign, std::vector<std::size_t> features)
+    MonitoredDeviations(const Study& study, const Campaign& campaign,
+                        std::vector<std::size_t> features)
         : study_(study), features_(std::move(features)) {
         for (const features::Feature* feature : used_features(study)) {
             alarms_.push_back(analysis::alarm_of(*feature));
         }
-        setting_ = healthy(campaign.setting);
+        setting_ = healthy(campaign.threshold_lives);
         healthy_ = healthy(campaign.healthy);
         cracked_ = cracked(campaign.cracked);
     }
 
-    analysis::LifeAnswers by(const analysis::Detector& detector, double per_1000_h) const {
-        return analysis::answer(detector, setting_, healthy_, cracked_, per_1000_h,
-                                study_.detection.confidence);
+    analysis::MonitorPerformance by(const analysis::Detector& detector, double per_1000_h) const {
+        return analysis::monitor_performance(detector, setting_, healthy_, cracked_, per_1000_h,
+                                             study_.detection.confidence);
     }
 
-    FeatureFan fan(const std::string& name) const {
+    FeatureQuantiles fan(const std::string& name) const {
         constexpr std::size_t kDrawn = 32;
-        FeatureFan fan{name, {}, {}, {}, {}};
+        FeatureQuantiles fan{name, {}, {}, {}, {}};
         for (std::size_t r = 0; r < static_cast<std::size_t>(study_.life.records); ++r) {
             std::vector<double> all;
             for (const analysis::HealthyLife& life : healthy_) {
@@ -64,8 +65,8 @@ class LifeMonitor::Watched {
         }
         const auto baseline = static_cast<std::size_t>(study_.monitoring.baseline_records);
         if (features_.size() == 1) {
-            return analysis::own_deviations(life.values[features_[0]], torque, baseline,
-                                            alarms_[features_[0]]);
+            return analysis::baseline_deviations(life.values[features_[0]], torque, baseline,
+                                                 alarms_[features_[0]]);
         }
         return analysis::fused_deviations(life.values, torque, baseline, alarms_);
     }
@@ -110,13 +111,13 @@ class LifeMonitor::Watched {
     std::vector<analysis::CrackedLife> cracked_;
 };
 
-struct LifeMonitor::Named {
+struct LifeMonitor::NamedDeviations {
     std::string name;
-    Watched watched;
+    MonitoredDeviations deviations_of;
 };
 
-bool better(const analysis::LifeAnswers& a, const analysis::LifeAnswers& b) {
-    const auto key = [](const analysis::LifeAnswers& one) {
+bool finds_more(const analysis::MonitorPerformance& a, const analysis::MonitorPerformance& b) {
+    const auto key = [](const analysis::MonitorPerformance& one) {
         const auto depth = [](double value) {
             return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
         };
@@ -130,16 +131,16 @@ LifeMonitor::LifeMonitor(const Study& study, const Campaign& campaign)
     std::vector<std::size_t> all(study.features.use.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (const std::size_t f : all) {
-        watched_.push_back({study.features.use[f], Watched(study, campaign, {f})});
+        monitored_.push_back({study.features.use[f], MonitoredDeviations(study, campaign, {f})});
     }
     if (all.size() > 1 && study.monitoring.baseline_records > 0) {
-        watched_.push_back({"fused", Watched(study, campaign, all)});
+        monitored_.push_back({"fused", MonitoredDeviations(study, campaign, all)});
     }
-    for (const Named& one : watched_) {
+    for (const NamedDeviations& one : monitored_) {
         for (const std::string& text : study.monitoring.detectors) {
-            answers_.push_back({one.name, text,
-                                one.watched.by(*analysis::parse_detector(text),
-                                               study.monitoring.false_alarms_per_1000_h)});
+            results_.push_back({one.name, text,
+                                one.deviations_of.by(*analysis::parse_detector(text),
+                                                     study.monitoring.false_alarms_per_1000_h)});
         }
     }
 }
@@ -149,21 +150,23 @@ LifeMonitor::~LifeMonitor() = default;
 
 std::vector<TradeOff> LifeMonitor::trade_offs() const {
     std::vector<TradeOff> all;
-    for (const Named& one : watched_) {
+    for (const NamedDeviations& one : monitored_) {
         const MonitoredFeature* best = nullptr;
-        for (const MonitoredFeature& answer : answers_) {
-            if (answer.feature == one.name &&
-                (best == nullptr || better(answer.answers, best->answers))) {
-                best = &answer;
+        for (const MonitoredFeature& candidate : results_) {
+            if (candidate.feature == one.name &&
+                (best == nullptr || finds_more(candidate.performance, best->performance))) {
+                best = &candidate;
             }
         }
         TradeOff trade{one.name, best->detector, {}};
         for (const double factor : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
             const double rate = factor * study_.monitoring.false_alarms_per_1000_h;
-            const auto answers = one.watched.by(*analysis::parse_detector(best->detector), rate);
-            if (!std::isnan(answers.threshold.value)) {
-                trade.points.push_back({rate, answers.false_alarms.per_1000_h, answers.share,
-                                        answers.size_50.value, answers.size_90.value});
+            const auto performance =
+                one.deviations_of.by(*analysis::parse_detector(best->detector), rate);
+            if (!std::isnan(performance.threshold.value)) {
+                trade.points.push_back({rate, performance.false_alarms.per_1000_h,
+                                        performance.share, performance.size_50.value,
+                                        performance.size_90.value});
             }
         }
         all.push_back(std::move(trade));
@@ -171,10 +174,10 @@ std::vector<TradeOff> LifeMonitor::trade_offs() const {
     return all;
 }
 
-std::vector<FeatureFan> LifeMonitor::fans() const {
-    std::vector<FeatureFan> all;
-    for (const Named& one : watched_) {
-        all.push_back(one.watched.fan(one.name));
+std::vector<FeatureQuantiles> LifeMonitor::feature_quantiles() const {
+    std::vector<FeatureQuantiles> all;
+    for (const NamedDeviations& one : monitored_) {
+        all.push_back(one.deviations_of.fan(one.name));
     }
     return all;
 }

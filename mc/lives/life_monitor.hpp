@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/monitoring/life_answers.hpp"
+#include "analysis/monitoring/monitor_performance.hpp"
 #include "mc/lives/campaign.hpp"
 
 namespace gearpod::mc {
@@ -13,11 +13,11 @@ namespace gearpod::mc {
 // Results of one feature of the study, or of all features ("fused"), with one detector.
 struct MonitoredFeature {
     std::string feature, detector;
-    analysis::LifeAnswers answers;
+    analysis::MonitorPerformance performance;
 };
 
 // True if `a` finds more cracks than `b`, or as many at smaller depths.
-bool better(const analysis::LifeAnswers& a, const analysis::LifeAnswers& b);
+bool finds_more(const analysis::MonitorPerformance& a, const analysis::MonitorPerformance& b);
 
 // Effect of the false-alarm rate on detection, for the detector that is best at the study's rate.
 struct TradeOff {
@@ -31,7 +31,7 @@ struct TradeOff {
 
 // Deviations from each gearbox's baseline, by record: the 5, 50 and 95 % quantiles of the healthy
 // lives that count false alarms, and the first lives with a crack. NaN if there is no value.
-struct FeatureFan {
+struct FeatureQuantiles {
     std::string feature;
     std::vector<double> low, median, high;
     std::vector<std::vector<double>> lives;
@@ -49,18 +49,18 @@ class LifeMonitor {
 
     // Results of every feature, and of all features together if there are several, with every
     // detector.
-    const std::vector<MonitoredFeature>& answers() const { return answers_; }
+    const std::vector<MonitoredFeature>& results() const { return results_; }
     std::vector<TradeOff> trade_offs() const;
-    std::vector<FeatureFan> fans() const;
+    std::vector<FeatureQuantiles> feature_quantiles() const;
 
   private:
-    class Watched;
-    struct Named;
+    class MonitoredDeviations;
+    struct NamedDeviations;
 
     const Study& study_;
     const Campaign& campaign_;
-    std::vector<Named> watched_;
-    std::vector<MonitoredFeature> answers_;
+    std::vector<NamedDeviations> monitored_;
+    std::vector<MonitoredFeature> results_;
 };
 
 }  // namespace gearpod::mc

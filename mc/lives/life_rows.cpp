@@ -64,13 +64,13 @@ void check_lives(const std::string& path, const Results& frame, const RowSource&
     if (!study || !study->life.interval_h) {
         throw std::runtime_error(path + ": its study cannot be read, or has no [life]");
     }
-    check_like(path, frame, rows,
-               ExpectedResults{lives_frame(*study), lives_plan(*study), "lives", true});
+    check_against(path, frame, rows,
+                  ExpectedResults{lives_frame(*study), lives_plan(*study), "lives", true});
 }
 
-bool looked_at(const GearboxId& id) {
-    constexpr std::uint64_t kLookedAt = 8;
-    return id.group == Group::graded && id.index < kLookedAt;
+bool measures_interpolation(const GearboxId& id) {
+    constexpr std::uint64_t kMeasuredLives = 8;
+    return id.group == Group::graded && id.index < kMeasuredLives;
 }
 
 void add_life(const Study& study, const std::vector<double>& parameters, const GearboxLife& life,
@@ -81,20 +81,21 @@ void add_life(const Study& study, const std::vector<double>& parameters, const G
     rows.values.insert(rows.values.end(), {life.history.end_hours.value_or(kNoNumber),
                                            static_cast<double>(records.size()), errors.first,
                                            errors.last, errors.load});
-    const std::size_t behind = static_cast<std::size_t>(study.life.records) - records.size();
+    const std::size_t missing_records =
+        static_cast<std::size_t>(study.life.records) - records.size();
     for (std::size_t f = 0; f < study.features.use.size(); ++f) {
         if (life.status == Status::ok) {
             rows.values.insert(rows.values.end(), life.values[f].begin(), life.values[f].end());
         } else {
             rows.values.insert(rows.values.end(), records.size(), kNoNumber);
         }
-        rows.values.insert(rows.values.end(), behind, kNoNumber);
+        rows.values.insert(rows.values.end(), missing_records, kNoNumber);
     }
     for (const RecordColumn& column : kRecordColumns) {
         for (const LifeRecord& record : records) {
             rows.values.push_back(record.*column.member);
         }
-        rows.values.insert(rows.values.end(), behind, kNoNumber);
+        rows.values.insert(rows.values.end(), missing_records, kNoNumber);
     }
 }
 

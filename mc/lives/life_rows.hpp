@@ -18,7 +18,7 @@ Results lives_frame(const Study& study);
 void check_lives(const std::string& path, const Results& frame, const RowSource& rows);
 
 // True if the interpolation errors of a gearbox are measured.
-bool looked_at(const GearboxId& id);
+bool measures_interpolation(const GearboxId& id);
 
 // Appends the row of a life. `parameters` comes from Sampler::row().
 void add_life(const Study& study, const std::vector<double>& parameters, const GearboxLife& life,

@@ -3,10 +3,10 @@
 namespace gearpod::mc {
 
 LifeTiles::LifeTiles(const Scene& scene)
-    : scene_((check_composable(scene), scene)),
-      laws_(scene.study()),
-      torques_(laws_.torque.marched(torques_marched(scene.study().life))),
-      speeds_(laws_.speed.marched(speeds_marched(scene.study().life))),
+    : scene_((check_superposable(scene), scene)),
+      distributions_(scene.study()),
+      torques_(distributions_.torque.integrated_factors(integrated_torques(scene.study().life))),
+      speeds_(distributions_.speed.integrated_factors(integrated_speeds(scene.study().life))),
       sampler_(study_of_gearboxes(scene.study())),
       path_(path_grid(scene)),
       crack_(scene) {}
@@ -17,9 +17,10 @@ std::size_t LifeTiles::lanes() const {
 
 std::size_t LifeTiles::gap_count() const {
     const Life& life = scene_.study().life;
-    return load_count() == 1 ? 0
-                             : laws_.torque.between(torques_marched(life)).size() *
-                                   laws_.speed.between(speeds_marched(life)).size();
+    return load_count() == 1
+               ? 0
+               : distributions_.torque.factors_between(integrated_torques(life)).size() *
+                     distributions_.speed.factors_between(integrated_speeds(life)).size();
 }
 
 InstanceInputs LifeTiles::inputs(const GearboxId& id) const {
@@ -42,17 +43,18 @@ std::vector<LifeTiles::Load> LifeTiles::loads() const {
     return all;
 }
 
-std::vector<double> LifeTiles::shares(const Load& load) const {
+std::vector<double> LifeTiles::load_weights(const Load& load) const {
     std::vector<double> all;
-    for (const double torque : shares_of(torques_, load.torque)) {
-        for (const double speed : shares_of(speeds_, load.speed)) {
+    for (const double torque : interpolation_weights(torques_, load.torque)) {
+        for (const double speed : interpolation_weights(speeds_, load.speed)) {
             all.push_back(torque * speed);
         }
     }
     return all;
 }
 
-HealthyMarch LifeTiles::march(std::span<const GearboxId> ids, const Load& load) const {
+HealthySolution LifeTiles::healthy_solution(std::span<const GearboxId> ids,
+                                            const Load& load) const {
     std::vector<InstanceInputs> all;
     for (const GearboxId& id : ids) {
         all.push_back(inputs(id));

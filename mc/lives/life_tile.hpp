@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "mc/gearbox/healthy_march.hpp"
+#include "mc/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
-#include "mc/lives/record_laws.hpp"
+#include "mc/lives/record_distributions.hpp"
 #include "mc/lives/record_span.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -44,7 +44,7 @@ struct LifeCosts {
 };
 
 // Processor time in seconds for the records of a gearbox.
-struct RecordTrial {
+struct RecordTimes {
     double step_s = 0.0;    // per depth step: preparing the superposition
     double record_s = 0.0;  // per record
 };
@@ -60,7 +60,7 @@ class LifeTiles {
                                  std::span<InterpolationErrors> errors = {}) const;
 
     // Computes all records of a gearbox from synthetic signals, and measures the time.
-    RecordTrial try_records() const;
+    RecordTimes time_records() const;
 
     LifeHistory history(const GearboxId& id) const;  // of a gearbox with a crack
     // Number of loads that are integrated, and number of loads between them at which interpolation
@@ -74,23 +74,23 @@ class LifeTiles {
 
   private:
     class Lane;
-    class Look;
-    using Marched = std::vector<std::vector<LaneSignals>>;  // [lane][load]
-    LaneSignals made_up(std::uint64_t number) const;
+    class InterpolationCheck;
+    using SignalsByLoad = std::vector<std::vector<LaneSignals>>;  // [lane][load]
+    LaneSignals synthetic_signals(std::uint64_t number) const;
     // Factors on the torque and speed of a gearbox.
     struct Load {
         double torque = 1.0, speed = 1.0;
     };
     // Healthy reference solution of the gearboxes at a load.
-    HealthyMarch march(std::span<const GearboxId> ids, const Load& load) const;
+    HealthySolution healthy_solution(std::span<const GearboxId> ids, const Load& load) const;
     InstanceInputs inputs(const GearboxId& id) const;
     double depth(int step) const;
     // Integrated loads, and interpolation weights of each of them for another load.
     std::vector<Load> loads() const;
-    std::vector<double> shares(const Load& load) const;
+    std::vector<double> load_weights(const Load& load) const;
 
     const Scene& scene_;
-    const RecordLaws laws_;
+    const RecordDistributions distributions_;
     const std::vector<double> torques_, speeds_;  // factors that are integrated
     const Sampler sampler_;
     const signals::PathGrid path_;

@@ -14,7 +14,8 @@ namespace gearpod::mc {
 namespace {
 
 double mesh_frequency_Hz(const Scene& scene, double speed_rad_s) {
-    return std::abs(scene.drive().mesh_frequency_rad_s(speed_rad_s)) / (2.0 * std::numbers::pi);
+    return std::abs(scene.drivetrain().mesh_frequency_rad_s(speed_rad_s)) /
+           (2.0 * std::numbers::pi);
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ std::string record_text(const Scene& scene) {
                               teeth, record.turns, record.all_turns));
 }
 
-void check_composable(const Scene& scene) {
+void check_superposable(const Scene& scene) {
     const Study& study = scene.study();
     const auto reject = [](const char* key, const std::string& what, const char* remedy) {
         throw SceneError(key, what, remedy);
@@ -71,7 +72,7 @@ void check_composable(const Scene& scene) {
         reject("life.interval_h", "missing: the time between records", "add [life]");
     }
     for (const features::Feature* feature : used_features(study)) {
-        const bool own = feature->compared == features::Compared::baseline;
+        const bool own = feature->baseline_use == features::BaselineUse::baseline;
         if (own || (feature->needs & ~features::kChange) != 0) {
             reject("features.use",
                    "\"" + std::string(feature->name) +
@@ -102,7 +103,7 @@ void check_composable(const Scene& scene) {
     if (study.sensor.noise_levels.size() != 1) {
         reject("sensor.noise_levels", "a life has one noise level", "use noise_levels = [1]");
     }
-    if (draws_fluctuations(study) || !study.sensor.tones.empty()) {
+    if (has_random_fluctuations(study) || !study.sensor.tones.empty()) {
         reject("life.interval_h",
                "records are superpositions of steady signals, but the study has fluctuations, "
                "gravity or tones that differ between records",

@@ -26,6 +26,6 @@ RecordSpan record_span(const Scene& scene, double speed_rad_s);
 std::string record_text(const Scene& scene);
 
 // Throws SceneError if the study's records cannot be superposed.
-void check_composable(const Scene& scene);
+void check_superposable(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -6,7 +6,7 @@
 
 namespace gearpod::mc {
 
-LaneSignals LifeTiles::made_up(std::uint64_t number) const {
+LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
     const auto samples = [&](int of_mesh, int meshes) {
         return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
     };
@@ -19,19 +19,19 @@ LaneSignals LifeTiles::made_up(std::uint64_t number) const {
     return all;
 }
 
-RecordTrial LifeTiles::try_records() const {
-    const std::vector<LaneSignals> none, healthy(load_count(), made_up(0)),
-        low(load_count(), made_up(1)), high(load_count(), made_up(2));
+RecordTimes LifeTiles::time_records() const {
+    const std::vector<LaneSignals> none, healthy(load_count(), synthetic_signals(0)),
+        low(load_count(), synthetic_signals(1)), high(load_count(), synthetic_signals(2));
     Lane lane(*this, {Group::graded, 0}, false);
-    lane.learn(healthy);
+    lane.compute_reference_pattern(healthy);
     const auto seconds = [](const auto& work) {
         const double start = thread_processor_s();
         work();
         return thread_processor_s() - start;
     };
-    const double first_s = seconds([&] { lane.compose(lane.basis_of(healthy, none, high)); });
-    const double step_s = seconds([&] { lane.compose(lane.basis_of(healthy, low, high)); });
-    const double all_s = seconds([&] { lane.listen(0.0, depth(1), healthy, none, high); });
+    const double first_s = seconds([&] { lane.superpose(lane.basis_of(healthy, none, high)); });
+    const double step_s = seconds([&] { lane.superpose(lane.basis_of(healthy, low, high)); });
+    const double all_s = seconds([&] { lane.compute_records(0.0, depth(1), healthy, none, high); });
     return {step_s, std::max(0.0, all_s - first_s) / scene_.study().life.records};
 }
 

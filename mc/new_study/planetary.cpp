@@ -46,7 +46,7 @@ constexpr std::array kOptions{
 // Name of the study in problems.
 const std::string kName = "new planetary";
 
-bool says(const Problem& problem, const char* words) {
+bool mentions(const Problem& problem, const char* words) {
     return problem.what.find(words) != std::string::npos;
 }
 
@@ -55,12 +55,12 @@ bool says(const Problem& problem, const char* words) {
 Problem as_option(Problem problem) {
     problem.file = kName;
     problem.line = 0;
-    if (says(problem, "tooth pairs of a gear pair touch at once")) {
+    if (mentions(problem, "tooth pairs of a gear pair touch at once")) {
         problem.key = "--helix, --face-width";
         problem.remedy = "give narrower teeth or a smaller helix angle";
         return problem;
     }
-    if (says(problem, "tip circles given")) {
+    if (mentions(problem, "tip circles given")) {
         problem.remedy = "the options are --addendum, --sun-tip, --planet-tip and --ring-tip";
     }
     const auto at = std::ranges::find_if(
@@ -79,14 +79,14 @@ Problems as_options(Problems problems) {
 }
 
 // Tooth number of the ring for standard gears. The tooth numbers are not checked yet.
-int usual_ring(const PlanetaryDatasheet& data) {
+int default_ring_teeth(const PlanetaryDatasheet& data) {
     constexpr std::int64_t kMost = 1 << 30;
     return static_cast<int>(std::clamp(data.sun + 2 * std::int64_t{data.planet}, -kMost, kMost));
 }
 
 // Default face width, rounded to whole millimetres from 10 mm. Any number if the module is invalid.
-double usual_width_mm(const PlanetaryDatasheet& data) {
-    const double width = 1e3 * usual_face_width_m(1e-3 * data.module_mm);
+double default_width_mm(const PlanetaryDatasheet& data) {
+    const double width = 1e3 * default_face_width_m(1e-3 * data.module_mm);
     return !(width > 0.0) || !std::isfinite(width) ? 1.0 : width < 10.0 ? width : std::round(width);
 }
 
@@ -119,7 +119,7 @@ Problems load_problems(const PlanetaryDatasheet& data) {
 }
 
 // Minimal study with the teeth only. Reading it checks the teeth.
-std::string teeth_alone(const NominalGears& gears) {
+std::string minimal_study(const NominalGears& gears) {
     return gearbox_teeth(gears) +
            "tooth_profile = \"fillet\"\nsupport_stiffness_N_m = 1e9\n"
            "[operation]\nfixed = \"ring\"\ninput = \"sun\"\ntorque_N_m = 1\nsun_speed_rpm = 1\n"
@@ -141,7 +141,8 @@ DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const 
         return std::abs(g.tip_radius() - g.root_radius());
     };
     const auto bore_radius = [&](const gears::Gear& g) {
-        return std::max(g.root_radius() - usual_rim_m(height(g)), kLeastBore * g.root_radius());
+        return std::max(g.root_radius() - default_rim_m(height(g)),
+                        kMinBoreRatio * g.root_radius());
     };
     d.centre_distance_m = distance;
     d.sun_body = {sun.pitch_radius(), bore_radius(sun), width};
@@ -162,7 +163,7 @@ DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const 
     const gears::PowerFlow flow{gears::FixedMember::ring, input};
     d.torques = gears::balanced_torques(train, input, load.torque_N_m);
     d.mesh_frequency_Hz = gears::mesh_frequency(
-        train, gears::driven_speeds(train, flow, input, load.speed_rpm / 60.0));
+        train, gears::signed_speeds(train, flow, input, load.speed_rpm / 60.0));
     d.pin_load_N = std::abs(d.torques.carrier) / (data.planets * distance);
     d.deepest_crack_m = max_crack_depth_m(study);
     return d;
@@ -171,10 +172,10 @@ DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const 
 }  // namespace
 
 NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& command) {
-    const NominalGears gears{data, data.ring ? *data.ring : usual_ring(data),
-                             data.face_width_mm ? *data.face_width_mm : usual_width_mm(data)};
+    const NominalGears gears{data, data.ring ? *data.ring : default_ring_teeth(data),
+                             data.face_width_mm ? *data.face_width_mm : default_width_mm(data)};
     Problems problems = load_problems(data);
-    const StudyReading teeth = read_study_text(teeth_alone(gears), kName);
+    const StudyReading teeth = read_study_text(minimal_study(gears), kName);
     std::ranges::move(as_options(teeth.problems), std::back_inserter(problems));
     if (!teeth.study || !problems.empty()) {
         return {"", problems};

@@ -204,7 +204,7 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
            varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
 }
 
-constexpr const char* kAnswer =
+constexpr const char* kOutputSections =
     "\n[features]\n"
     "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
     "\"own_window_ratio\", \"change_window_ratio\"]\n"
@@ -247,7 +247,7 @@ std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const
                            const std::string& command) {
     return header(g, command) + gearbox_teeth(g) + "tooth_profile = \"fillet\"\n" + bodies(d) +
            accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + effects() + kFault +
-           sensor(d) + random(d, load) + kAnswer;
+           sensor(d) + random(d, load) + kOutputSections;
 }
 
 }  // namespace gearpod::mc

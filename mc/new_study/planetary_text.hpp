@@ -22,7 +22,7 @@ struct DerivedGearbox {
     Annulus sun_body, planet_body, ring_body;
     RollerBearing bearing;  // of a planet
     double carrier_mass_kg = 0, carrier_inertia_kg_m2 = 0;
-    gears::Members torques;
+    gears::CentralMembers torques;
     double mesh_frequency_Hz = 0, pin_load_N = 0, deepest_crack_m = 0;
 };
 

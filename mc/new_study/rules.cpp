@@ -7,11 +7,11 @@ namespace gearpod::mc {
 
 using std::numbers::pi;
 
-double usual_face_width_m(double normal_module_m) {
+double default_face_width_m(double normal_module_m) {
     return 4.0 * pi * normal_module_m;
 }
 
-double usual_rim_m(double tooth_height_m) {
+double default_rim_m(double tooth_height_m) {
     return 1.2 * tooth_height_m;
 }
 

@@ -13,15 +13,15 @@ namespace gearpod::mc {
 inline constexpr double kSteelDensity_kg_m3 = 7850.0;
 
 // Face width of four circular pitches; Shigley's rule is three to five.
-double usual_face_width_m(double normal_module_m);
+double default_face_width_m(double normal_module_m);
 
 // Rim thickness under the teeth: 1.2 tooth heights, the backup ratio from which the rim does not
 // weaken the tooth root (AGMA).
-double usual_rim_m(double tooth_height_m);
+double default_rim_m(double tooth_height_m);
 
 // Least ratio of bore to root circle, for gears with few teeth whose rim would close the bore;
 // chosen.
-inline constexpr double kLeastBore = 0.3;
+inline constexpr double kMinBoreRatio = 0.3;
 
 // Steel ring. Radii in metres.
 struct Annulus {

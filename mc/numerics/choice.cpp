@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 
-#include "mc/numerics/ladder.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/reference.hpp"
+#include "mc/numerics/solver_families.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -27,7 +27,7 @@ struct Trial {
     double error = kNever;  // relative, of the worst feature
     int worst = 0;          // index of that feature
     double cost = kNever;   // in rk4 steps per gearbox
-    bool marched = false;   // false: too expensive to be chosen, or invalid for the study
+    bool was_run = false;   // false: too expensive to be chosen, or invalid for the study
 };
 
 class Search {
@@ -35,13 +35,13 @@ class Search {
     explicit Search(const Study& study)
         : study_(study),
           tolerance_(study.numerics.tolerance),
-          own_(rung_scene(study, own_rung(study))),
+          own_(setting_scene(study, own_setting(study))),
           last_(std::make_unique<const Scene>(own_)),
           pilot_(own_) {
         ReferenceRequest request;
         request.agreement = kReferenceShare * tolerance_;
-        request.settle_tolerance = std::min(1e-10, 1e-3 * tolerance_);
-        reference_ = converged_by_itself(study, pilot_, request);
+        request.convergence_tolerance = std::min(1e-10, 1e-3 * tolerance_);
+        reference_ = self_converged_reference(study, pilot_, request);
         if (!reference_.reached) {
             throw SceneError(
                 "numerics.tolerance",
@@ -54,17 +54,17 @@ class Search {
     }
 
     NumericsChoice run() {
-        std::vector<Flight> all = flights(study_, kBeyondOwnRule);
-        std::erase_if(all, [&](const Flight& f) {
+        std::vector<SolverFamily> all = solver_families(study_, kBeyondOwnRule);
+        std::erase_if(all, [&](const SolverFamily& f) {
             return f.size() == 0 || !step_cost(study_, f.integrator, f.other);
         });
         // The least expensive families first: candidates that cost more than the best so far are
         // not tried.
-        std::stable_sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
+        std::stable_sort(all.begin(), all.end(), [&](const SolverFamily& a, const SolverFamily& b) {
             return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
         });
-        for (const Flight& flight : all) {
-            flight.graded() ? search_graded(flight) : search(flight);
+        for (const SolverFamily& family : all) {
+            family.graded() ? search_graded(family) : search(family);
         }
         if (!std::isfinite(best_.cost)) {
             throw SceneError(
@@ -78,39 +78,39 @@ class Search {
     }
 
   private:
-    double cost_of(const Flight& flight) const {
-        return step_cost(study_, flight.integrator, flight.other).value();
+    double cost_of(const SolverFamily& family) const {
+        return step_cost(study_, family.integrator, family.other).value();
     }
 
-    Trial trial(const Flight& flight, std::size_t step, double settle) {
-        const Rung rung = flight.rung(step, settle);
-        const auto known = trials_.find(rung.text());
+    Trial trial(const SolverFamily& family, std::size_t step, double convergence) {
+        const SolverSetting setting = family.setting(step, convergence);
+        const auto known = trials_.find(setting.text());
         if (known != trials_.end()) {
             return known->second;
         }
-        const Numerics numerics = with_rung(study_, rung).numerics;
+        const Numerics numerics = with_setting(study_, setting).numerics;
         Trial result;
         try {
             last_ = std::make_unique<const Scene>(last_->with(numerics));
-            if (flight.graded() && !may_cost(flight, last_->plan().grid.steps.size())) {
-                return trials_.emplace(rung.text(), result).first->second;
+            if (family.graded() && !is_affordable(family, last_->plan().grid.steps.size())) {
+                return trials_.emplace(setting.text(), result).first->second;
             }
             const PilotRecord record = pilot_.run(*last_);
             const PilotError error = pilot_error(record, reference_.record);
             result.error = error.largest_feature();
             result.worst = worst_feature(error);
-            result.cost = cost_of(flight) * record.steps * record.meshes_per_tile();
-            result.marched = true;
-            ++marches_;
+            result.cost = cost_of(family) * record.steps * record.meshes_per_tile();
+            result.was_run = true;
+            ++integrations_;
         } catch (const SceneError&) {  // invalid for this study: infinite error
         }
         least_error_ = std::min(least_error_, result.error);
         if (result.error <= tolerance_ && result.cost < best_.cost) {
             best_ = result;
-            best_rung_ = rung;
+            best_setting_ = setting;
             best_numerics_ = numerics;
         }
-        return trials_.emplace(rung.text(), result).first->second;
+        return trials_.emplace(setting.text(), result).first->second;
     }
 
     int worst_feature(const PilotError& error) const {
@@ -126,60 +126,61 @@ class Search {
 
     // Finds the smallest number of steps that keeps the tolerance, then for it and the next one the
     // loosest convergence tolerance.
-    void search(const Flight& flight) {
-        const std::vector<double>& settle = settle_tolerances();
-        if (!may_win(flight, 0)) {
+    void search(const SolverFamily& family) {
+        const std::vector<double>& convergence = convergence_tolerances();
+        if (!may_be_cheapest(family, 0)) {
             return;
         }
         const auto keeps = [&](std::size_t step, double tolerance) {
-            return trial(flight, step, tolerance).error <= tolerance_;
+            return trial(family, step, tolerance).error <= tolerance_;
         };
-        std::size_t low = 0, high = flight.steps.size();
+        std::size_t low = 0, high = family.steps.size();
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
             // Candidates more expensive than the best one are not tried; fewer steps may still
             // suffice.
-            if (!may_win(flight, middle) || keeps(middle, settle.front())) {
+            if (!may_be_cheapest(family, middle) || keeps(middle, convergence.front())) {
                 high = middle;
             } else {
                 low = middle + 1;
             }
         }
-        for (std::size_t step = low; step < std::min(low + 2, flight.steps.size()); ++step) {
-            if (may_win(flight, step) && keeps(step, settle.front())) {
-                settle_loosely(flight, step);
+        for (std::size_t step = low; step < std::min(low + 2, family.steps.size()); ++step) {
+            if (may_be_cheapest(family, step) && keeps(step, convergence.front())) {
+                loosen_convergence(family, step);
             }
         }
     }
 
     // Finds the loosest convergence tolerance that keeps the tolerance, for steps that keep it.
-    void settle_loosely(const Flight& flight, std::size_t step) {
-        const std::vector<double>& settle = settle_tolerances();
-        std::size_t tight = 0, loose = settle.size();
+    void loosen_convergence(const SolverFamily& family, std::size_t step) {
+        const std::vector<double>& convergence = convergence_tolerances();
+        std::size_t tight = 0, loose = convergence.size();
         while (loose - tight > 1) {
             const std::size_t middle = (tight + loose) / 2;
-            (trial(flight, step, settle[middle]).error <= tolerance_ ? tight : loose) = middle;
+            (trial(family, step, convergence[middle]).error <= tolerance_ ? tight : loose) = middle;
         }
     }
 
     // Finds the coarsest graded grid that keeps the tolerance. Every grid costs a pilot, so only
     // grid tolerances near the tolerance are tried. None is tried if the fewest possible steps
     // would already be too expensive.
-    void search_graded(const Flight& flight) {
+    void search_graded(const SolverFamily& family) {
         constexpr double kNear = 30.0;
-        if (!may_cost(flight, static_cast<std::size_t>(kFewestGraded * flight.own_steps))) {
+        if (!is_affordable(family,
+                           static_cast<std::size_t>(kFewestGradedFraction * family.own_steps))) {
             return;
         }
-        for (std::size_t i = 0; i < flight.size(); ++i) {
-            const double ratio = flight.grid_tolerances[i] / tolerance_;
-            if (flight.size() > 1 && (ratio > kNear || ratio < 1.0 / kNear)) {
+        for (std::size_t i = 0; i < family.size(); ++i) {
+            const double ratio = family.grid_tolerances[i] / tolerance_;
+            if (family.size() > 1 && (ratio > kNear || ratio < 1.0 / kNear)) {
                 continue;
             }
-            const Trial found = trial(flight, i, settle_tolerances().front());
+            const Trial found = trial(family, i, convergence_tolerances().front());
             if (found.error <= tolerance_) {
-                settle_loosely(flight, i);
+                loosen_convergence(family, i);
             }
-            if (found.error <= tolerance_ || !found.marched) {
+            if (found.error <= tolerance_ || !found.was_run) {
                 return;
             }
         }
@@ -187,33 +188,33 @@ class Search {
 
     // Lower bound of the cost: with the loosest convergence tolerance, at least this many mesh
     // periods are integrated.
-    bool may_win(const Flight& flight, std::size_t step) {
-        return may_cost(flight, static_cast<std::size_t>(flight.steps[step]));
+    bool may_be_cheapest(const SolverFamily& family, std::size_t step) {
+        return is_affordable(family, static_cast<std::size_t>(family.steps[step]));
     }
 
-    bool may_cost(const Flight& flight, std::size_t steps) {
+    bool is_affordable(const SolverFamily& family, std::size_t steps) {
         if (least_meshes_ == 0.0) {
-            Rung rung = own_rung(study_);
-            rung.settle_tolerance = settle_tolerances().back();
-            const Scene loose = own_.with(with_rung(study_, rung).numerics);
+            SolverSetting setting = own_setting(study_);
+            setting.convergence_tolerance = convergence_tolerances().back();
+            const Scene loose = own_.with(with_setting(study_, setting).numerics);
             least_meshes_ = pilot_.run(loose).meshes_per_tile();
-            ++marches_;
+            ++integrations_;
         }
-        return cost_of(flight) * static_cast<double>(steps) * least_meshes_ < best_.cost;
+        return cost_of(family) * static_cast<double>(steps) * least_meshes_ < best_.cost;
     }
 
     NumericsChoice choice() const {
         NumericsChoice made;
         made.numerics = best_numerics_;
         made.numerics.tolerance = tolerance_;
-        made.rung = best_rung_;
+        made.setting = best_setting_;
         made.error = best_.error;
         made.worst_feature = study_.features.use[static_cast<std::size_t>(best_.worst)];
         made.cost = best_.cost;
         made.reference = reference_.first.text();
         made.reference_change = reference_.agreement.largest_feature();
         made.gearboxes = static_cast<int>(pilot_.size());
-        made.marches = marches_;
+        made.integrations = integrations_;
         return made;
     }
 
@@ -227,17 +228,17 @@ class Search {
     Reference reference_;
     std::map<std::string, Trial> trials_;
     Trial best_;
-    Rung best_rung_;
+    SolverSetting best_setting_;
     Numerics best_numerics_;
     double least_error_ = kNever, least_meshes_ = 0.0;
-    int marches_ = 0;
+    int integrations_ = 0;
 };
 
 }  // namespace
 
 std::string NumericsChoice::text() const {
     return fmt::format("{} (features within {:.2g} on {} pilot gearboxes; the worst is {})",
-                       rung.text(), error, gearboxes, worst_feature);
+                       setting.text(), error, gearboxes, worst_feature);
 }
 
 ResolvedStudy resolve_numerics(Study study) {

@@ -5,21 +5,21 @@
 #include <optional>
 #include <string>
 
-#include "mc/numerics/rung.hpp"
+#include "mc/numerics/solver_setting.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
 struct NumericsChoice {
     Numerics numerics;  // the study's, with the keys of the chosen setting
-    Rung rung;
+    SolverSetting setting;
     double error = 0.0;         // relative error of the pilot's worst feature
     std::string worst_feature;  // name of that feature
     double cost = 0.0;      // of integrating the pilot by the cost model, in rk4 steps per gearbox
     std::string reference;  // reference solution of the pilot
     double reference_change = 0.0;  // of its worst feature when its steps were last halved
     int gearboxes = 0;              // number of pilot gearboxes
-    int marches = 0;                // number of pilot integrations needed for the choice
+    int integrations = 0;           // number of pilot integrations needed for the choice
 
     std::string text() const;
 };

@@ -9,7 +9,7 @@
 
 #include "analysis/detection/size_groups.hpp"
 #include "mc/numerics/pilot.hpp"
-#include "mc/numerics/rung.hpp"
+#include "mc/numerics/solver_setting.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -17,22 +17,22 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFiner = 4;
-constexpr double kSettled = 1e-10;
+constexpr double kConverged = 1e-10;
 
-Rung rung_of(const Scene& scene) {
+SolverSetting setting_of(const Scene& scene) {
     const Numerics& n = scene.study().numerics;
     return {
         std::string(choice_text(scene.study(), "numerics", "integrator")),
         n.steps_per_mesh > 0 ? n.steps_per_mesh : static_cast<int>(scene.plan().grid.steps.size()),
-        n.settle_tolerance,
+        n.convergence_tolerance,
         {}};
 }
 
 // The same setting with finer uniform steps; for a graded grid finer than its finest step.
-Rung finer_than(const Scene& scene, const Rung& rung, int factor) {
-    Rung finer = rung;
-    finer.settle_tolerance = std::min(kSettled, rung.settle_tolerance);
-    double steps = rung.steps;
+SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int factor) {
+    SolverSetting finer = setting;
+    finer.convergence_tolerance = std::min(kConverged, setting.convergence_tolerance);
+    double steps = setting.steps;
     if (scene.study().numerics.grid == StepGrid::graded) {
         finer.other.push_back("numerics.grid=uniform");
         if (scene.calibration() && scene.calibration()->grading.first > 0.0) {
@@ -105,29 +105,29 @@ std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
     return all;
 }
 
-void share_of_rates(const analysis::LevelDetection& level, const Counts& counts,
-                    NumericalShare& share) {
-    share.pd = share.pd_half_width = kNaN;
+void set_rate_contribution(const analysis::LevelDetection& level, const Counts& counts,
+                           NumericalContribution& contribution) {
+    contribution.pd = contribution.pd_half_width = kNaN;
     if (!std::isfinite(level.threshold)) {
         return;
     }
-    share.pd = share.pd_half_width = 0.0;
+    contribution.pd = contribution.pd_half_width = 0.0;
     for (std::size_t c = 0; c < level.cells.size(); ++c) {
         if (counts.tested[c] == 0) {
             continue;
         }
-        share.pd = std::max(
-            share.pd, static_cast<double>(counts.near[c]) / static_cast<double>(counts.tested[c]));
-        share.pd_half_width =
-            std::max(share.pd_half_width, 0.5 * (level.cells[c].upper - level.cells[c].lower));
+        contribution.pd = std::max(contribution.pd, static_cast<double>(counts.near[c]) /
+                                                        static_cast<double>(counts.tested[c]));
+        contribution.pd_half_width = std::max(contribution.pd_half_width,
+                                              0.5 * (level.cells[c].upper - level.cells[c].lower));
     }
 }
 
-void share_of_size(const analysis::HitMissPod& pod, NumericalShare& share) {
+void set_size_contribution(const analysis::HitMissPod& pod, NumericalContribution& contribution) {
     using Where = analysis::SizeEstimate::Where;
-    share.a90 = share.a90_interval = kNaN;
+    contribution.a90 = contribution.a90_interval = kNaN;
     if (!pod.refusal.empty() || pod.a90.estimate.where != Where::reached ||
-        !std::isfinite(share.pd)) {
+        !std::isfinite(contribution.pd)) {
         return;
     }
     constexpr double kStep = 1e-4;
@@ -135,8 +135,8 @@ void share_of_size(const analysis::HitMissPod& pod, NumericalShare& share) {
     const analysis::PodCurve& curve = pod.chosen.curve;
     const double slope =
         (curve.pod(size * (1.0 + kStep)) - curve.pod(size * (1.0 - kStep))) / (2.0 * kStep * size);
-    share.a90 = share.pd / slope;
-    share.a90_interval =
+    contribution.a90 = contribution.pd / slope;
+    contribution.a90_interval =
         pod.a90.upper.where == Where::reached ? pod.a90.upper.size - size : INFINITY;
 }
 
@@ -153,11 +153,11 @@ FinerScene with_finer_steps(const Scene& scene) {
     if (study.effects.quasi_static()) {
         return finer;
     }
-    const Rung rung = rung_of(scene);
+    const SolverSetting setting = setting_of(scene);
     for (int factor = kFiner; !finer.scene && factor > 1; factor /= 2) {
-        finer.rung = finer_than(scene, rung, factor);
+        finer.setting = finer_than(scene, setting, factor);
         try {
-            finer.scene.emplace(scene.with(with_rung(study, finer.rung).numerics));
+            finer.scene.emplace(scene.with(with_setting(study, finer.setting).numerics));
         } catch (const SceneError&) {  // more steps than the program allows
             continue;
         }
@@ -172,40 +172,42 @@ std::optional<NumericalError> find_numerical_error(const Scene& scene) {
     }
     const Pilot pilot(scene, spread_gearboxes(scene.study()));
     const PilotError error = pilot_error(pilot.run(scene), pilot.run(*finer.scene));
-    return NumericalError{rung_of(scene).text(), finer.rung.text(), static_cast<int>(pilot.size()),
-                          error.rms, error.largest};
+    return NumericalError{setting_of(scene).text(), finer.setting.text(),
+                          static_cast<int>(pilot.size()), error.rms, error.largest};
 }
 
-std::vector<NumericalShare> numerical_shares(
+std::vector<NumericalContribution> numerical_contributions(
     const Results& frame, const RowSource& rows,
     const std::optional<analysis::Reliability>& reliability) {
-    std::vector<NumericalShare> shares;
+    std::vector<NumericalContribution> contributions;
     if (!frame.numerical) {
-        return shares;
+        return contributions;
     }
     const std::size_t levels = frame.noise_levels.size();
     const std::vector<Counts> counts = count_near(frame, rows);
     for (std::size_t at = 0; at < counts.size(); ++at) {
         const std::size_t f = at / levels, level = at % levels;
-        NumericalShare share;
-        share.feature = frame.features[f].name;
-        share.noise_level = frame.noise_levels[level];
-        share.rms = frame.numerical->rms[at];
-        share.spread = standard_deviation(counts[at].healthy);
-        share_of_rates(frame.detection[f].levels[level], counts[at], share);
+        NumericalContribution contribution;
+        contribution.feature = frame.features[f].name;
+        contribution.noise_level = frame.noise_levels[level];
+        contribution.rms = frame.numerical->rms[at];
+        contribution.spread = standard_deviation(counts[at].healthy);
+        set_rate_contribution(frame.detection[f].levels[level], counts[at], contribution);
         if (reliability) {
-            share_of_size(reliability->features[f].levels[level].hit_miss, share);
+            set_size_contribution(reliability->features[f].levels[level].hit_miss, contribution);
         } else {
-            share.a90 = share.a90_interval = kNaN;
+            contribution.a90 = contribution.a90_interval = kNaN;
         }
-        share.numerical_dominates =
-            std::isfinite(share.pd) ? share.pd > share.pd_half_width : !(share.rms < share.spread);
-        shares.push_back(share);
+        contribution.numerical_dominates = std::isfinite(contribution.pd)
+                                               ? contribution.pd > contribution.pd_half_width
+                                               : !(contribution.rms < contribution.spread);
+        contributions.push_back(contribution);
     }
-    return shares;
+    return contributions;
 }
 
-std::string numerical_text(const Results& frame, const std::vector<NumericalShare>& shares) {
+std::string numerical_text(const Results& frame,
+                           const std::vector<NumericalContribution>& contributions) {
     if (!frame.numerical) {
         return "";
     }
@@ -218,7 +220,7 @@ std::string numerical_text(const Results& frame, const std::vector<NumericalShar
         "numerical error; spread: standard deviation of healthy gearboxes\nPd, a90: largest change "
         "due to the numerical error / statistical uncertainty\n(half width of the interval of Pd; "
         "distance of a90 from its upper bound)\n",
-        error.gearboxes, error.rung, error.finer);
+        error.gearboxes, error.setting, error.finer);
     const double per_unit = frame.request.size.per_unit();
     const auto number = [](double value) {
         return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
@@ -226,7 +228,7 @@ std::string numerical_text(const Results& frame, const std::vector<NumericalShar
     for (const double noise : frame.noise_levels) {
         fmt::format_to(out, "noise x {:<7g}{:>9}{:>9}{:>17}{:>17}  {}\n", noise, "rms", "spread",
                        "Pd", "a90", "larger");
-        for (const NumericalShare& s : shares) {
+        for (const NumericalContribution& s : contributions) {
             if (s.noise_level == noise) {
                 fmt::format_to(out, "{:<15}{:>9.2g}{:>9}{:>17}{:>17}  {}\n", s.feature, s.rms,
                                number(s.spread), number(s.pd) + " / " + number(s.pd_half_width),

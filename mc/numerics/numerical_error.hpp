@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
-#include "mc/numerics/rung.hpp"
+#include "mc/numerics/solver_setting.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/scene/scene.hpp"
@@ -17,7 +17,7 @@ namespace gearpod::mc {
 // Scene with four times the steps (or as many as the integrator allows), converged to 1e-10. Empty
 // for a quasi-static study.
 struct FinerScene {
-    Rung rung;
+    SolverSetting setting;
     std::optional<Scene> scene;
 };
 FinerScene with_finer_steps(const Scene& scene);
@@ -30,7 +30,7 @@ FinerScene finer_scene(const Scene& scene);
 std::optional<NumericalError> find_numerical_error(const Scene& scene);
 
 // Numerical and statistical uncertainty of one feature at one noise level.
-struct NumericalShare {
+struct NumericalContribution {
     std::string feature;
     double noise_level = 0.0;
     double rms = 0.0;     // numerical error, in the feature's unit
@@ -46,11 +46,12 @@ struct NumericalShare {
     double a90 = 0.0, a90_interval = 0.0;
     bool numerical_dominates = false;  // for Pd, or without a threshold for the feature itself
 };
-std::vector<NumericalShare> numerical_shares(
+std::vector<NumericalContribution> numerical_contributions(
     const Results& frame, const RowSource& rows,
     const std::optional<analysis::Reliability>& reliability);
 
 // Table of the numerical error; "" if it was not estimated.
-std::string numerical_text(const Results& frame, const std::vector<NumericalShare>& shares);
+std::string numerical_text(const Results& frame,
+                           const std::vector<NumericalContribution>& contributions);
 
 }  // namespace gearpod::mc

@@ -11,7 +11,7 @@
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/realization_features.hpp"
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
@@ -21,11 +21,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
                                     int meshes) {
-    const auto& content = tile.march.content;
+    const auto& content = tile.integration.content;
     std::vector<double> te;
     for (int k = 0; k < meshes; ++k) {
         const int id = content[static_cast<std::size_t>(k) % content.size()];
-        const auto& all = tile.march.records[static_cast<std::size_t>(id)].te;
+        const auto& all = tile.integration.records[static_cast<std::size_t>(id)].te;
         for (int p = 0; p < scene.samples_per_mesh(); ++p) {
             te.push_back(all[static_cast<std::size_t>(p * tile.views.lanes + lane)]);
         }
@@ -93,7 +93,7 @@ double PilotRecord::meshes_per_tile() const {
 }
 
 double PilotRecord::mesh_s() const {
-    return tile_meshes > 0.0 ? march_s / meshes_per_tile() : 0.0;
+    return tile_meshes > 0.0 ? integration_s / meshes_per_tile() : 0.0;
 }
 
 double PilotError::feature(int f, int levels) const {
@@ -129,9 +129,10 @@ PilotRecord Pilot::run(const Scene& scene) const {
     });
 }
 
-PilotRecord Pilot::of_march(const Scene& scene, const March& march) const {
+PilotRecord Pilot::record_of_integration(const Scene& scene,
+                                         const ForeignIntegrator& integrate) const {
     return record(scene, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
-        return tile_of_march(scene, sampler_, path_, some, march(some));
+        return complete_tile(scene, sampler_, path_, some, integrate(some));
     });
 }
 
@@ -141,7 +142,7 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
     record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
     record.steps = static_cast<int>(scene.plan().grid.steps.size());
     const HealthyReference healthy = healthy_reference(scene, sampler_, path_);
-    InstanceFeatures features(scene, &healthy);
+    RealizationFeatures features(scene, &healthy);
     const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
     double tiles_s = 0.0, features_s = 0.0, lanes_run = 0.0;
     for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
@@ -151,8 +152,8 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
         const GearboxTile tile = tile_of(some);
         tiles_s += thread_processor_s() - start;
         lanes_run += lanes;
-        record.tile_meshes += tile.march.marched;
-        record.march_s += tile.march_cpu_s;
+        record.tile_meshes += tile.integration.integrated_meshes;
+        record.integration_s += tile.integration_cpu_s;
         for (std::size_t g = 0; g < some.size(); ++g) {
             const int lane = static_cast<int>(g);
             const InstanceInputs& inputs = tile.inputs[g];
@@ -169,12 +170,12 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
                 lane_signals(scene, path_, tile, lane, features.meshes()), inputs, some[g]);
             features_s += thread_processor_s() - features_start;
             record.sensor.back() =
-                signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path_,
+                signals::synthesize(tile.views, lane, tile.integration.content, scene.span(), path_,
                                     inputs.path_exponent, 0, meshes);
             record.te.back() = te_without_mean(scene, tile, lane, meshes);
         }
     }
-    record.march_s /= lanes_run;
+    record.integration_s /= lanes_run;
     record.total_s = tiles_s / lanes_run + features_s / static_cast<double>(ids_.size());
     return record;
 }

@@ -23,8 +23,8 @@ struct PilotRecord {
     int steps = 0;             // per mesh period
     double tile_meshes = 0.0;  // mesh periods integrated, summed over tiles
     // Processor time per gearbox of one thread, in full tiles with as many lanes as in a run.
-    double march_s = 0.0;  // time integration only
-    double total_s = 0.0;  // sampling, stiffness, integration, signals and features
+    double integration_s = 0.0;  // time integration only
+    double total_s = 0.0;        // sampling, stiffness, integration, signals and features
 
     double meshes_per_tile() const;
     // Processor time of the integration per gearbox and mesh period.
@@ -48,8 +48,8 @@ class Pilot {
     // Precondition: the study of `scene` differs from the pilot's only in its numerics.
     PilotRecord run(const Scene& scene) const;
     // Record of motions integrated by another program; one tile of eight lanes at a time.
-    using March = std::function<lockstep::TileResult(std::span<const GearboxId>)>;
-    PilotRecord of_march(const Scene& scene, const March& march) const;
+    using ForeignIntegrator = std::function<lockstep::TileResult(std::span<const GearboxId>)>;
+    PilotRecord record_of_integration(const Scene& scene, const ForeignIntegrator& integrate) const;
 
   private:
     using Tile = std::function<GearboxTile(std::span<const GearboxId>)>;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "machine/thread_clock.hpp"
-#include "mc/numerics/ladder.hpp"
+#include "mc/numerics/solver_families.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -32,11 +32,11 @@ class Refinement {
   public:
     Refinement(const Study& study, std::string integrator, const ReferenceRequest& request)
         : study_(study),
-          rung_{std::move(integrator), 0, request.settle_tolerance, {}},
+          setting_{std::move(integrator), 0, request.convergence_tolerance, {}},
           request_(request) {
         try {
-            scene_.emplace(rung_scene(study, rung_));
-            rung_.steps = static_cast<int>(scene_->plan().grid.steps.size());
+            scene_.emplace(setting_scene(study, setting_));
+            setting_.steps = static_cast<int>(scene_->plan().grid.steps.size());
         } catch (const SceneError&) {  // the study is too stiff for this explicit method
             scene_.reset();
         }
@@ -47,13 +47,13 @@ class Refinement {
     const PilotRecord& finest() const { return *last_; }  // as integrated
     const PilotRecord& best() const { return *best_; }    // extrapolated
     double order() const { return order_; }
-    const Rung& rung() const { return done_; }
+    const SolverSetting& setting() const { return done_; }
     // Change of the result at the last halving.
     double last_change() const { return change_; }
     // Cost of the next integration, in rk4 steps per mesh period. cost_s(): processor time of one
     // such step in the last one.
     double next_cost() const {
-        return step_cost(study_, rung_.integrator, {}).value_or(1.0) * rung_.steps;
+        return step_cost(study_, setting_.integrator, {}).value_or(1.0) * setting_.steps;
     }
     double cost_s() const { return has_result() ? last_s_ / (0.5 * next_cost()) : 0.0; }
     void stop() { scene_.reset(); }
@@ -61,7 +61,7 @@ class Refinement {
     // Expected cost, in rk4 steps, of the refinement at which halving the steps changes the result
     // by the requested agreement; infinite before the first halving.
     double expected_cost() const {
-        const auto step = step_cost(study_, rung_.integrator, {});
+        const auto step = step_cost(study_, setting_.integrator, {});
         if (!step || !has_result() || !(change_ > 0.0)) {
             return INFINITY;
         }
@@ -70,11 +70,11 @@ class Refinement {
                std::pow(std::max(1.0, change_ / request_.agreement), 1.0 / order);
     }
 
-    void march(const Pilot& pilot) {
+    void integrate(const Pilot& pilot) {
         const double start_s = thread_processor_s();
         PilotRecord record = pilot.run(*scene_);
         last_s_ = thread_processor_s() - start_s;
-        done_ = rung_;
+        done_ = setting_;
         best_ = record;
         order_ = 0.0;
         if (last_) {
@@ -94,20 +94,20 @@ class Refinement {
 
   private:
     void refine(double tile_steps) {
-        rung_.steps *= 2;
+        setting_.steps *= 2;
         if (tile_steps > request_.most_tile_steps) {
             scene_.reset();
             return;
         }
         try {
-            scene_.emplace(scene_->with(with_rung(study_, rung_).numerics));
+            scene_.emplace(scene_->with(with_setting(study_, setting_).numerics));
         } catch (const SceneError&) {
             scene_.reset();
         }
     }
 
     const Study& study_;
-    Rung rung_, done_;
+    SolverSetting setting_, done_;
     const ReferenceRequest request_;
     std::optional<Scene> scene_;  // empty: stopped
     std::optional<PilotRecord> last_, best_;
@@ -121,7 +121,7 @@ bool two_have_results(const std::vector<Refinement>& methods) {
 
 // Stops all but the two methods that are expected to agree at the lowest cost, once every remaining
 // method has halved its steps.
-void keep_two(std::vector<Refinement>& methods) {
+void keep_two_best(std::vector<Refinement>& methods) {
     std::vector<double> costs;
     for (const Refinement& method : methods) {
         if (!method.stopped()) {
@@ -164,8 +164,8 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
             if (apart < least) {
                 least = apart;
                 reference = {a.best(),
-                             a.rung(),
-                             b.rung(),
+                             a.setting(),
+                             b.setting(),
                              a.order(),
                              b.order(),
                              error,
@@ -177,24 +177,24 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
 
 }  // namespace
 
-Reference converged_by_itself(const Study& study, const Pilot& pilot,
-                              const ReferenceRequest& request) {
+Reference self_converged_reference(const Study& study, const Pilot& pilot,
+                                   const ReferenceRequest& request) {
     // Method that the study would use without a tolerance: explicit unless the study is too stiff.
     Refinement method(study, std::string(choice_text(study, "numerics", "integrator")), request);
     if (method.stopped()) {
-        rung_scene(study, method.rung());
+        setting_scene(study, method.setting());
     }
     Reference reference;
     while (!reference.reached && !method.stopped()) {
         const bool first = !method.has_result();
         PilotRecord before = first ? PilotRecord{} : method.finest();
-        method.march(pilot);
+        method.integrate(pilot);
         if (!first) {
             reference.agreement = pilot_error(before, method.finest());
             reference.reached = reference.agreement.largest_feature() <= request.agreement;
         }
         reference.record = method.best();
-        reference.first = method.rung();
+        reference.first = method.setting();
         reference.first_order = method.order();
     }
     return reference;
@@ -210,23 +210,23 @@ Reference converged_reference(const Study& study, const Pilot& pilot,
     double least = INFINITY;
     const double end_s = thread_processor_s() + request.seconds;
     double cost_s = 0.0;
-    const auto marching = [&] {
+    const auto any_running = [&] {
         return std::any_of(methods.begin(), methods.end(),
                            [](const Refinement& m) { return !m.stopped(); });
     };
-    while (!reference.reached && marching()) {
+    while (!reference.reached && any_running()) {
         for (Refinement& method : methods) {
             if (thread_processor_s() + cost_s * method.next_cost() > end_s &&
                 (method.has_result() || two_have_results(methods))) {
                 method.stop();
             }
             if (!method.stopped()) {
-                method.march(pilot);
+                method.integrate(pilot);
                 cost_s = std::max(cost_s, method.cost_s());
             }
         }
         choose_pair(methods, request, least, reference);
-        keep_two(methods);
+        keep_two_best(methods);
     }
     if (!std::isfinite(least)) {
         throw SceneError(

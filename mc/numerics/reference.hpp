@@ -5,13 +5,13 @@
 #include <string>
 
 #include "mc/numerics/pilot.hpp"
-#include "mc/numerics/rung.hpp"
+#include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {
 
 struct ReferenceRequest {
     double agreement = 1e-8;
-    double settle_tolerance = 1e-11;
+    double convergence_tolerance = 1e-11;
     // Largest number of steps of one integration, over all mesh periods of the pilot's tile.
     double most_tile_steps = 2e7;
     // Limit of the processor time, s: no integration is started that would end later.
@@ -21,7 +21,8 @@ struct ReferenceRequest {
 struct Reference {
     // Richardson-extrapolated if halving the steps shows the method's order.
     PilotRecord record;
-    Rung first, second;        // the two that agree best, at their finest; `record` is from `first`
+    SolverSetting first,
+        second;                // the two that agree best, at their finest; `record` is from `first`
     double first_order = 0.0;  // observed on the sensor signal; 0: not extrapolated
     double second_order = 0.0;
     PilotError agreement;  // error of the second relative to the first
@@ -37,7 +38,7 @@ Reference converged_reference(const Study& study, const Pilot& pilot,
 // Reference with features to `agreement` from one method, compared with itself at half the steps.
 // Used to choose how to run, where a wrong method would be visible in every gearbox anyway. Uses
 // the study's own integrator.
-Reference converged_by_itself(const Study& study, const Pilot& pilot,
-                              const ReferenceRequest& request);
+Reference self_converged_reference(const Study& study, const Pilot& pilot,
+                                   const ReferenceRequest& request);
 
 }  // namespace gearpod::mc

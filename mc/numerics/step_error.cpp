@@ -47,7 +47,8 @@ class StepPilot {
     GearboxTile run(const Scene& scene) const {
         const int lanes =
             lockstep::lanes_for(scene.plan().precision, static_cast<int>(ids_.size()));
-        return run_given(scene, path_grid(scene), ids_, inputs_, lanes, {.with_records = true});
+        return run_with_inputs(scene, path_grid(scene), ids_, inputs_, lanes,
+                               {.with_records = true});
     }
 
     std::size_t size() const { return ids_.size(); }
@@ -58,8 +59,8 @@ class StepPilot {
 };
 
 const lockstep::MeshRecord& record_of(const GearboxTile& tile, int mesh) {
-    const std::vector<int>& content = tile.march.content;
-    return tile.march.records[static_cast<std::size_t>(
+    const std::vector<int>& content = tile.integration.content;
+    return tile.integration.records[static_cast<std::size_t>(
         content[static_cast<std::size_t>(mesh) % content.size()])];
 }
 
@@ -74,20 +75,20 @@ void add_lane(const machine::AlignedVector& values, std::size_t lanes,
 }  // namespace
 
 std::optional<StepError> find_step_error(const Scene& scene, double most_meshes) {
-    if (scene.study().effects.quasi_static() || !teeth_can_part(scene.study())) {
+    if (scene.study().effects.quasi_static() || !teeth_can_separate(scene.study())) {
         return std::nullopt;
     }
     FinerScene finer = with_finer_steps(scene);
     if (!finer.scene) {
         return std::nullopt;
     }
-    Numerics in_doubles = finer.scene->study().numerics;
-    in_doubles.precision = Precision::double_precision;
+    Numerics in_double_precision = finer.scene->study().numerics;
+    in_double_precision.precision = Precision::double_precision;
     const Scene coarse = scene.recording_at_most(kMeshes);
-    const Scene fine = finer.scene->with(in_doubles).recording_at_most(kMeshes);
+    const Scene fine = finer.scene->with(in_double_precision).recording_at_most(kMeshes);
     const double ratio = static_cast<double>(fine.plan().grid.steps.size()) /
                          static_cast<double>(coarse.plan().grid.steps.size());
-    if (marched_meshes(coarse) * (1.0 + ratio) > most_meshes) {
+    if (integrated_meshes(coarse) * (1.0 + ratio) > most_meshes) {
         return std::nullopt;
     }
     const StepPilot pilot(scene);
@@ -120,7 +121,7 @@ std::optional<StepError> find_step_error(const Scene& scene, double most_meshes)
 std::optional<StepError> find_step_error_of_run(const Scene& scene, std::size_t gearboxes) {
     constexpr double kShare = 0.02;
     const double tiles = static_cast<double>(gearboxes) / scene.study().numerics.lanes;
-    return find_step_error(scene, kShare * tiles * marched_meshes(scene));
+    return find_step_error(scene, kShare * tiles * integrated_meshes(scene));
 }
 
 std::string step_error_text(const StepError& error) {

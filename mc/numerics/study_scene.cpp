@@ -33,7 +33,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
     }
     try {
         lockstep::check_lanes(reading.study->numerics.precision, reading.study->numerics.lanes);
-    } catch (const lockstep::NoSuchKernel& error) {
+    } catch (const lockstep::MissingKernel& error) {
         return refused({{name, 0, "numerics.lanes", error.what(),
                          "remove it, or build with all kernels (preset portable)"}});
     }

@@ -16,9 +16,10 @@ void add_lives(CLI::App& app, LivesOptions& options, int& code) {
                 "continue an interrupted run, or add cracked gearboxes to a finished one",
                 "overwrite the results of another study or any other file");
     add_progress(*command, run);
-    needs_name(command->add_option("--json", options.json,
-                                   "write JSON to a file, or - for standard output"));
-    needs_name(command->add_option("--html", options.html, "write a page with figures to a file"));
+    require_file_name(command->add_option("--json", options.json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", options.html, "write a page with figures to a file"));
     command->add_flag("--quiet", run.quiet, "show no progress");
     command->callback([&options, &code] { code = lives_command(options); });
 }

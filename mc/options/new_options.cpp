@@ -43,8 +43,8 @@ void add_new(CLI::App& app, NewOptions& options, int& code) {
     command->add_option("--torque", data.torque_N_m, "input torque, N m");
     command->add_option("--speed", data.speed_rpm, "input speed, rpm");
     command->add_option("--power", data.power_kW, "power, kW, instead of torque or speed");
-    needs_name(command->add_option("--out", options.out,
-                                   "study file to write (default: - for standard output)"));
+    require_file_name(command->add_option("--out", options.out,
+                                          "study file to write (default: - for standard output)"));
     command->add_flag("--force", options.force, "overwrite an existing file");
     command->callback([command, &options, &code] {
         options.command = "new " + options.kind;

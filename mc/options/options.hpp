@@ -13,7 +13,7 @@ namespace gearpod::mc {
 int parse(CLI::App& app, int argc, char** argv, const int& code);
 
 // Rejects an empty file name for an option that names an output file.
-CLI::Option* needs_name(CLI::Option* option);
+CLI::Option* require_file_name(CLI::Option* option);
 
 // Adds --set SECTION.KEY=VALUE. add_study() also adds the study file as a positional argument.
 void add_study_keys(CLI::App& command, StudyOptions& options);

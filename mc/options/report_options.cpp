@@ -7,14 +7,15 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
     auto* command = app.add_subcommand(
         "report", "print detection rates, POD and feature ranking from a results file");
     command->add_option("results", report.results, "results file (HDF5)")->required();
-    needs_name(command->add_option("--json", report.json,
-                                   "write JSON to a file, or - for standard output"));
-    needs_name(command->add_option("--html", report.html, "write a page with figures to a file"));
-    needs_name(command->add_option("--pdf", report.pdf,
-                                   "write a one-page summary with its limits to a file"));
-    needs_name(command->add_option("--csv", report.csv, "write all tables into a folder"));
-    needs_name(command->add_option("--figures", report.figures,
-                                   "write the page's figures into a folder, as SVG and PNG"));
+    require_file_name(command->add_option("--json", report.json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", report.html, "write a page with figures to a file"));
+    require_file_name(command->add_option("--pdf", report.pdf,
+                                          "write a one-page summary with its limits to a file"));
+    require_file_name(command->add_option("--csv", report.csv, "write all tables into a folder"));
+    require_file_name(command->add_option(
+        "--figures", report.figures, "write the page's figures into a folder, as SVG and PNG"));
     command->add_option("--by", report.condition,
                         "random input, e.g. torque_N_m; also use a separate threshold for each of "
                         "its values");
@@ -44,8 +45,8 @@ void add_misses(CLI::App& app, MissesOptions& misses, int& code) {
     command->add_option("--gearboxes", misses.gearboxes, "number of gearboxes (default: 200)");
     command->add_option("--records", misses.records,
                         "records of each gearbox, a multiple of four (default: 64)");
-    needs_name(command->add_option("--json", misses.json,
-                                   "write JSON to a file, or - for standard output"));
+    require_file_name(command->add_option("--json", misses.json,
+                                          "write JSON to a file, or - for standard output"));
     command->add_flag("--quiet", misses.quiet, "show no progress");
     command->callback([&misses, &code] { code = misses_command(misses); });
 }
@@ -69,7 +70,7 @@ void add_rare(CLI::App& app, RareOptions& rare, int& code) {
                         "one of sensor.noise_levels (default: 1, or the first above 0)");
     command->add_option("--gearboxes", rare.gearboxes,
                         "number of gearboxes of each level (default: 1000)");
-    needs_name(
+    require_file_name(
         command->add_option("--json", rare.json, "write JSON to a file, or - for standard output"));
     command->add_flag("--quiet", rare.quiet, "show no progress");
     command->callback([&rare, &code] { code = rare_command(rare); });

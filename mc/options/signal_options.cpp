@@ -65,20 +65,20 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
                      "recording of a healthy gearbox, the reference of na4, nb4 and nsds; may be "
                      "repeated (default: gearboxes simulated from the study)")
         ->allow_extra_args(false);
-    needs_name(command->add_option(
+    require_file_name(command->add_option(
         "--baseline", features.baseline,
         "earlier recording of the same gearbox in healthy condition, the reference of own_... and "
         "change_... features"));
     command->add_option("--noise-level", features.noise_level,
                         "noise level of the simulated gearboxes (default: 1)");
-    needs_name(command->add_option("--json", features.json,
-                                   "one signal: write JSON to a file, or - for standard output"));
-    needs_name(command->add_option("--out", features.out,
-                                   "many signals: write a results file (HDF5) for `report`"));
-    needs_name(command->add_option(
+    require_file_name(command->add_option(
+        "--json", features.json, "one signal: write JSON to a file, or - for standard output"));
+    require_file_name(command->add_option(
+        "--out", features.out, "many signals: write a results file (HDF5) for `report`"));
+    require_file_name(command->add_option(
         "--csv", features.csv, "many signals: write a table to a file, or - for standard output"));
     command->add_flag("--quiet", features.quiet, "show no progress");
-    needs_name(command->add_option(
+    require_file_name(command->add_option(
         "--against", features.against,
         "results file of healthy gearboxes; decide with its threshold: alarm or not"));
     command->add_option("--feature", features.feature,
@@ -118,15 +118,15 @@ void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code) {
                      "acceleration except those of sun and ring)")
         ->allow_extra_args(false);
     command
-        ->add_option("--draws", calibrate.draws,
+        ->add_option("--draws", calibrate.sets,
                      "parameter sets simulated in each of two rounds (default: 200); each set "
                      "integrates every gearbox once")
         ->check(CLI::Range(50L, 100000L));
-    needs_name(command->add_option("--out", calibrate.out,
-                                   "write a study file (TOML) with the calibrated inputs in "
-                                   "[random], or - for standard output"));
-    needs_name(command->add_option("--json", calibrate.json,
-                                   "write JSON to a file, or - for standard output"));
+    require_file_name(command->add_option("--out", calibrate.out,
+                                          "write a study file (TOML) with the calibrated inputs in "
+                                          "[random], or - for standard output"));
+    require_file_name(command->add_option("--json", calibrate.json,
+                                          "write JSON to a file, or - for standard output"));
     command->add_flag("--quiet", calibrate.quiet, "do not print the computing time");
     command->callback([&] { code = calibrate_command(calibrate); });
 }

@@ -52,7 +52,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& code) {
     return code;
 }
 
-CLI::Option* needs_name(CLI::Option* option) {
+CLI::Option* require_file_name(CLI::Option* option) {
     return option->check([](const std::string& name) {
         return name.empty() ? std::string("the file name is empty; give a name, or omit the option")
                             : std::string();
@@ -82,7 +82,7 @@ void add_shorthand(CLI::App& command, const char* name, const char* key, const c
 }
 
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force) {
-    needs_name(
+    require_file_name(
         command.add_option("--out", run.out, "results file (default: the study's name with .h5)"));
     command.add_flag("--resume", run.resume, resume);
     command.add_flag("--force", run.force, force);

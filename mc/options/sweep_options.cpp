@@ -22,12 +22,13 @@ void add_sweep(CLI::App& app, SweepOptions& options, int& code) {
     add_shorthand(*command, "--instances", "ensemble.instances",
                   "number of gearboxes over all fault sizes", options.study);
     add_shorthand(*command, "--seed", "ensemble.seed", "seed of all random numbers", options.study);
-    needs_name(
+    require_file_name(
         command->add_option("--out", options.out,
                             "folder of the results files (default: the study's name with -sweep)"));
-    needs_name(command->add_option("--json", options.json,
-                                   "write JSON to a file, or - for standard output"));
-    needs_name(command->add_option("--html", options.html, "write a page with curves to a file"));
+    require_file_name(command->add_option("--json", options.json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", options.html, "write a page with curves to a file"));
     command->add_flag("--force", options.force,
                       "overwrite the results of another study or any other file");
     command->add_flag("--quiet", options.quiet, "show no progress");

@@ -79,9 +79,10 @@ void add_pod(CLI::App& app, PodOptions& pod, int& code) {
         ->add_option("--target", pod.target,
                      "size that a90/95 must reach; print how many specimens that needs")
         ->check(CLI::PositiveNumber);
-    needs_name(
+    require_file_name(
         command->add_option("--json", pod.json, "write JSON to a file, or - for standard output"));
-    needs_name(command->add_option("--html", pod.html, "write a page with figures to a file"));
+    require_file_name(
+        command->add_option("--html", pod.html, "write a page with figures to a file"));
     command->callback([&] { code = pod_command(pod); });
 }
 
@@ -93,9 +94,10 @@ void add_compare(CLI::App& app, CompareOptions& compare, int& code) {
         ->add_option("results", compare.results,
                      "results files (HDF5); all others are compared with the first")
         ->required();
-    needs_name(command->add_option("--json", compare.json,
-                                   "write JSON to a file, or - for standard output"));
-    needs_name(command->add_option("--html", compare.html, "write a page with figures to a file"));
+    require_file_name(command->add_option("--json", compare.json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", compare.html, "write a page with figures to a file"));
     command->callback([&] { code = compare_command(compare); });
 }
 

@@ -116,8 +116,9 @@ Population read_population(const std::string& path, double noise_level, const St
     return population;
 }
 
-std::vector<Verdict> judge(const Population& population, const std::vector<double>& measured,
-                           const std::string& feature) {
+std::vector<Verdict> compare_with_population(const Population& population,
+                                             const std::vector<double>& measured,
+                                             const std::string& feature) {
     std::vector<Verdict> verdicts;
     for (const PopulationFeature& known : population.features) {
         const features::Feature* named = features::find_feature(known.name);

@@ -44,8 +44,9 @@ struct Verdict {
 // Compares the features that both recording and population have, in the population's order. A
 // non-empty `feature` is moved to the front. `measured` is in the order of measurable(), NaN: no
 // value. Throws std::runtime_error if there is no common feature, or not the named one.
-std::vector<Verdict> judge(const Population& population, const std::vector<double>& measured,
-                           const std::string& feature);
+std::vector<Verdict> compare_with_population(const Population& population,
+                                             const std::vector<double>& measured,
+                                             const std::string& feature);
 
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured);
 

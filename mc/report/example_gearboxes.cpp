@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/realization_features.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/report/thinning.hpp"
@@ -138,7 +138,7 @@ Json engagements(const Scene& scene, double size) {
             continue;
         }
         for (double start = passage.start; start < turn; start += pattern.length) {
-            json.push_back({{"pair", scene.drive().pair_name(passage.pair)},
+            json.push_back({{"pair", scene.drivetrain().pair_name(passage.pair)},
                             {"from", start},
                             {"to", start + mesh->duration()}});
         }
@@ -164,10 +164,10 @@ class Examples {
                              read_part(frame_.provenance_value("part")).value_or(Part{}));
         const Batch batch = plan.batch(plan.batch_of_row(row));
         const std::size_t within = row - batch.first_row;
-        return {
-            batch.group, batch.first_index + within / batch.records, Record::judged,
-            within % batch.records,
-            batch.group == Group::threshold ? threshold_draws(scene_.study()) : NoiseDraws::plain};
+        return {batch.group, batch.first_index + within / batch.records, Record::test,
+                within % batch.records,
+                batch.group == Group::threshold ? threshold_noise_sampling(scene_.study())
+                                                : NoiseSampling::plain};
     }
 
     Json run(const ExampleRow& row) {
@@ -178,8 +178,9 @@ class Examples {
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const LaneSignals own = lane_signals(scene_, path_, tile, 0, features_.meshes());
-        const auto values = features_.compute(own, tile.inputs[0], id, &levels);
+        const LaneSignals gearbox_signals =
+            lane_signals(scene_, path_, tile, 0, features_.meshes());
+        const auto values = features_.compute(gearbox_signals, tile.inputs[0], id, &levels);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
@@ -190,7 +191,7 @@ class Examples {
                   {"same_bits", same_bits(values, stored)},
                   {"engagements", engagements(scene_, row.size)},
                   {"te",
-                   {{"clean", time_json(own.te_turn, scene_.te_samples_per_mesh())},
+                   {{"clean", time_json(gearbox_signals.te_turn, scene_.te_samples_per_mesh())},
                     {"noisy", time_json(levels[level_].te_turn, scene_.te_samples_per_mesh())}}},
                   {"sensor", nullptr},
                   {"spectrum", nullptr},
@@ -205,8 +206,8 @@ class Examples {
             json["features"].push_back({{"name", frame_.features[f].name},
                                         {"value", std::isfinite(value) ? Json(value) : Json()}});
         }
-        if (!own.folded.empty()) {
-            add_sensor(tile, own, id, period_s, levels[level_].tooth_rms, json);
+        if (!gearbox_signals.folded.empty()) {
+            add_sensor(tile, gearbox_signals, id, period_s, levels[level_].tooth_rms, json);
         }
         return json;
     }
@@ -214,8 +215,9 @@ class Examples {
     double noise_level() const { return frame_.noise_levels[level_]; }
 
   private:
-    void add_sensor(const GearboxTile& tile, const LaneSignals& own, const GearboxId& id,
-                    double period_s, const std::vector<double>& noisy_rms, Json& json) {
+    void add_sensor(const GearboxTile& tile, const LaneSignals& gearbox_signals,
+                    const GearboxId& id, double period_s, const std::vector<double>& noisy_rms,
+                    Json& json) {
         const signals::SpanLayout layout = scene_.span();
         const int samples = scene_.samples_per_mesh();
         const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
@@ -230,7 +232,7 @@ class Examples {
             spectrum_json(clean, noisy, static_cast<std::size_t>(scene_.span_meshes()), period_s);
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(layout, samples, scene_.study().features.tukey_taper);
-        windowing.load(own.folded);
+        windowing.load(gearbox_signals.folded);
         windowing.search(0.0, clean_rms);
         json["tooth_rms"] = {{"clean", clean_rms}, {"noisy", noisy_rms}};
     }
@@ -240,7 +242,7 @@ class Examples {
     const signals::PathGrid path_;
     const Sampler sampler_;
     const HealthyReference healthy_;
-    InstanceFeatures features_;
+    RealizationFeatures features_;
     const std::size_t level_;
 };
 
@@ -268,7 +270,7 @@ Json healthy_curves(const Scene& scene) {
         for (int i = 0; i < kStiffnessPoints; ++i) {
             values.push_back(scene.pairs().total(pair, static_cast<double>(i) / kStiffnessPoints));
         }
-        pairs.push_back({{"name", scene.drive().pair_name(pair)}, {"stiffness", values}});
+        pairs.push_back({{"name", scene.drivetrain().pair_name(pair)}, {"stiffness", values}});
     }
     return pairs;
 }
@@ -276,7 +278,7 @@ Json healthy_curves(const Scene& scene) {
 // Mesh stiffness from a quarter mesh period before the faulty tooth engages to a quarter after it
 // disengages.
 Json passage_json(const Scene& scene, int curve, int pair, std::vector<double> sizes) {
-    Json json{{"pair", scene.drive().pair_name(pair)},
+    Json json{{"pair", scene.drivetrain().pair_name(pair)},
               {"mesh", Json::array()},
               {"healthy", Json::array()},
               {"faulty", Json::array()}};
@@ -317,7 +319,7 @@ Json stiffness_json(const Scene& scene) {
     return json;
 }
 
-Json refused(const std::string& why) {
+Json refusal_json(const std::string& why) {
     return {{"examples", {{"refusal", why}, {"gearboxes", Json::array()}}},
             {"stiffness", {{"refusal", why}}}};
 }
@@ -345,12 +347,13 @@ std::size_t reference_level(const std::vector<double>& noise_levels) {
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     const std::string text = frame.provenance_value("study");
     if (text.empty()) {
-        return refused("the file contains no study");
+        return refusal_json("the file contains no study");
     }
     const std::string name = "study of the results";
     const StudyScene made = make_scene(name, read_study_text(text, name));
     if (!made) {
-        return refused("this version cannot build the study in the file: " + format(made.problems));
+        return refusal_json("this version cannot build the study in the file: " +
+                            format(made.problems));
     }
     return {{"examples", or_refusal([&] { return gearboxes_json(*made.scene, frame, rows); })},
             {"stiffness", or_refusal([&] { return stiffness_json(*made.scene); })}};

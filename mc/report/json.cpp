@@ -6,10 +6,6 @@
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/reliability_json.hpp"
 #include "features/feature.hpp"
-#include "mc/answers/alarms_over_time.hpp"
-#include "mc/answers/contact_loss.hpp"
-#include "mc/answers/monitoring_over_time.hpp"
-#include "mc/answers/run_report.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/results/layout.hpp"
@@ -18,6 +14,10 @@
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
+#include "mc/summary/alarms_over_time.hpp"
+#include "mc/summary/contact_loss.hpp"
+#include "mc/summary/monitoring_over_time.hpp"
+#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -57,7 +57,7 @@ Json failures_json(const Results& frame, const RowSource& rows) {
     const RowCounts counts = count_rows(rows, frame.request.threshold_records);
     return {{"gearboxes", counts.all},
             {"diverged", counts.diverged},
-            {"not_settled", counts.not_settled},
+            {"not_settled", counts.not_converged},
             {"status_meanings", kStatusMeanings},
             {"first_rows", named},
             {"no_value", without}};
@@ -68,15 +68,15 @@ Json number(double value) {
 }
 
 // Numerical error compared with the statistical one; null if it was not verified.
-Json numerical_json(const Results& frame, const std::vector<NumericalShare>& shares) {
+Json numerical_json(const Results& frame, const std::vector<NumericalContribution>& contributions) {
     if (!frame.numerical) {
         return nullptr;
     }
-    Json json{{"rung", frame.numerical->rung},
+    Json json{{"rung", frame.numerical->setting},
               {"finer", frame.numerical->finer},
               {"gearboxes", frame.numerical->gearboxes},
               {"shares", Json::array()}};
-    for (const NumericalShare& s : shares) {
+    for (const NumericalContribution& s : contributions) {
         json["shares"].push_back({{"feature", s.feature},
                                   {"noise_level", s.noise_level},
                                   {"rms", number(s.rms)},
@@ -159,7 +159,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
-    json["numerical"] = numerical_json(frame, numerical_shares(frame, rows, reliability));
+    json["numerical"] = numerical_json(frame, numerical_contributions(frame, rows, reliability));
     json["step_error"] = step_error_json(frame);
     json["contact_loss"] = contact_loss_json(frame, rows);
     json["features"] = features_json(frame);

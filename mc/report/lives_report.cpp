@@ -60,7 +60,7 @@ LifeJson trade_offs_json(const LifeMonitor& monitor) {
 
 LifeJson fans_json(const LifeMonitor& monitor) {
     LifeJson all = LifeJson::array();
-    for (const FeatureFan& fan : monitor.fans()) {
+    for (const FeatureQuantiles& fan : monitor.feature_quantiles()) {
         LifeJson lives = LifeJson::array();
         for (const std::vector<double>& life : fan.lives) {
             lives.push_back(numbers_json(life));
@@ -91,7 +91,7 @@ std::string costs_text(const Campaign& campaign) {
 }
 
 // Formats the share found: "27/32 [0.68, 0.93]"; "-" if no tooth fails or there is no threshold.
-std::string share_text(const analysis::LifeAnswers& a) {
+std::string share_text(const analysis::MonitorPerformance& a) {
     return std::isnan(a.share) ? "-"
                                : fmt::format("{}/{} [{:.2f}, {:.2f}]", a.found, a.ended,
                                              a.share_bounds.lower, a.share_bounds.upper);
@@ -133,7 +133,7 @@ std::string interpolation_text(const Campaign& campaign, const Life& life) {
 }
 
 // Explains the dashes in the table; "" if there are none.
-std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
+std::string missing_results_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
     std::string out;
     const Study& study = monitor.study();
     const double rate = study.monitoring.false_alarms_per_1000_h;
@@ -142,8 +142,8 @@ std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
                                   "can be found before failure; raise life.records",
                                   study.life.records, *study.life.interval_h));
     }
-    for (const MonitoredFeature& one : monitor.answers()) {
-        const analysis::MonitorThreshold& threshold = one.answers.threshold;
+    for (const MonitoredFeature& one : monitor.results()) {
+        const analysis::MonitorThreshold& threshold = one.performance.threshold;
         if (!std::isnan(threshold.value)) {
             continue;
         }
@@ -165,7 +165,7 @@ std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
     return out;
 }
 
-// A column of a table: its head, and the index of its cell in answer_cells().
+// A column of a table: its head, and the index of its cell in life_result_cells().
 struct ShownCell {
     const char* head;
     std::size_t cell;
@@ -178,8 +178,8 @@ std::string results_table(const LifeMonitor& monitor, const std::string& title,
     for (const ShownCell& column : shown) {
         lines.front().emplace_back(column.head);
     }
-    for (const MonitoredFeature& one : monitor.answers()) {
-        const std::vector<std::string> cells = answer_cells(one.answers, monitor.study());
+    for (const MonitoredFeature& one : monitor.results()) {
+        const std::vector<std::string> cells = life_result_cells(one.performance, monitor.study());
         lines.push_back({one.feature, one.detector});
         for (const ShownCell& column : shown) {
             lines.back().push_back(cells[column.cell]);
@@ -192,7 +192,7 @@ std::string results_table(const LifeMonitor& monitor, const std::string& title,
 
 }  // namespace
 
-std::vector<std::string> answer_columns(const Study& study) {
+std::vector<std::string> life_result_columns(const Study& study) {
     return {
         "threshold",        "false alarms/1000 h",
         "found before end", "by chance",
@@ -200,7 +200,8 @@ std::vector<std::string> answer_columns(const Study& study) {
         "w50, h",           "w90, h"};
 }
 
-std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Study& study) {
+std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& a,
+                                           const Study& study) {
     const analysis::FalseAlarms& f = a.false_alarms;
     return {number_or_dash(a.threshold.value),
             std::isnan(f.per_1000_h)
@@ -232,8 +233,8 @@ std::string lives_text(const LifeMonitor& monitor) {
                               study.life.records));
     add_text(out, fmt::format("thresholds: {:g} false alarms in 1000 h, from {} healthy lives; "
                               "false alarms: counted on {} other healthy lives",
-                              study.monitoring.false_alarms_per_1000_h, campaign.setting.size(),
-                              campaign.healthy.size()));
+                              study.monitoring.false_alarms_per_1000_h,
+                              campaign.threshold_lives.size(), campaign.healthy.size()));
     if (const std::string holds = assumptions(study, true); !holds.empty()) {
         add_text(out, holds);
     }
@@ -265,11 +266,11 @@ std::string lives_text(const LifeMonitor& monitor) {
                     "median (w50), and time that 90 % of the cracks found exceed (w90):",
                     confidence),
         {{"a50", 4}, {"a90 (bound)", 5}, {"w50", 6}, {"w90", 7}});
-    return out + unanswered_text(monitor, ended);
+    return out + missing_results_text(monitor, ended);
 }
 
-nlohmann::json answers_json(const MonitoredFeature& one) {
-    const analysis::LifeAnswers& a = one.answers;
+nlohmann::json life_result_json(const MonitoredFeature& one) {
+    const analysis::MonitorPerformance& a = one.performance;
     return {{"feature", one.feature},
             {"detector", one.detector},
             {"threshold", analysis::number(a.threshold.value)},
@@ -299,9 +300,9 @@ nlohmann::json lives_json(const LifeMonitor& monitor) {
     const Campaign& campaign = monitor.campaign();
     LifeJson watched = LifeJson::array(), lives = LifeJson::array();
     const InterpolationErrors& off = campaign.interpolation;
-    for (const MonitoredFeature& one : monitor.answers()) {
-        watched.push_back(answers_json(one));
-        watched.back()["alarm_h"] = numbers_json(one.answers.alarm_hours);
+    for (const MonitoredFeature& one : monitor.results()) {
+        watched.push_back(life_result_json(one));
+        watched.back()["alarm_h"] = numbers_json(one.performance.alarm_hours);
     }
     for (const GearboxLife& life : campaign.cracked) {
         LifeJson hours = LifeJson::array(), depths = LifeJson::array();
@@ -324,7 +325,7 @@ nlohmann::json lives_json(const LifeMonitor& monitor) {
             {"first_depth_m", crack_begin_m(study.life)},
             {"last_depth_m", *study.life.last_depth_m},
             {"healthy_lives",
-             {{"setting", campaign.setting.size()}, {"counting", campaign.healthy.size()}}},
+             {{"setting", campaign.threshold_lives.size()}, {"counting", campaign.healthy.size()}}},
             {"false_alarms_per_1000_h", study.monitoring.false_alarms_per_1000_h},
             {"failed", campaign.failed},
             {"interpolation",

@@ -13,8 +13,9 @@ namespace gearpod::mc {
 // Headings and cells of the table of results. Columns: threshold, false alarms with their interval,
 // share found, share that false alarms alone would find in lives of the same length, crack depth
 // found with 50 % and with 90 % probability (with its bound), warning time of 50 % and of 90 %.
-std::vector<std::string> answer_columns(const Study& study);
-std::vector<std::string> answer_cells(const analysis::LifeAnswers& answers, const Study& study);
+std::vector<std::string> life_result_columns(const Study& study);
+std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& performance,
+                                           const Study& study);
 
 // Ends with a newline.
 std::string lives_text(const LifeMonitor& monitor);
@@ -24,14 +25,14 @@ std::string lives_text(const LifeMonitor& monitor);
 // "expected"}, "ended", "found", "share", "share_bounds", "share_by_chance", "depth_50_m",
 // "depth_50_bound_m", "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as
 // below.
-nlohmann::json answers_json(const MonitoredFeature& monitored);
+nlohmann::json life_result_json(const MonitoredFeature& monitored);
 
 // Returns {"kind": "lives", "title", "assumptions", "interval_h", "record", "baseline_records",
 // "first_depth_m", "last_depth_m", "healthy_lives": {"setting", "counting"},
 // "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m", "first",
 // "last_depth_m", "last", "load"}, "costs":
-// {"gearboxes", "gearbox_s", "records", "record_s"}, "monitored": [answers_json() with "alarm_h"
-// (by life that did not fail)], "trade_offs": [{"feature", "detector", "points":
+// {"gearboxes", "gearbox_s", "records", "record_s"}, "monitored": [life_result_json() with
+// "alarm_h" (by life that did not fail)], "trade_offs": [{"feature", "detector", "points":
 // [{"stated_per_1000_h", "per_1000_h", "share", "depth_50_m", "depth_90_m"}]}], "fans":
 // [{"feature", "healthy_05", "healthy_50", "healthy_95" (by record), "lives": [deviations]}],
 // "lives": [{"status", "end_h", "hours", "depth_m"}]}. A value is null if it does not exist, for

@@ -31,9 +31,9 @@ std::string from_environment(const char* name, const std::string& otherwise) {
 std::filesystem::path report_folder() {
     std::error_code none;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-    const auto beside = program / "report";
-    return std::filesystem::exists(beside / "build_page.py", none)
-               ? beside
+    const auto adjacent = program / "report";
+    return std::filesystem::exists(adjacent / "build_page.py", none)
+               ? adjacent
                : (program / GEARPOD_REPORT_FROM_PROGRAM).lexically_normal();
 }
 
@@ -88,7 +88,7 @@ int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
 }
 
 // Output of build_page.py for the JSON and further arguments.
-std::string made_of(const std::string& json, const std::vector<std::string>& arguments) {
+std::string build_page_output(const std::string& json, const std::vector<std::string>& arguments) {
     const std::string python = from_environment("GEARPOD_PYTHON", "/usr/bin/python3");
     const std::filesystem::path folder =
         from_environment("GEARPOD_REPORT_DIR", report_folder().string());
@@ -113,12 +113,13 @@ std::string made_of(const std::string& json, const std::vector<std::string>& arg
 }  // namespace
 
 std::string report_page(const std::string& json, const std::string& figures) {
-    return made_of(json, figures.empty() ? std::vector<std::string>{}
-                                         : std::vector<std::string>{"--figures", figures});
+    return build_page_output(json, figures.empty()
+                                       ? std::vector<std::string>{}
+                                       : std::vector<std::string>{"--figures", figures});
 }
 
 std::string report_summary(const std::string& json) {
-    return made_of(json, {"--pdf"});
+    return build_page_output(json, {"--pdf"});
 }
 
 }  // namespace gearpod::mc

@@ -165,9 +165,9 @@ std::string busy_text(const std::string& worker) {
 // determined.
 std::string worker_on(const std::string& path) {
     const Descriptor file(::open(path.c_str(), kOpenExisting | O_RDONLY));
-    struct flock asked = whole_file();
-    const bool taken =
-        file.get() >= 0 && ::fcntl(file.get(), F_GETLK, &asked) == 0 && asked.l_type != F_UNLCK;
+    struct flock lock_query = whole_file();
+    const bool taken = file.get() >= 0 && ::fcntl(file.get(), F_GETLK, &lock_query) == 0 &&
+                       lock_query.l_type != F_UNLCK;
     return taken ? worker_of(file.get()) : "";
 }
 
@@ -184,7 +184,7 @@ std::string worker_text() {
 }  // namespace
 
 // Stores a description of this process in the file.
-void Checkpoint::sign() {
+void Checkpoint::write_worker() {
     std::string text = worker_text().substr(0, kWorkerBytes - 1);
     text.resize(kWorkerBytes, '\0');
     const auto at = static_cast<off_t>(header_.size() + kCounterBytes);
@@ -208,7 +208,7 @@ std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const Ru
                             : busy_text(worker)));
     }
     std::unique_ptr<Checkpoint> checkpoint(new Checkpoint(path, Descriptor(fd), identity, plan));
-    checkpoint->sign();
+    checkpoint->write_worker();
     checkpoint->sync();
     return checkpoint;
 }
@@ -227,7 +227,7 @@ std::unique_ptr<Checkpoint> Checkpoint::resume(const std::string& path, const Ru
         checkpoint->fail(busy_text(worker));
     }
     checkpoint->check_header();
-    checkpoint->sign();
+    checkpoint->write_worker();
     checkpoint->scan();
     checkpoint->sync();
     return checkpoint;

@@ -57,7 +57,7 @@ class Checkpoint final : public RowStore {
                const BatchPlan& plan);
 
     [[noreturn]] void fail(const std::string& what) const;
-    void sign();
+    void write_worker();
     void check_header();
     void scan();
     std::uint64_t synced_before();

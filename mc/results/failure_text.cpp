@@ -8,7 +8,7 @@ const char* failure_text(Status status) {
             return "worked";
         case Status::diverged:
             return "diverged without a known reason";
-        case Status::not_settled:
+        case Status::not_converged:
             return "did not converge to a periodic steady state";
         case Status::supercritical:
             return "is unstable: above a critical speed of the carrier, the bearings do not hold "

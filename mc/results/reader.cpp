@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "mc/files/hdf5_data.hpp"
+#include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
-#include "mc/results/seal.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -171,7 +171,7 @@ class Reader {
             results_.request.threshold_records = static_cast<std::size_t>(
                 std::clamp(read_number(group.get(), ".", "threshold_records"), 1.0, 1e9));
         }
-        results_.request.threshold_tilt =
+        results_.request.importance_sampling =
             std::ranges::count(link_names(open_group(root_, "instances").get()), kNoiseWeight) > 0;
         if (std::ranges::count(attribute_names(group.get()), "uncertain_inputs") > 0) {
             std::istringstream names(read_text(group.get(), ".", "uncertain_inputs"));
@@ -290,8 +290,8 @@ void check_format(const std::string& path, hid_t root) {
 Results read(const std::string& path, bool with_columns) {
     const SilentHdf5 silent;
     check_readable(path);
-    const Seal seal = check_seal(path);
-    if (seal == Seal::broken) {
+    const ChecksumState checksum = check_file_checksum(path);
+    if (checksum == ChecksumState::broken) {
         refuse(path, "is damaged (wrong checksum)");
     }
     try {
@@ -299,7 +299,7 @@ Results read(const std::string& path, bool with_columns) {
                               "opening the file");
         const Hdf5Handle root = open_group(file.get(), "/");
         check_format(path, root.get());
-        if (seal == Seal::missing) {
+        if (checksum == ChecksumState::missing) {
             refuse(path,
                    "is truncated, or another program has changed it (no checksum at its end)");
         }

@@ -117,7 +117,7 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
         const std::string& name = frame.features[f].name;
         data.features.push_back({name, frame.features[f].alarm, healthy.features[f],
                                  graded.features[f], repeats.features[f],
-                                 sees_tilt(name) ? weights : std::span<const double>()});
+                                 uses_noise_weights(name) ? weights : std::span<const double>()});
     }
     return analysis::assess_reliability(data, frame.detection, frame.request, threads);
 }

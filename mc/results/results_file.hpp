@@ -23,7 +23,7 @@
 //   /timing/<name>         seconds, or a count (attribute `unit`)
 //   /signals/<row>/<name>  one value per sample, attribute `unit`: signals of the requested rows
 //
-// A checksum follows the HDF5 part (mc/results/seal.hpp); other programs ignore it.
+// A checksum follows the HDF5 part (mc/results/file_checksum.hpp); other programs ignore it.
 #pragma once
 
 #include <optional>
@@ -46,7 +46,7 @@ inline constexpr int kResultsFormatVersion = 2;
 enum class Status {
     ok = 0,
     diverged = 1,
-    not_settled = 2,
+    not_converged = 2,
     supercritical = 3,
     parametric = 4,
     step_too_long = 5,
@@ -69,7 +69,8 @@ inline constexpr const char* kRecordingsKind = "recordings";
 // survives.
 inline constexpr const char* kLivesKind = "lives";
 
-// Parameter that holds the importance weights of tilted records (signals/windowing/noise_tilt.hpp).
+// Parameter that holds the importance weights of tilted records
+// (signals/windowing/noise_importance_sampler.hpp).
 inline constexpr const char* kNoiseWeight = "noise_weight";
 
 struct ParameterResult {
@@ -112,7 +113,7 @@ struct RowSignals {
 
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
-    std::string rung, finer;  // solver settings of both integrations
+    std::string setting, finer;  // solver settings of both integrations
     int gearboxes = 0;
     // [feature * noise levels + level], in the feature's unit.
     std::vector<double> rms, largest;

@@ -98,7 +98,7 @@ std::vector<std::size_t> gearboxes_of(const Results& frame, const std::vector<st
     return gearboxes;
 }
 
-bool sees_tilt(const std::string& feature) {
+bool uses_noise_weights(const std::string& feature) {
     const features::Feature* found = features::find_feature(feature);
     return found != nullptr && found->from_sensor;
 }
@@ -150,7 +150,7 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
         for (std::size_t f = 0; f < count; ++f) {
             const FeatureResult& feature = frame.features[first + f];
             analysis::FeatureSample sample{healthy.size, healthy.values[f]};
-            if (sees_tilt(feature.name)) {
+            if (uses_noise_weights(feature.name)) {
                 sample.gearbox = numbers;
                 sample.weights = healthy.weight;
             }

@@ -60,7 +60,7 @@ std::vector<std::size_t> gearboxes_of(const Results& frame, const std::vector<st
 
 // True if tilted noise affects a feature, so that the importance weights apply to it. For other
 // features all records are plain.
-bool sees_tilt(const std::string& feature);
+bool uses_noise_weights(const std::string& feature);
 
 // Appends the rows to the columns of a frame (results_frame()).
 void fill_columns(Results& results, const RowSource& rows);

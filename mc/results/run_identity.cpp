@@ -33,7 +33,7 @@ RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& 
     essence.ensemble.threshold_instances = study.ensemble.threshold_instances;
     essence.ensemble.sampling = study.ensemble.sampling;
     essence.ensemble.threshold_records = study.ensemble.threshold_records;
-    essence.ensemble.threshold_tilt = study.ensemble.threshold_tilt;
+    essence.ensemble.importance_sampling = study.ensemble.importance_sampling;
     return {version_text(), std::to_string(study.ensemble.seed), resolved_text(essence), shape,
             part.text()};
 }

@@ -8,9 +8,9 @@
 
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/hdf5_data.hpp"
+#include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/row_source.hpp"
-#include "mc/results/seal.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -187,7 +187,7 @@ void write_numerical(hid_t root, const Results& frame) {
     }
     const NumericalError& error = *frame.numerical;
     const Hdf5Handle group = create_group(root, "numerical");
-    write_text(group.get(), ".", "rung", error.rung);
+    write_text(group.get(), ".", "rung", error.setting);
     write_text(group.get(), ".", "finer", error.finer);
     write_number(group.get(), ".", "gearboxes", error.gearboxes);
     const std::size_t levels = frame.noise_levels.size();
@@ -353,7 +353,7 @@ void write_results(const std::string& path, const Results& frame, const RowSourc
     RowWriter writer(file, opened.get(), places, shape);
     rows.visit([&](const RowBlock& block) { writer.add(block); });
     writer.flush();
-    if (!append_seal(opened.get())) {
+    if (!append_checksum(opened.get())) {
         file.fail(errno);
     }
     file.commit(opened.get());

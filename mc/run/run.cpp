@@ -8,10 +8,9 @@
 
 #include "analysis/report/detection_text.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
-#include "mc/answers/run_report.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -26,6 +25,7 @@
 #include "mc/run/run_checks.hpp"
 #include "mc/run/run_to_end.hpp"
 #include "mc/run/support.hpp"
+#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -65,7 +65,7 @@ class Run {
         if (const std::string shortage = analysis::sample_shortage(
                 study_.ensemble.threshold_instances, study_.detection.false_alarm_rate,
                 study_.detection.confidence, analysis::Subject::gearboxes,
-                study_.ensemble.threshold_records, study_.ensemble.tilted());
+                study_.ensemble.threshold_records, study_.ensemble.uses_importance_sampling());
             !shortage.empty()) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, shortage);
         }
@@ -92,7 +92,7 @@ class Run {
     }
 
   private:
-    bool says_results() const { return !options_.quiet && options_.says_results; }
+    bool prints_results() const { return !options_.quiet && options_.prints_results; }
 
     // Results without rows.
     Results frame(const RowSource& rows, const std::string& state) const {
@@ -140,7 +140,7 @@ class Run {
                 all.step_error = find_step_error_of_run(
                     scene_, plan_.threshold_gearboxes() + plan_.graded_rows());
             }
-        } catch (const machine::Stopped&) {
+        } catch (const machine::Cancelled&) {
             const std::string reason = interruption.reason({});
             outcome.interruption = reason.empty() ? "the time limit" : reason;
             all.signals.clear();
@@ -151,7 +151,7 @@ class Run {
     std::string text_of(const Results& all, const RowSource& rows) const {
         try {
             return results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
-        } catch (const machine::Stopped&) {
+        } catch (const machine::Cancelled&) {
             return "the time limit is reached; `gearpod report` shows the results";
         }
     }
@@ -164,14 +164,14 @@ class Run {
         }
         const bool whole = outcome.failure.empty() && outcome.interruption.empty();
         if (!whole) {
-            interruption.let_finish();
+            interruption.disable_cancellation();
         }
         threads_ += outcome.threads();
         const std::string path = results_path(options_);
-        std::string trouble = outcome.failure, text;
+        std::string problem = outcome.failure, text;
         const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         Results all;
-        if (trouble.empty()) {
+        if (problem.empty()) {
             try {
                 all = frame(rows, state_of(outcome));
                 all.signals = std::move(examples.signals);
@@ -181,25 +181,25 @@ class Run {
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
-                if (whole && says_results()) {
+                if (whole && prints_results()) {
                     text = text_of(all, rows);
                 }
             } catch (const std::exception& error) {
-                trouble = exception_text(error);
+                problem = exception_text(error);
             }
         }
-        if (!trouble.empty()) {
-            fmt::print(stderr, "{}\n", trouble);
+        if (!problem.empty()) {
+            fmt::print(stderr, "{}\n", problem);
         }
-        if (!whole || !trouble.empty()) {
-            return stop_short(outcome, trouble.empty());
+        if (!whole || !problem.empty()) {
+            return finish_early(outcome, problem.empty());
         }
         const RowCounts counts = count_rows(rows, plan_.threshold_records());
         checkpoint_->remove();
-        if (says_results()) {
+        if (prints_results()) {
             fmt::print("{}\n", text);
             print_failures(counts, scene_.max_meshes());
-            print_times(outcome);
+            print_computing_times(outcome);
             fmt::print("set-up {:.2f} s, detection and results {:.2f} s\n", setup_s_,
                        seconds_since(start));
             print_end(outcome, path);
@@ -215,12 +215,12 @@ class Run {
 
     std::string state_of(const EnsembleOutcome& outcome) const {
         return !outcome.interruption.empty() ? "interrupted by " + outcome.interruption
-               : watch_.enough()             ? "ended by ensemble.until"
+               : watch_.done()               ? "ended by ensemble.until"
                                              : "complete";
     }
 
     void print_end(const EnsembleOutcome& outcome, const std::string& path) const {
-        if (watch_.enough()) {
+        if (watch_.done()) {
             fmt::print("ensemble.until is reached with {} of {} gearboxes: {}\n",
                        plan_.rows_before(outcome.batches), plan_.rows(), watch_.text());
         } else if (study_.ensemble.until.half_width) {
@@ -238,9 +238,9 @@ class Run {
     }
 
     // Ends the run early; the checkpoint remains.
-    int stop_short(const EnsembleOutcome& outcome, bool saved) {
+    int finish_early(const EnsembleOutcome& outcome, bool saved) {
         if (!options_.quiet || !saved) {
-            print_kept(outcome, plan_, *checkpoint_);
+            print_resume_hint(outcome, plan_, *checkpoint_);
         }
         return kResumable;
     }
@@ -253,7 +253,7 @@ class Run {
     const std::string part_;  // "" for the whole ensemble
     const BatchPlan plan_;
     std::unique_ptr<Checkpoint> checkpoint_;
-    PdWatch watch_;
+    RunningPd watch_;
     const double setup_s_;
     int threads_ = 0;
     std::size_t complete_ = 0;
@@ -262,8 +262,8 @@ class Run {
 };
 
 // Work of the other ranks: computing batches.
-void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
-          const Interruption& interruption) {
+void compute_for_leader(const RunOptions& options, const Scene& scene, const Ranks& ranks,
+                        const Interruption& interruption) {
     const BatchPlan plan = plan_of(options, scene.study());
     MemoryRows nothing(0);
     Progress silent(1, true);
@@ -274,8 +274,8 @@ void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
 
 }  // namespace
 
-void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,
-                const Checkpoint& checkpoint) {
+void print_resume_hint(const EnsembleOutcome& outcome, const BatchPlan& plan,
+                       const Checkpoint& checkpoint) {
     fmt::print(stderr, "{}{} of {} {} are finished and kept in {}; continue with --resume\n",
                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
                checkpoint.rows_done(), plan.rows(), plan.counted(), checkpoint.path());
@@ -297,9 +297,9 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(options, limit);
     const Interruption interruption(limit);
-    const StudyScene made = load_scene_together(ranks, options.study, interruption);
+    const StudyScene made = load_scene_on_all_ranks(ranks, options.study, interruption);
     const auto& scene = made.scene;
-    const bool too_late = !scene && left_off(made.problems);
+    const bool too_late = !scene && was_interrupted(made.problems);
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool writable = check_output(options);
@@ -325,7 +325,7 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
         return std::stoi(order);
     }
     if (!ranks.leads()) {
-        help(options, *scene, ranks, interruption);
+        compute_for_leader(options, *scene, ranks, interruption);
         return std::stoi(ranks.from_leader(""));
     }
     const int code =

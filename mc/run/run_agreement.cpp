@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 #include "mc/random/fnv.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/run_identity.hpp"
@@ -28,9 +28,9 @@ std::string program_sum() {
 }
 
 // Reason why a rank other than 0 cannot take part, or "".
-std::string misfit(const std::string& name, const std::string& program,
-                   const std::string& first_program, const std::string& study,
-                   const std::string& first_study) {
+std::string rank_mismatch(const std::string& name, const std::string& program,
+                          const std::string& first_program, const std::string& study,
+                          const std::string& first_study) {
     if (program != first_program) {
         return fmt::format(
             "{} runs another program ({}; rank 0: {}); start the same program on all ranks", name,
@@ -40,16 +40,16 @@ std::string misfit(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
-constexpr std::string_view kLeftOff = "stopped by ";
+constexpr std::string_view kStoppedBy = "stopped by ";
 
 StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption) {
     try {
         return make_scene(options);
-    } catch (const machine::Stopped&) {
+    } catch (const machine::Cancelled&) {
         const std::string reason = interruption.reason({});
         StudyScene none;
         none.problems = {{options.path, 0, "",
-                          fmt::format("{}{} before its first gearbox", kLeftOff,
+                          fmt::format("{}{} before its first gearbox", kStoppedBy,
                                       reason.empty() ? "the time limit" : reason),
                           "nothing has been computed yet; start it again"}};
         return none;
@@ -58,8 +58,8 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
 
 }  // namespace
 
-StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
-                               const Interruption& interruption) {
+StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& options,
+                                   const Interruption& interruption) {
     StudyScene made = make_in_time(options, interruption);
     const auto all_problems = ranks.gather(made ? "" : format(made.problems));
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
@@ -69,9 +69,9 @@ StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
     std::string why = all_problems[0];
     for (std::size_t rank = 1; rank < names.size() && why.empty(); ++rank) {
         const std::string& problem = all_problems[rank];
-        why = problem.empty()
-                  ? misfit(names[rank], programs[rank], programs[0], studies[rank], studies[0])
-                  : names[rank] + ": " + problem.substr(0, problem.find('\n'));
+        why = problem.empty() ? rank_mismatch(names[rank], programs[rank], programs[0],
+                                              studies[rank], studies[0])
+                              : names[rank] + ": " + problem.substr(0, problem.find('\n'));
         why += why.empty() ? "" : "\n";
     }
     if (!why.empty()) {
@@ -83,9 +83,9 @@ StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
     return made;
 }
 
-bool left_off(const Problems& problems) {
+bool was_interrupted(const Problems& problems) {
     return std::any_of(problems.begin(), problems.end(),
-                       [](const Problem& problem) { return problem.what.starts_with(kLeftOff); });
+                       [](const Problem& problem) { return problem.what.starts_with(kStoppedBy); });
 }
 
 }  // namespace gearpod::mc

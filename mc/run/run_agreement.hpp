@@ -11,10 +11,10 @@ namespace gearpod::mc {
 // Loads the scene in every rank. If one rank fails, no rank gets a scene, and rank 0 prints the
 // reason: a problem of the study, an interruption, or a rank that cannot read the study, has
 // another study or runs another program. All ranks must call it together.
-StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
-                               const Interruption& interruption);
+StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& options,
+                                   const Interruption& interruption);
 
 // True if an interruption of this rank was the problem.
-bool left_off(const Problems& problems);
+bool was_interrupted(const Problems& problems);
 
 }  // namespace gearpod::mc

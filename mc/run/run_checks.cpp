@@ -111,7 +111,7 @@ bool check_output(const RunOptions& options) {
         return false;
     }
     std::string why = why_not_pending(out);
-    for (const std::string& name : {behind_links(out) + ".new", checkpoint_path(out)}) {
+    for (const std::string& name : {resolve_links(out) + ".new", checkpoint_path(out)}) {
         if (same_file(name, options.study.path)) {
             why = "the study has the name " + name + " that the run needs";
         }
@@ -126,7 +126,7 @@ bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ra
     const BatchPlan plan = plan_of(options, scene.study());
     const int here = ranks.on_this_machine();
     const double needed = least_memory_bytes(scene, plan, here * thread_count(scene.study(), here));
-    const double at_hand = memory_at_hand_bytes();
+    const double at_hand = available_memory_bytes();
     if (options.force || needed <= at_hand) {
         return true;
     }

@@ -29,7 +29,7 @@ struct RunOptions {
     std::string part;           // "2/4": every fourth batch, starting with the second; "": all
     std::string progress;       // "json": one object per line; "": text
     bool quiet = false;
-    bool says_results = true;  // prints the results at the end
+    bool prints_results = true;  // prints the results at the end
 };
 int run_command(const RunOptions& options);
 

@@ -17,8 +17,8 @@ namespace gearpod::mc {
 int run_study(const RunOptions& options, const Ranks& ranks);
 
 // Prints to stderr how to resume an interrupted run from its checkpoint.
-void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,
-                const Checkpoint& checkpoint);
+void print_resume_hint(const EnsembleOutcome& outcome, const BatchPlan& plan,
+                       const Checkpoint& checkpoint);
 
 // Computes the missing batches, writes and prints the results, and returns the exit code. Called by
 // rank 0.

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "mc/scene/drive.hpp"
+#include "mc/scene/drivetrain.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -54,8 +54,8 @@ dynamics::PlanetaryInputs planetary_inputs(const InstanceInputs& in) {
     }
     for (std::size_t n = 0; n < in.planets.size(); ++n) {
         const PlanetInstance& own = in.planets[n];
-        out.own[n] = {own.bearing_stiffness, own.bearing_damping, own.mass, own.pin_x_m,
-                      own.pin_y_m};
+        out.planet_deviations[n] = {own.bearing_stiffness, own.bearing_damping, own.mass,
+                                    own.pin_x_m, own.pin_y_m};
     }
     out.support_stiffness_N_m = in.support_stiffness_N_m;
     out.support_damping_N_s_m = in.support_damping_N_s_m;

@@ -1,5 +1,5 @@
 // Dynamic model of a study's gearbox at rest: degrees of freedom, masses, springs and dampers.
-// Speed and load are set by Drive (drive.hpp).
+// Speed and load are set by Drive (drivetrain.hpp).
 #pragma once
 
 #include "dynamics/gearbox.hpp"

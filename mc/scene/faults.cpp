@@ -31,9 +31,9 @@ void check_sizes(const Study& study, const stiffness::ToothFaultFamily& family) 
     }
 }
 
-lockstep::PlanetTurns planet_turns(const Study& study) {
+lockstep::PlanetPositions planet_positions(const Study& study) {
     const gears::PlanetPlaces places = gears::planet_places(planetary_train(study));
-    lockstep::PlanetTurns turns;
+    lockstep::PlanetPositions turns;
     for (const int place : places.place) {
         turns.position.push_back(static_cast<double>(place) / places.places);
     }
@@ -45,9 +45,9 @@ lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet&
     const int teeth = teeth_of(study, *f.member).value();
     switch (*f.member) {
         case Member::sun:
-            return lockstep::sun_fault_pattern(pairs, planet_turns(study), teeth);
+            return lockstep::sun_fault_pattern(pairs, planet_positions(study), teeth);
         case Member::ring:
-            return lockstep::ring_fault_pattern(pairs, planet_turns(study), teeth);
+            return lockstep::ring_fault_pattern(pairs, planet_positions(study), teeth);
         case Member::planet:
             return lockstep::planet_fault_pattern(pairs, f.planet - 1, *f.side, teeth);
         case Member::pinion:

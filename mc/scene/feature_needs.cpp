@@ -36,16 +36,16 @@ unsigned needs_of(std::span<const features::Feature* const> features) {
 ComparedNeeds compared_needs(std::span<const features::Feature* const> features) {
     ComparedNeeds needs;
     for (const features::Feature* feature : features) {
-        switch (feature->compared) {
-            case features::Compared::nothing:
+        switch (feature->baseline_use) {
+            case features::BaselineUse::nothing:
                 needs.record |= feature->needs;
                 break;
-            case features::Compared::change:
+            case features::BaselineUse::change:
                 needs.record |= features::kChange;
                 needs.baseline |= features::kChange;
                 needs.change |= feature->needs;
                 break;
-            case features::Compared::baseline:
+            case features::BaselineUse::baseline:
                 needs.record |= feature->needs;
                 needs.baseline |= feature->needs;
                 break;

@@ -15,20 +15,20 @@ Philox plain_stream(const Study& study, Group group, std::uint64_t index,
     return {static_cast<std::uint64_t>(study.ensemble.seed), group, index, parameter_id(purpose)};
 }
 
-std::span<const analysis::DrawExchange> exchanges_of(const GearboxId& id) {
-    return id.exchanged.value_or(std::span<const analysis::DrawExchange>{});
+std::span<const analysis::InputExchange> exchanges_of(const GearboxId& id) {
+    return id.exchanged.value_or(std::span<const analysis::InputExchange>{});
 }
 
 // True if the exchange replaces all random numbers of this purpose by those of the other gearbox.
-bool takes(const Study& study, Group group, const analysis::DrawExchange& exchange,
-           std::string_view purpose) {
+bool is_replaced(const Study& study, Group group, const analysis::InputExchange& exchange,
+                 std::string_view purpose) {
     Philox engine =
         plain_stream(study, group, exchange.index, std::string(purpose).append(".exchange"));
     return boost::random::uniform_01<double>()(engine) < exchange.share;
 }
 
 std::string record_purpose(const GearboxId& id, std::string_view purpose) {
-    return std::string(purpose).append(id.record == Record::judged ? "" : ".baseline");
+    return std::string(purpose).append(id.record == Record::test ? "" : ".baseline");
 }
 
 std::string noise_purpose(const GearboxId& id, std::string_view purpose) {
@@ -39,17 +39,17 @@ std::string noise_purpose(const GearboxId& id, std::string_view purpose) {
 
 }  // namespace
 
-std::uint64_t drawn_from(const Study& study, const GearboxId& id, std::string_view purpose) {
+std::uint64_t source_index(const Study& study, const GearboxId& id, std::string_view purpose) {
     // The last exchange that replaces them determines the gearbox.
-    const std::span<const analysis::DrawExchange> exchanges = exchanges_of(id);
-    const auto taken = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& one) {
-        return takes(study, id.group, one, purpose);
+    const std::span<const analysis::InputExchange> exchanges = exchanges_of(id);
+    const auto last = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& one) {
+        return is_replaced(study, id.group, one, purpose);
     });
-    return taken == exchanges.rend() ? id.index : taken->index;
+    return last == exchanges.rend() ? id.index : last->index;
 }
 
 Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return plain_stream(study, id.group, drawn_from(study, id, purpose), purpose);
+    return plain_stream(study, id.group, source_index(study, id, purpose), purpose);
 }
 
 Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
@@ -62,7 +62,7 @@ Philox noise_stream(const Study& study, const GearboxId& id, std::string_view pu
 
 Normals::Normals(const Study& study, const GearboxId& id, std::string_view purpose)
     : engine_(plain_stream(study, id.group, id.index, purpose)) {
-    for (const analysis::DrawExchange& exchange : exchanges_of(id)) {
+    for (const analysis::InputExchange& exchange : exchanges_of(id)) {
         const double own = 1.0 - exchange.share;
         exchanges_.push_back({own, std::sqrt(1.0 - own * own),
                               plain_stream(study, id.group, exchange.index, purpose)});

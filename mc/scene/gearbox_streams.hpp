@@ -8,35 +8,35 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/detection/draw_exchange.hpp"
+#include "analysis/detection/input_exchange.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
 // Records of a gearbox: the test record, and the baseline record from before its fault.
-enum class Record { judged, baseline };
+enum class Record { test, baseline };
 
 // Distribution of a record's noise: plain, or cycling through several kinds, most of them
-// exponentially tilted (signals/windowing/noise_tilt.hpp).
-enum class NoiseDraws { plain, towards_alarms, towards_misses };
+// exponentially tilted (signals/windowing/noise_importance_sampler.hpp).
+enum class NoiseSampling { plain, towards_alarms, towards_misses };
 
 // Row `index` of a group of gearboxes, and one record of that gearbox.
 struct GearboxId {
     Group group = Group::graded;
     std::uint64_t index = 0;
-    Record record = Record::judged;
+    Record record = Record::test;
     std::uint64_t repeat = 0;  // repetition of the record with other noise
-    NoiseDraws draws = NoiseDraws::plain;
+    NoiseSampling noise_sampling = NoiseSampling::plain;
     // Exchanges of random numbers with other gearboxes of the group in multilevel splitting
     // (analysis/detection/splitting.hpp), in order. May be empty; the caller owns the memory. If
     // set, all random inputs that have a quantile are computed from normal variates.
-    std::optional<std::span<const analysis::DrawExchange>> exchanged = {};
+    std::optional<std::span<const analysis::InputExchange>> exchanged = {};
 };
 
 // Index of the gearbox whose random numbers for a purpose are used, where all of them are exchanged
 // together: its own, or that of the last exchange in `exchanged` that replaced them.
-std::uint64_t drawn_from(const Study& study, const GearboxId& id, std::string_view purpose);
+std::uint64_t source_index(const Study& study, const GearboxId& id, std::string_view purpose);
 
 // Random numbers for a purpose that belong to the gearbox, the same in all its records.
 Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);

@@ -29,12 +29,12 @@ SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int sampl
                          const std::vector<double>& transitions, const lockstep::Pilot& pilot) {
     // Twice as many steps as stability requires: at the stability limit the method damps the motion
     // whose error is to be estimated.
-    lockstep::PhaseGrid marched =
+    lockstep::PhaseGrid uniform =
         lockstep::make_phase_grid(samples, 2 * stepping.steps, transitions);
-    marched.stage_nodes = lockstep::stage_nodes(lockstep::Integrator::bs3);
-    marched.stage_nodes.push_back(1.0);  // requests the error estimate
+    uniform.stage_nodes = lockstep::stage_nodes(lockstep::Integrator::bs3);
+    uniform.stage_nodes.push_back(1.0);  // requests the error estimate
     const lockstep::StepProfile profile =
-        lockstep::estimated_profile(pilot, marched, study.numerics.step_tolerance);
+        lockstep::estimated_profile(pilot, uniform, study.numerics.step_tolerance);
     const auto longest = [&](double start, double end) {
         return std::min(stepping.longest_step, profile.longest_step(start, end));
     };

@@ -48,8 +48,8 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     stiffness::CoupledMeshOptions options;
     options.foundation = study.effects.foundation;
     options.contact = study.effects.contact;
-    options.body_radius_1_m = body_radius_m(study, mesh.members.driver);
-    options.body_radius_2_m = body_radius_m(study, mesh.members.driven);
+    options.body_radius_1_m = body_radius_m(study, mesh.members.member_1);
+    options.body_radius_2_m = body_radius_m(study, mesh.members.member_2);
     options.force_N = force_N;
     options.tolerance = study.numerics.stiffness_tolerance;
     try {
@@ -105,23 +105,24 @@ double pitch_error_m(const Study& study, Member member) {
 // errors.
 double corner_reach_m(const Study& study, double force_N, const SceneMesh& mesh) {
     return 3.0 * force_N / mean_total(*mesh.stiffness) +
-           4.0 * (pitch_error_m(study, mesh.members.driver) +
-                  pitch_error_m(study, mesh.members.driven));
+           4.0 * (pitch_error_m(study, mesh.members.member_1) +
+                  pitch_error_m(study, mesh.members.member_2));
 }
 
 // Adds relief, crowning and extended contact. The slices of helical teeth have individual gaps.
 void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
     constexpr int kSlices = 8;
-    stiffness::FlankGaps gaps{*mesh.geometry, relief_of(study, mesh.members.driver),
-                              relief_of(study, mesh.members.driven)};
+    stiffness::FlankGaps gaps{*mesh.geometry, relief_of(study, mesh.members.member_1),
+                              relief_of(study, mesh.members.member_2)};
     if (study.effects.contact_onset == ContactOnset::extended) {
         gaps.reach_m = corner_reach_m(study, force_N, mesh);
     }
     const double overlap = study.gearbox.helix_angle_rad > 0.0 ? overlap_ratio(study) : 0.0;
     const bool crowned = gaps.relief_1.crowning_m + gaps.relief_2.crowning_m > 0.0;
-    const int asked = study.numerics.face_slices > 0 ? study.numerics.face_slices : kSlices;
+    const int requested = study.numerics.face_slices > 0 ? study.numerics.face_slices : kSlices;
     mesh.stiffness = std::make_unique<const stiffness::GappedMesh>(
-        std::move(mesh.stiffness), overlap, gaps, force_N, overlap > 0.0 || crowned ? asked : 1);
+        std::move(mesh.stiffness), overlap, gaps, force_N,
+        overlap > 0.0 || crowned ? requested : 1);
 }
 
 }  // namespace
@@ -140,7 +141,8 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
         if (stiffness_given(study)) {
             mesh.stiffness = given_mesh(study, members.kind);
         } else {
-            mesh.geometry.emplace(gear_of(study, members.driver), gear_of(study, members.driven),
+            mesh.geometry.emplace(gear_of(study, members.member_1),
+                                  gear_of(study, members.member_2),
                                   working_shifts(study).centre_distance_m);
             if (coupled) {
                 make_coupled(study, force_N, mesh);
@@ -162,17 +164,17 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
     return meshes;
 }
 
-lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drive& drive) {
+lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drivetrain& drivetrain) {
     lockstep::PairSet pairs;
     // In reversed contact a tooth pair starts where it otherwise ends.
-    pairs.reversed = drive.reversed();
+    pairs.reversed = drivetrain.reversed();
     for (const SceneMesh& mesh : meshes) {
         const stiffness::MeshStiffness& curve = *mesh.stiffness;
         const double since = pairs.reversed ? curve.contact_ratio() - curve.pitch_position()
                                             : curve.pitch_position();
-        for (int i = 0; i < drive.pairs_per_mesh(); ++i) {
+        for (int i = 0; i < drivetrain.pairs_per_mesh(); ++i) {
             pairs.start.push_back(
-                lockstep::phase_in_period(drive.pitch_phase(pairs.pairs()) - since));
+                lockstep::phase_in_period(drivetrain.pitch_phase(pairs.pairs()) - since));
             pairs.mesh.push_back(&curve);
         }
     }

@@ -7,7 +7,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
-#include "mc/scene/drive.hpp"
+#include "mc/scene/drivetrain.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/loaded_mesh.hpp"
@@ -34,7 +34,7 @@ double body_radius_m(const Study& study, Member member);
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N);
 
 // All gear pairs of the gearbox and their phases.
-lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drive& drive);
+lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drivetrain& drivetrain);
 
 // Mean stiffness of all pairs of a gearbox with constant stiffness, N/m; also without teeth.
 std::vector<double> constant_pairs(const Study& study);

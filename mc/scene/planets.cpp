@@ -25,7 +25,7 @@ double of_planet(const std::vector<double>& list, std::size_t planet, double oth
 }  // namespace
 
 Planets given_planets(const Study& study) {
-    const UnlikePlanets& given = study.planets;
+    const PlanetDifferences& given = study.planets;
     Planets planets;
     for (std::size_t n = 0; n < planets.size(); ++n) {
         planets[n] = {of_planet(given.bearing_stiffness, n, 1.0),
@@ -39,8 +39,8 @@ Planets given_planets(const Study& study) {
     return planets;
 }
 
-void draw_planets(const Study& study, std::function<double()> normal, Planets& planets) {
-    const UnlikePlanets& drawn = study.planets;
+void add_random_planets(const Study& study, std::function<double()> normal, Planets& planets) {
+    const PlanetDifferences& drawn = study.planets;
     for (std::size_t n = 0; n < static_cast<std::size_t>(study.gearbox.planets); ++n) {
         const double tangential = normal(), radial = normal();
         move_pin(angle_of(study.gearbox, n), drawn.pin_tangential_rms_m * tangential,

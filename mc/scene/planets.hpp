@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// Deviations of one planet; see dynamics::PlanetOwn.
+// Deviations of one planet; see dynamics::PlanetDeviations.
 struct PlanetInstance {
     double bearing_stiffness, bearing_damping, mass;
     double pin_x_m, pin_y_m;
@@ -21,6 +21,6 @@ Planets given_planets(const Study& study);
 
 // Adds the random deviations. Uses five standard normal variates per planet, whatever the study
 // contains. The study's scatters must be those of this gearbox.
-void draw_planets(const Study& study, std::function<double()> normal, Planets& planets);
+void add_random_planets(const Study& study, std::function<double()> normal, Planets& planets);
 
 }  // namespace gearpod::mc

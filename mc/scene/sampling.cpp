@@ -36,7 +36,7 @@ double over_r2(const std::optional<double>& inertia_over_r2, const std::optional
     return inertia ? *inertia / (radius_m * radius_m) : disc_over_r2;
 }
 
-void resolve_inertias(const Study& study, EachMember<BodyInstance>& bodies) {
+void resolve_inertias(const Study& study, MemberArray<BodyInstance>& bodies) {
     const bool gears = has_gears(study);
     const double cosine = std::cos(transverse_pressure_angle_rad(study.gearbox));
     const auto resolve = [&](Member member, double radius_m, double disc) {
@@ -121,7 +121,7 @@ std::uint64_t product_or_most(std::uint64_t a, std::uint64_t b) {
 }
 
 // Number of combinations of the values of `levels` and `grid` inputs, or of the fault sizes only.
-std::uint64_t turns(const std::vector<RandomInput>& inputs, bool sizes_only) {
+std::uint64_t level_combinations(const std::vector<RandomInput>& inputs, bool sizes_only) {
     std::uint64_t all = 1;
     for (const RandomInput& input : inputs) {
         const std::uint64_t count = input.distribution.levels().size();
@@ -134,7 +134,7 @@ std::uint64_t turns(const std::vector<RandomInput>& inputs, bool sizes_only) {
 
 // Place value of each random input's digit in the mixed radix: the product of the numbers of values
 // of the inputs before it.
-std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) {
+std::vector<std::uint64_t> level_strides(const std::vector<RandomInput>& inputs) {
     std::vector<std::uint64_t> lengths(inputs.size(), 1);
     std::uint64_t length = 1;
     for (const bool size : {true, false}) {
@@ -150,7 +150,7 @@ std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) 
 }
 
 // Standard normal quantile at probability `share`.
-double standard_normal(double share) {
+double standard_normal_quantile(double share) {
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
 }
 
@@ -199,43 +199,45 @@ InstanceInputs resolve_inputs(const Study& study) {
     return inputs;
 }
 
-NoiseDraws threshold_draws(const Study& study) {
-    return study.ensemble.tilted() ? NoiseDraws::towards_alarms : NoiseDraws::plain;
+NoiseSampling threshold_noise_sampling(const Study& study) {
+    return study.ensemble.uses_importance_sampling() ? NoiseSampling::towards_alarms
+                                                     : NoiseSampling::plain;
 }
 
 Sampler::Sampler(const Study& study)
     : study_(study),
       copula_(study),
-      turn_lengths_(turn_lengths(study.random)),
-      plan_(study, turns(study.random, true), turns(study.random, false)) {}
+      level_strides_(level_strides(study.random)),
+      plan_(study, level_combinations(study.random, true),
+            level_combinations(study.random, false)) {}
 
 Study Sampler::draw(const GearboxId& id) const {
     Study drawn = study_;
-    const std::vector<double> shares = copula_.shares([&](std::size_t input) {
+    const std::vector<double> uniform = copula_.uniform_variates([&](std::size_t input) {
         if (plan_.has(input)) {
-            return standard_normal(plan_.share(input, id.group, id.index));
+            return standard_normal_quantile(plan_.variate(input, id.group, id.index));
         }
         return Normals(study_, id, study_.random[input].key)();
     });
-    const auto drawn_alone = [&](const RandomInput& input, std::uint64_t turn_length) {
+    const auto drawn_alone = [&](const RandomInput& input, std::uint64_t level_stride) {
         const int rows = input.distribution.rows().group;
         const std::string purpose =
             rows > 0 ? "random.rows." + std::to_string(rows) : std::string(input.key);
         GearboxId own = id;
-        own.record = input.distribution.per_record() ? id.record : Record::judged;
+        own.record = input.distribution.per_record() ? id.record : Record::test;
         if (id.exchanged && input.distribution.has_quantile()) {
             return input.distribution.quantile(
-                share_below(Normals::of_record(study_, own, purpose)()));
+                standard_normal_cdf(Normals::of_record(study_, own, purpose)()));
         }
         Philox engine = record_stream(study_, own, purpose);
-        return input.distribution.draw(engine, drawn_from(study_, id, purpose) / turn_length);
+        return input.distribution.draw(engine, source_index(study_, id, purpose) / level_stride);
     };
     for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
         const RandomInput& input = study_.random[i];
-        const double value = copula_.has(i) ? input.distribution.quantile(shares[correlated++])
+        const double value = copula_.has(i) ? input.distribution.quantile(uniform[correlated++])
                              : plan_.has(i)
-                                 ? input.distribution.quantile(plan_.share(i, id.group, id.index))
-                                 : drawn_alone(input, turn_lengths_[i]);
+                                 ? input.distribution.quantile(plan_.variate(i, id.group, id.index))
+                                 : drawn_alone(input, level_strides_[i]);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
     if (id.group == Group::threshold) {
@@ -249,9 +251,9 @@ InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
 }
 
 InstanceInputs Sampler::sample(const GearboxId& id, std::span<const GivenInput> given) const {
-    GearboxId judged = id;
-    judged.record = Record::judged;
-    Study drawn = draw(judged);
+    GearboxId test_id = id;
+    test_id.record = Record::test;
+    Study drawn = draw(test_id);
     for (const GivenInput& one : given) {
         std::get<NumberAccess>(key_of(one.key).access).set(drawn, one.value);
     }
@@ -260,8 +262,8 @@ InstanceInputs Sampler::sample(const GearboxId& id, std::span<const GivenInput> 
 
 InstanceInputs Sampler::resolve(const Study& drawn, const GearboxId& id) const {
     InstanceInputs inputs = resolve_inputs(drawn);
-    if (draws_planets(study_)) {
-        draw_planets(drawn, Normals(study_, id, "gearbox.planets"), inputs.planets);
+    if (has_random_planets(study_)) {
+        add_random_planets(drawn, Normals(study_, id, "gearbox.planets"), inputs.planets);
     }
     return inputs;
 }
@@ -298,7 +300,7 @@ std::vector<ParameterColumn> Sampler::columns() const {
         const Key& key = key_of(input);
         columns.push_back({key.column(), std::string(key.unit.si_name)});
     }
-    if (study_.ensemble.tilted()) {
+    if (study_.ensemble.uses_importance_sampling()) {
         columns.push_back({"noise_weight", "1"});
     }
     columns.push_back(
@@ -314,7 +316,7 @@ std::vector<double> Sampler::row(const GearboxId& id) const {
             row.push_back(std::get<NumberAccess>(key_of(input).access).get(drawn).value_or(0.0));
         }
     }
-    if (study_.ensemble.tilted()) {
+    if (study_.ensemble.uses_importance_sampling()) {
         row.push_back(1.0);
     }
     row.push_back(fault_size(drawn));

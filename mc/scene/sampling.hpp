@@ -46,7 +46,7 @@ struct FluctuationInstance {
 
 // All inputs that may differ between gearboxes, SI. Names as in Study.
 struct InstanceInputs {
-    EachMember<BodyInstance> bodies;
+    MemberArray<BodyInstance> bodies;
     double support_stiffness_N_m, support_damping_N_s_m;
     double mesh_damping;  // ratio (1), time (s) or constant (N s/m), by effects.mesh_damping
     FixedShaftInstance fixed_shaft;
@@ -68,7 +68,7 @@ struct InstanceInputs {
 };
 
 // Noise distribution of the records that set the thresholds.
-NoiseDraws threshold_draws(const Study& study);
+NoiseSampling threshold_noise_sampling(const Study& study);
 
 // Random input with a given value, which replaces the random one.
 struct GivenInput {
@@ -118,7 +118,7 @@ class Sampler {
     Study study_;
     Copula copula_;
     // By random input: number of successive instances with the same level index.
-    std::vector<std::uint64_t> turn_lengths_;
+    std::vector<std::uint64_t> level_strides_;
     SamplingPlan plan_;
 };
 

@@ -39,7 +39,7 @@ SamplingPlan::SamplingPlan(const Study& study, std::uint64_t sizes, std::uint64_
       purposes_(purposes(study, dimension_)),
       sobol_(purposes_.size()) {}
 
-SamplingPlan::Place SamplingPlan::place(Group group, std::uint64_t index) const {
+SamplingPlan::SequencePoint SamplingPlan::place(Group group, std::uint64_t index) const {
     const std::uint64_t round = index / combinations_;
     if (group == Group::graded) {
         return {index % combinations_, round};
@@ -49,7 +49,7 @@ SamplingPlan::Place SamplingPlan::place(Group group, std::uint64_t index) const 
     return {index % combinations_ / sizes_, round * sizes_ + index % sizes_};
 }
 
-double SamplingPlan::share(std::size_t input, Group group, std::uint64_t index) const {
+double SamplingPlan::variate(std::size_t input, Group group, std::uint64_t index) const {
     const auto dimension = static_cast<std::size_t>(dimension_[input]);
     const std::uint64_t purpose = purposes_[dimension];
     const auto [sequence, number] = place(group, index);

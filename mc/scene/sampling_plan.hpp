@@ -21,18 +21,18 @@ class SamplingPlan {
     // fault sizes, which vary fastest.
     SamplingPlan(const Study& study, std::uint64_t sizes, std::uint64_t combinations);
 
-    // True if the study's random input at this index is sampled by share().
+    // True if the study's random input at this index is sampled by variate().
     bool has(std::size_t input) const {
         return input < dimension_.size() && dimension_[input] >= 0;
     }
     // Uniform variate in (0, 1) of an input of a gearbox.
-    double share(std::size_t input, Group group, std::uint64_t index) const;
+    double variate(std::size_t input, Group group, std::uint64_t index) const;
 
   private:
-    struct Place {
+    struct SequencePoint {
         std::uint64_t sequence, number;
     };
-    Place place(Group group, std::uint64_t index) const;
+    SequencePoint place(Group group, std::uint64_t index) const;
 
     std::uint64_t seed_;
     std::uint64_t sizes_, combinations_;

@@ -20,27 +20,27 @@ const Study& with_gears(const Study& study) {
     return study;
 }
 
-bool differ_in_settling_alone(Numerics a, const Numerics& b) {
-    a.settle_tolerance = b.settle_tolerance;
+bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
+    a.convergence_tolerance = b.convergence_tolerance;
     return a == b;
 }
 
 }  // namespace
 
 Scene::Scene(const Study& study)
-    : Scene(study, make_drive(with_gears(study)), nullptr, nullptr, kAllMeshes) {}
+    : Scene(study, make_drivetrain(with_gears(study)), nullptr, nullptr, kAllMeshes) {}
 
-Scene::Scene(Study study, std::shared_ptr<const Drive> drive, SharedStiffness stiffness,
+Scene::Scene(Study study, std::shared_ptr<const Drivetrain> drivetrain, SharedStiffness stiffness,
              SharedPlan plan, int most_recorded)
     : study_(std::move(study)),
-      drive_(std::move(drive)),
+      drivetrain_(std::move(drivetrain)),
       stiffness_(stiffness ? std::move(stiffness)
-                           : std::make_shared<const SceneStiffness>(study_, *drive_)),
+                           : std::make_shared<const SceneStiffness>(study_, *drivetrain_)),
       plan_(plan ? std::move(plan)
-                 : std::make_shared<const ScenePlan>(make_plan(study_, *drive_, *stiffness_))),
-      span_(drive_->span()),
+                 : std::make_shared<const ScenePlan>(make_plan(study_, *drivetrain_, *stiffness_))),
+      span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(
-          drive_->mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s) / (2.0 * pi)),
+          drivetrain_->mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s) / (2.0 * pi)),
       signal_meshes_(meshes_needed(study_, span_, needs_of(used_features(study_)))),
       most_recorded_(most_recorded),
       max_meshes_(study_.effects.quasi_static()
@@ -51,15 +51,15 @@ Scene Scene::with(const Numerics& numerics) const {
     const Numerics& own = study_.numerics;
     const bool same_stiffness = own.stiffness_tolerance == numerics.stiffness_tolerance &&
                                 own.face_slices == numerics.face_slices;
-    const bool same_plan = differ_in_settling_alone(own, numerics);
+    const bool same_plan = differ_only_in_convergence_tolerance(own, numerics);
     Study study = study_;
     study.numerics = numerics;
-    return {std::move(study), drive_, same_stiffness ? stiffness_ : nullptr,
+    return {std::move(study), drivetrain_, same_stiffness ? stiffness_ : nullptr,
             same_plan ? plan_ : nullptr, most_recorded_};
 }
 
 Scene Scene::recording_at_most(int meshes) const {
-    return {study_, drive_, stiffness_, plan_, meshes};
+    return {study_, drivetrain_, stiffness_, plan_, meshes};
 }
 
 }  // namespace gearpod::mc

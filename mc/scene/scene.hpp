@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "mc/scene/drive.hpp"
+#include "mc/scene/drivetrain.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/scene/scene_plan.hpp"
@@ -35,11 +35,11 @@ class Scene {
     Scene recording_at_most(int meshes) const;
 
     const Study& study() const { return study_; }
-    const Drive& drive() const { return *drive_; }
+    const Drivetrain& drivetrain() const { return *drivetrain_; }
     const std::vector<SceneMesh>& meshes() const { return stiffness_->meshes(); }
     const lockstep::PairSet& pairs() const { return stiffness_->pairs(); }
     const SceneFault& fault() const { return stiffness_->fault(); }
-    const lockstep::MarchPlan& plan() const { return plan_->march; }
+    const lockstep::IntegrationPlan& plan() const { return plan_->integration; }
     const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
     // Gear pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
@@ -48,7 +48,7 @@ class Scene {
         return fault().mesh(0, size);
     }
     // See SceneStiffness.
-    const EachMember<gears::DeviationScales>& tooth_scales() const {
+    const MemberArray<gears::DeviationScales>& tooth_scales() const {
         return stiffness_->tooth_scales();
     }
 
@@ -82,18 +82,18 @@ class Scene {
     const std::vector<double>& mean_pairs() const { return stiffness_->mean_pairs(); }
 
     dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
-        return gearbox_inputs(study_, *drive_, instance);
+        return gearbox_inputs(study_, *drivetrain_, instance);
     }
 
   private:
     using SharedStiffness = std::shared_ptr<const SceneStiffness>;
     using SharedPlan = std::shared_ptr<const ScenePlan>;
     // Null stiffness and plan are computed.
-    Scene(Study study, std::shared_ptr<const Drive> drive, SharedStiffness stiffness,
+    Scene(Study study, std::shared_ptr<const Drivetrain> drivetrain, SharedStiffness stiffness,
           SharedPlan plan, int most_recorded);
 
     Study study_;
-    std::shared_ptr<const Drive> drive_;
+    std::shared_ptr<const Drivetrain> drivetrain_;
     SharedStiffness stiffness_;
     SharedPlan plan_;
     signals::SpanLayout span_;

@@ -8,7 +8,7 @@
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/plan/transmission_error.hpp"
 #include "mc/scene/body.hpp"
-#include "mc/scene/driving.hpp"
+#include "mc/scene/excitation_checks.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -18,65 +18,66 @@ namespace {
 
 using std::numbers::pi;
 
-class Planner {
+class PlanBuilder {
   public:
-    Planner(const Study& study, const Drive& drive, const SceneStiffness& stiffness)
-        : study_(study), drive_(drive), stiffness_(stiffness) {}
+    PlanBuilder(const Study& study, const Drivetrain& drivetrain, const SceneStiffness& stiffness)
+        : study_(study), drivetrain_(drivetrain), stiffness_(stiffness) {}
 
     ScenePlan make() && {
         const double mesh_frequency_rad_s =
-            drive_.mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s);
+            drivetrain_.mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s);
         const Sampling sampling = choose_sampling(study_, mesh_frequency_rad_s / (2.0 * pi));
         plan_.te_samples = sampling.te_samples;
-        begin_march(sampling.samples);
+        begin_plan(sampling.samples);
         SceneGrid chosen = choose_grid(study_, plan_.stepping, sampling.samples,
                                        stiffness_.transitions(), [this] { return pilot(); });
         plan_.calibration = chosen.calibration;
-        plan_.march = march_on(std::move(chosen.grid));
-        check_driving(study_, drive_, plan_.march);
+        plan_.integration = complete_plan(std::move(chosen.grid));
+        check_excitation_resolved(study_, drivetrain_, plan_.integration);
         return std::move(plan_);
     }
 
   private:
     // Sets everything in the integration plan but the grid.
-    void begin_march(int samples) {
-        lockstep::MarchPlan& march = plan_.march;
-        march.layout = gearbox_layout(study_);
+    void begin_plan(int samples) {
+        lockstep::IntegrationPlan& integration = plan_.integration;
+        integration.layout = gearbox_layout(study_);
         // A quasi-static gearbox is computed at the samples only.
         plan_.stepping.steps = samples;
         if (!study_.effects.quasi_static()) {
-            plan_.stepping =
-                choose_stepping(study_, drive_, march.layout, stiffness_.stiffest_pairs());
-            march.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
+            plan_.stepping = choose_stepping(study_, drivetrain_, integration.layout,
+                                             stiffness_.stiffest_pairs());
+            integration.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
         }
-        march.integrator = plan_.stepping.integrator;
-        march.precision = study_.numerics.precision;
-        march.te_weight = drive_.te_weight(march.layout);
-        march.mesh_law = mesh_law(study_);
+        integration.integrator = plan_.stepping.integrator;
+        integration.precision = study_.numerics.precision;
+        integration.te_weight = drivetrain_.te_weight(integration.layout);
+        integration.mesh_law = mesh_law(study_);
     }
 
     // Complete integration plan with this grid: stiffness and transmission errors tabulated at its
     // nodes.
-    lockstep::MarchPlan march_on(lockstep::PhaseGrid grid) const {
+    lockstep::IntegrationPlan complete_plan(lockstep::PhaseGrid grid) const {
         const lockstep::PairSet& pairs = stiffness_.pairs();
-        lockstep::MarchPlan march = plan_.march;
-        march.grid = std::move(grid);
-        march.nodes = lockstep::tabulate(pairs, march.grid, study_.effects.mesh_damping);
-        if (march.mesh_law == dynamics::MeshLaw::unilateral) {
-            add_tooth_pairs(march);
+        lockstep::IntegrationPlan integration = plan_.integration;
+        integration.grid = std::move(grid);
+        integration.nodes =
+            lockstep::tabulate(pairs, integration.grid, study_.effects.mesh_damping);
+        if (integration.mesh_law == dynamics::MeshLaw::unilateral) {
+            add_tooth_pairs(integration);
         }
-        if (march.mesh_law != dynamics::MeshLaw::linear) {
+        if (integration.mesh_law != dynamics::MeshLaw::linear) {
             std::vector<lockstep::MeshError> errors(
-                static_cast<std::size_t>(drive_.pairs_per_mesh()), first_errors());
+                static_cast<std::size_t>(drivetrain_.pairs_per_mesh()), first_errors());
             errors.resize(static_cast<std::size_t>(pairs.pairs()), second_errors());
-            lockstep::add_errors(pairs, march.grid, errors, march.nodes);
+            lockstep::add_errors(pairs, integration.grid, errors, integration.nodes);
         }
-        return march;
+        return integration;
     }
 
-    void add_tooth_pairs(lockstep::MarchPlan& march) const {
+    void add_tooth_pairs(lockstep::IntegrationPlan& integration) const {
         try {
-            lockstep::add_tooth_pairs(stiffness_.pairs(), march.grid, march.nodes);
+            lockstep::add_tooth_pairs(stiffness_.pairs(), integration.grid, integration.nodes);
         } catch (const std::invalid_argument& error) {
             throw SceneError("gearbox.addendum_coefficient", error.what(),
                              "use teeth with a lower contact ratio, or fewer face_slices");
@@ -108,7 +109,7 @@ class Planner {
             const InstanceInputs inputs =
                 lane == 0 ? sampler.nominal()
                           : sampler.sample(Group::graded, static_cast<std::uint64_t>(lane - 1));
-            pilot.inputs.push_back(gearbox_inputs(study_, drive_, inputs));
+            pilot.inputs.push_back(gearbox_inputs(study_, drivetrain_, inputs));
             for (int curve = 0; curve < fault.curves(); ++curve) {
                 pilot.faults.curve[static_cast<std::size_t>(curve)].push_back(
                     fault.mesh(curve, sizes.empty() ? 0.0 : sizes.back()));
@@ -118,21 +119,22 @@ class Planner {
         // all grids.
         constexpr double kDecays = 7.0, kMostMeshes = 100.0;
         const double decays = std::ceil(1.0 + kDecays * plan_.stepping.decay_meshes);
-        pilot.settle_meshes = static_cast<int>(std::min(kMostMeshes, decays));
-        pilot.plan = [this](lockstep::PhaseGrid grid) { return march_on(std::move(grid)); };
+        pilot.convergence_meshes = static_cast<int>(std::min(kMostMeshes, decays));
+        pilot.plan = [this](lockstep::PhaseGrid grid) { return complete_plan(std::move(grid)); };
         return pilot;
     }
 
     const Study& study_;
-    const Drive& drive_;
+    const Drivetrain& drivetrain_;
     const SceneStiffness& stiffness_;
     ScenePlan plan_;
 };
 
 }  // namespace
 
-ScenePlan make_plan(const Study& study, const Drive& drive, const SceneStiffness& stiffness) {
-    return Planner(study, drive, stiffness).make();
+ScenePlan make_plan(const Study& study, const Drivetrain& drivetrain,
+                    const SceneStiffness& stiffness) {
+    return PlanBuilder(study, drivetrain, stiffness).make();
 }
 
 }  // namespace gearpod::mc

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 #include "mc/scene/grid.hpp"
 #include "mc/scene/scene_stiffness.hpp"
 #include "mc/scene/stepping.hpp"
@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 
 struct ScenePlan {
-    lockstep::MarchPlan march;
+    lockstep::IntegrationPlan integration;
     Stepping stepping;
     // Calibration of the steps on a pilot sample; empty if there was none.
     std::optional<Calibration> calibration;
@@ -22,6 +22,7 @@ struct ScenePlan {
 };
 
 // Throws SceneError.
-ScenePlan make_plan(const Study& study, const Drive& drive, const SceneStiffness& stiffness);
+ScenePlan make_plan(const Study& study, const Drivetrain& drivetrain,
+                    const SceneStiffness& stiffness);
 
 }  // namespace gearpod::mc

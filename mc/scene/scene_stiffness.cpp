@@ -23,14 +23,14 @@ double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
 
 }  // namespace
 
-SceneStiffness::SceneStiffness(const Study& study, const Drive& drive)
-    : meshes_(make_meshes(study, drive.mesh_force_N(Sampler(study).nominal()))),
-      pairs_(make_pairs(meshes_, drive)),
+SceneStiffness::SceneStiffness(const Study& study, const Drivetrain& drivetrain)
+    : meshes_(make_meshes(study, drivetrain.mesh_force_N(Sampler(study).nominal()))),
+      pairs_(make_pairs(meshes_, drivetrain)),
       fault_(study, meshes_, pairs_) {
     for (const SceneMesh& mesh : meshes_) {
-        mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drive.pairs_per_mesh()),
+        mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drivetrain.pairs_per_mesh()),
                            mean_total(*mesh.stiffness));
-        for (const Member member : {mesh.members.driver, mesh.members.driven}) {
+        for (const Member member : {mesh.members.member_1, mesh.members.member_2}) {
             if (has_tooth_quality(study) && tooth_scales_[member].pitch == 0.0) {
                 tooth_scales_[member] = grade_5(study.gearbox, gear_of(study, member));
             }

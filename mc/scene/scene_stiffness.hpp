@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gears/tooth_deviations.hpp"
-#include "mc/scene/drive.hpp"
+#include "mc/scene/drivetrain.hpp"
 #include "mc/scene/faults.hpp"
 #include "mc/scene/meshes.hpp"
 
@@ -16,7 +16,7 @@ namespace gearpod::mc {
 class SceneStiffness {
   public:
     // Throws SceneError.
-    SceneStiffness(const Study& study, const Drive& drive);
+    SceneStiffness(const Study& study, const Drivetrain& drivetrain);
     SceneStiffness(const SceneStiffness&) = delete;
     SceneStiffness& operator=(const SceneStiffness&) = delete;
 
@@ -26,7 +26,7 @@ class SceneStiffness {
     // Mean stiffness of every pair over the mesh period, N/m.
     const std::vector<double>& mean_pairs() const { return mean_pairs_; }
     // Scales of the tooth errors of ISO 1328 grade 5; all 0 without a quality.
-    const EachMember<gears::DeviationScales>& tooth_scales() const { return tooth_scales_; }
+    const MemberArray<gears::DeviationScales>& tooth_scales() const { return tooth_scales_; }
     // Largest stiffness of every gear pair, with all tooth pairs in contact that can touch, N/m. It
     // bounds the integrator's step.
     std::vector<double> stiffest_pairs() const;
@@ -38,7 +38,7 @@ class SceneStiffness {
     lockstep::PairSet pairs_;
     SceneFault fault_;
     std::vector<double> mean_pairs_;
-    EachMember<gears::DeviationScales> tooth_scales_;
+    MemberArray<gears::DeviationScales> tooth_scales_;
 };
 
 }  // namespace gearpod::mc

@@ -52,15 +52,15 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
 // Requirements on the number of steps per mesh period.
 class StepNeeds {
   public:
-    StepNeeds(const Study& study, const Drive& drive, const dynamics::GearboxLayout& layout,
-              const std::vector<double>& stiffest_N_m)
+    StepNeeds(const Study& study, const Drivetrain& drivetrain,
+              const dynamics::GearboxLayout& layout, const std::vector<double>& stiffest_N_m)
         : study_(study),
-          drive_(drive),
+          drivetrain_(drivetrain),
           layout_(layout),
           stiffest_(stiffest_N_m),
           sampler_(study),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
-        gearboxes_.push_back(gearbox_inputs(study, drive, sampler_.nominal()));
+        gearboxes_.push_back(gearbox_inputs(study, drivetrain, sampler_.nominal()));
         // A pilot sample of the ensemble, the same for every run of the study, represents the other
         // gearboxes.
         constexpr std::uint64_t kPilot = 32;
@@ -114,7 +114,7 @@ class StepNeeds {
 
   private:
     dynamics::GearboxInputs graded(std::uint64_t i) const {
-        return gearbox_inputs(study_, drive_, sampler_.sample(Group::graded, i));
+        return gearbox_inputs(study_, drivetrain_, sampler_.sample(Group::graded, i));
     }
     dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
         return dynamics::assemble(layout_, gearbox, stiffest_);
@@ -135,7 +135,7 @@ class StepNeeds {
     }
 
     const Study& study_;
-    const Drive& drive_;
+    const Drivetrain& drivetrain_;
     const dynamics::GearboxLayout& layout_;
     const std::vector<double>& stiffest_;
     const Sampler sampler_;
@@ -160,8 +160,8 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
     const double least = std::ceil(std::max(stable, 0.5 * band));
     const double chosen = std::ceil(std::max(ample, band));
-    const bool asked_for = given >= least && given <= kMostSteps;
-    if (!asked_for && stable > lockstep::kMostExplicitSteps) {
+    const bool is_usable = given >= least && given <= kMostSteps;
+    if (!is_usable && stable > lockstep::kMostExplicitSteps) {
         refuse_explicit(needs, chosen);
     }
     if (!(chosen <= kMostSteps)) {
@@ -246,10 +246,10 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     return result;
 }
 
-Stepping choose_stepping(const Study& study, const Drive& drive,
+Stepping choose_stepping(const Study& study, const Drivetrain& drivetrain,
                          const dynamics::GearboxLayout& layout,
                          const std::vector<double>& stiffest_N_m) {
-    const StepNeeds needs(study, drive, layout, stiffest_N_m);
+    const StepNeeds needs(study, drivetrain, layout, stiffest_N_m);
     const lockstep::Integrator integrator = integrator_of(study, needs);
     const int given = study.numerics.steps_per_mesh;
     Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)
@@ -258,29 +258,29 @@ Stepping choose_stepping(const Study& study, const Drive& drive,
     return stepping;
 }
 
-double settle_tolerance(const Study& study) {
+double convergence_tolerance(const Study& study) {
     constexpr double kFinestInSingle = 1e-5;
-    const double asked = study.numerics.settle_tolerance;
+    const double requested = study.numerics.convergence_tolerance;
     return study.numerics.precision == Precision::single_precision
-               ? std::max(asked, kFinestInSingle)
-               : asked;
+               ? std::max(requested, kFinestInSingle)
+               : requested;
 }
 
 // Twice the number of mesh periods in which the nominal gearbox's slowest mode decays to the
 // tolerance, within bounds.
 int choose_max_meshes(const Study& study, double decay_meshes) {
     constexpr double kFewest = 200.0, kMost = 1e6;
-    const double decay = -2.0 * decay_meshes * std::log(settle_tolerance(study));
+    const double decay = -2.0 * decay_meshes * std::log(convergence_tolerance(study));
     const int given = study.numerics.max_meshes;
     return given > 0 ? given
                      : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
                                                              : kFewest);
 }
 
-dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drive& drive,
+dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drivetrain& drivetrain,
                                        const InstanceInputs& instance) {
     dynamics::GearboxInputs inputs = body_inputs(study, instance);
-    drive.set(instance, inputs);
+    drivetrain.set(instance, inputs);
     return inputs;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lockstep/plan/integrator.hpp"
-#include "mc/scene/drive.hpp"
+#include "mc/scene/drivetrain.hpp"
 
 namespace gearpod::mc {
 
@@ -36,19 +36,19 @@ struct Stepping {
 };
 // `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step. Throws
 // SceneError.
-Stepping choose_stepping(const Study& study, const Drive& drive,
+Stepping choose_stepping(const Study& study, const Drivetrain& drivetrain,
                          const dynamics::GearboxLayout& layout,
                          const std::vector<double>& stiffest_N_m);
 
 // Relative change at which an orbit counts as converged: the study's value, or the smallest that
 // its precision can resolve.
-double settle_tolerance(const Study& study);
+double convergence_tolerance(const Study& study);
 
 // Largest number of mesh periods within which a gearbox must converge.
 int choose_max_meshes(const Study& study, double decay_meshes);
 
 // Inputs of one gearbox with speed, load and bodies.
-dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drive& drive,
+dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drivetrain& drivetrain,
                                        const InstanceInputs& instance);
 
 }  // namespace gearpod::mc

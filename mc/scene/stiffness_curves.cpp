@@ -24,14 +24,14 @@ double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& m
 }
 
 double loaded_approach(const Scene& scene, int pair, double phase) {
-    constexpr double kBeside = 1e-9;  // mesh periods, towards later phases
+    constexpr double kInside = 1e-9;  // mesh periods, towards later phases
     const lockstep::PairSet& pairs = scene.pairs();
     const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
     const double tau = pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;
-    const double inside = pairs.reversed ? tau - kBeside : tau + kBeside;
+    const double inside = pairs.reversed ? tau - kInside : tau + kInside;
     const double period = std::floor(inside);
     const SceneMesh& mesh =
-        scene.meshes()[static_cast<std::size_t>(pair / scene.drive().pairs_per_mesh())];
+        scene.meshes()[static_cast<std::size_t>(pair / scene.drivetrain().pairs_per_mesh())];
     return mesh.loaded->approach(tau - period, inside - period);
 }
 

@@ -31,7 +31,7 @@ std::string assumptions(const Study& study, bool lives) {
         return "";
     }
     std::vector<std::string> all{teeth(study)};
-    if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
+    if (study.gearbox.kind == GearboxKind::planetary && !has_unequal_planets(study)) {
         all.push_back("identical planets and pins");
     }
     if (study.effects.foundation == Foundation::none && !stiffness_given(study)) {

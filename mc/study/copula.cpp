@@ -7,7 +7,7 @@
 
 namespace gearpod::mc {
 
-double share_below(double z) {
+double standard_normal_cdf(double z) {
     constexpr double kLeast = 0x1p-53;
     return std::clamp(0.5 * std::erfc(-z / std::numbers::sqrt2), kLeast, 1.0 - kLeast);
 }
@@ -42,8 +42,9 @@ Copula::Copula(const Study& study) {
     factor_ = cholesky.matrixL();
 }
 
-std::vector<double> Copula::shares(const std::function<double(std::size_t input)>& normal) const {
-    std::vector<double> normals, shares;
+std::vector<double> Copula::uniform_variates(
+    const std::function<double(std::size_t input)>& normal) const {
+    std::vector<double> normals, uniform_variates;
     for (const std::size_t input : inputs_) {
         normals.push_back(normal(input));
     }
@@ -53,9 +54,9 @@ std::vector<double> Copula::shares(const std::function<double(std::size_t input)
         for (std::size_t j = 0; j <= i; ++j) {
             z += factor_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * normals[j];
         }
-        shares.push_back(share_below(z));
+        uniform_variates.push_back(standard_normal_cdf(z));
     }
-    return shares;
+    return uniform_variates;
 }
 
 }  // namespace gearpod::mc

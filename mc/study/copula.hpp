@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 
 // Standard normal distribution function at z, clamped to [2^-53, 1 - 2^-53].
-double share_below(double z);
+double standard_normal_cdf(double z);
 
 class Copula {
   public:
@@ -26,7 +26,8 @@ class Copula {
     bool has(std::size_t input) const { return input < has_.size() && has_[input] != 0; }
     // One uniform variate in (0, 1) for each correlated input, in the inputs' order. `normal` gives
     // an independent standard normal variate for each input, by its index in the study.
-    std::vector<double> shares(const std::function<double(std::size_t input)>& normal) const;
+    std::vector<double> uniform_variates(
+        const std::function<double(std::size_t input)>& normal) const;
 
   private:
     std::vector<std::size_t> inputs_;

@@ -40,7 +40,7 @@ bool gravity_turns(const Study& study) {
            study.operation.fixed != Member::carrier;
 }
 
-std::string why_no_mesh_repeats(const Study& study) {
+std::string reason_not_periodic(const Study& study) {
     return torque_fluctuates(study)  ? "the torque fluctuates"
            : speed_fluctuates(study) ? "the speed fluctuates"
            : gravity_turns(study)    ? "gravity rotates relative to the carrier"
@@ -48,10 +48,10 @@ std::string why_no_mesh_repeats(const Study& study) {
                                      : "";
 }
 
-std::string why_not_superposed(const Study& study) {
-    return study.effects.quasi_static() ? "a quasi-static gearbox is not integrated in time"
-           : driven_unevenly(study)     ? "torque, speed or weight varies"
-           : !has_tooth_errors(study)   ? "the teeth have no individual errors"
+std::string reason_not_superposed(const Study& study) {
+    return study.effects.quasi_static()     ? "a quasi-static gearbox is not integrated in time"
+           : has_variable_excitation(study) ? "torque, speed or weight varies"
+           : !has_tooth_errors(study)       ? "the teeth have no individual errors"
            : study.effects.contact_onset == ContactOnset::extended
                ? "extended contact (effects.contact_onset) cannot be superposed"
                : "";

@@ -16,7 +16,7 @@ inline bool torque_fluctuates(const Study& study) {
 inline bool speed_fluctuates(const Study& study) {
     return speed_has_sine(study) || speed_has_noise(study);
 }
-inline bool draws_fluctuations(const Study& study) {
+inline bool has_random_fluctuations(const Study& study) {
     return torque_has_noise(study) || speed_has_noise(study);
 }
 
@@ -27,13 +27,13 @@ bool planets_balance(const Study& study);
 // True if weight rotates in the frame of a turning carrier.
 bool gravity_turns(const Study& study);
 
-inline bool driven_unevenly(const Study& study) {
+inline bool has_variable_excitation(const Study& study) {
     return torque_fluctuates(study) || speed_fluctuates(study) || study.effects.gravity;
 }
 // Reason why mesh periods are not identical, e.g. "the torque fluctuates"; empty if there is none.
-std::string why_no_mesh_repeats(const Study& study);
+std::string reason_not_periodic(const Study& study);
 // Reason why the motion cannot be superposed from the effects of each gear's tooth errors; empty if
 // it can as long as no tooth pair loses contact.
-std::string why_not_superposed(const Study& study);
+std::string reason_not_superposed(const Study& study);
 
 }  // namespace gearpod::mc

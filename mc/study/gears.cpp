@@ -48,15 +48,15 @@ std::span<const MeshMembers> meshes_of(GearboxKind kind) {
 }
 
 std::string mesh_name(const MeshMembers& mesh) {
-    const bool ring = mesh.driven == Member::ring;
-    const std::string first(member_name(ring ? mesh.driven : mesh.driver));
-    return first + "-" + std::string(member_name(ring ? mesh.driver : mesh.driven));
+    const bool ring = mesh.member_2 == Member::ring;
+    const std::string first(member_name(ring ? mesh.member_2 : mesh.member_1));
+    return first + "-" + std::string(member_name(ring ? mesh.member_1 : mesh.member_2));
 }
 
 bool has_toothed_member(GearboxKind kind, Member member) {
     const auto meshes = meshes_of(kind);
     return std::any_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
-        return mesh.driver == member || mesh.driven == member;
+        return mesh.member_1 == member || mesh.member_2 == member;
     });
 }
 
@@ -88,7 +88,7 @@ dynamics::MeshLaw mesh_law(const Study& study) {
     return has_static_errors(study) ? dynamics::MeshLaw::with_error : dynamics::MeshLaw::linear;
 }
 
-bool teeth_can_part(const Study& study) {
+bool teeth_can_separate(const Study& study) {
     return dynamics::separates(mesh_law(study));
 }
 
@@ -114,8 +114,8 @@ bool has_tooth_errors(const Study& study) {
                               "gearbox.eccentricity_um", "gearbox.profile_slope_um"});
 }
 
-bool draws_planets(const Study& study) {
-    const UnlikePlanets& p = study.planets;
+bool has_random_planets(const Study& study) {
+    const PlanetDifferences& p = study.planets;
     return p.pin_tangential_rms_m > 0.0 || p.pin_radial_rms_m > 0.0 ||
            p.bearing_stiffness_scatter > 0.0 || p.bearing_damping_scatter > 0.0 ||
            p.mass_scatter > 0.0 ||
@@ -125,11 +125,11 @@ bool draws_planets(const Study& study) {
                        "gearbox.planet_bearing_damping_scatter", "gearbox.planet_mass_scatter"});
 }
 
-bool has_unlike_planets(const Study& study) {
-    const UnlikePlanets& p = study.planets;
+bool has_unequal_planets(const Study& study) {
+    const PlanetDifferences& p = study.planets;
     const auto lists = {&p.pin_tangential_m, &p.pin_radial_m, &p.bearing_stiffness,
                         &p.bearing_damping, &p.mass};
-    return draws_planets(study) ||
+    return has_random_planets(study) ||
            std::any_of(lists.begin(), lists.end(), [](const auto* list) { return !list->empty(); });
 }
 
@@ -142,7 +142,7 @@ bool has_gears(const Study& study) {
     const auto meshes = meshes_of(study.gearbox.kind);
     return study.gearbox.transverse_module_m() &&
            std::all_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
-               return teeth_of(study, mesh.driver) && teeth_of(study, mesh.driven);
+               return teeth_of(study, mesh.member_1) && teeth_of(study, mesh.member_2);
            });
 }
 
@@ -174,7 +174,7 @@ gears::Gear standard_gear(const Study& study, Member member) {
 // Pinion and gear of a fixed-shaft gearbox, or sun and planet.
 std::pair<Member, Member> shifted_pair(const Study& study) {
     const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
-    return {mesh.driver, mesh.driven};
+    return {mesh.member_1, mesh.member_2};
 }
 
 }  // namespace
@@ -211,14 +211,14 @@ gears::WorkingShifts working_shifts(const Study& study) {
         }
         return shift;
     };
-    const gears::DrawnShifts drawn{transverse(first), transverse(second), transverse(Member::ring),
-                                   g.centre_distance_m};
+    const gears::SpecifiedShifts specified{transverse(first), transverse(second),
+                                           transverse(Member::ring), g.centre_distance_m};
     const gears::Gear gear_1 = standard_gear(study, first), gear_2 = standard_gear(study, second);
     if (g.kind == GearboxKind::fixed_shaft) {
-        return gears::working_shifts(gear_1, gear_2, nullptr, drawn);
+        return gears::working_shifts(gear_1, gear_2, nullptr, specified);
     }
     const gears::Gear ring = standard_gear(study, Member::ring);
-    return gears::working_shifts(gear_1, gear_2, &ring, drawn);
+    return gears::working_shifts(gear_1, gear_2, &ring, specified);
 }
 
 gears::Gear gear_of(const Study& study, Member member) {
@@ -244,7 +244,7 @@ double centre_distance_m(const Study& study) {
     return working_shifts(study).centre_distance_m.value_or(standard);
 }
 
-gears::PlanetRoom planet_room(const Study& study) {
+gears::PlanetDimensions planet_dimensions(const Study& study) {
     const double module = study.gearbox.transverse_module_m().value();
     return {centre_distance_m(study) / module,
             2.0 * gear_of(study, Member::planet).tip_radius() / module};
@@ -307,7 +307,7 @@ double blank_factor(const Study& study, Member member) {
 }
 
 double blank_factor(const Study& study, const MeshMembers& mesh) {
-    return std::min(blank_factor(study, mesh.driver), blank_factor(study, mesh.driven));
+    return std::min(blank_factor(study, mesh.member_1), blank_factor(study, mesh.member_2));
 }
 
 stiffness::Material material_of(const Study& study, const MeshMembers& mesh) {

@@ -22,7 +22,7 @@ std::string_view member_name(Member member);
 // Two meshing members; the first one drives and is external.
 struct MeshMembers {
     MeshKind kind;
-    Member driver, driven;
+    Member member_1, member_2;
 };
 
 // Meshes of a kind of gearbox: sun-planet and planet-ring, or pinion-gear.
@@ -48,7 +48,7 @@ std::vector<std::string> shift_keys();
 gears::WorkingShifts working_shifts(const Study& study);
 // Radius of the planets' axes and diameter of their tip circle, in modules. Precondition:
 // shift_given().
-gears::PlanetRoom planet_room(const Study& study);
+gears::PlanetDimensions planet_dimensions(const Study& study);
 // Relief and crowning of a member's flanks; has_relief(): true if any member has some.
 gears::FlankRelief relief_of(const Study& study, Member member);
 bool has_relief(const Study& study);
@@ -67,19 +67,19 @@ bool stiffness_given(const Study& study);
 // True if any mesh has a static transmission error given by its harmonics.
 bool has_static_errors(const Study& study);
 
-// Contact law of the study's meshes. teeth_can_part(): true if teeth can lose contact under it.
+// Contact law of the study's meshes. teeth_can_separate(): true if teeth can lose contact under it.
 dynamics::MeshLaw mesh_law(const Study& study);
-bool teeth_can_part(const Study& study);
+bool teeth_can_separate(const Study& study);
 // has_tooth_errors(): true if the teeth of any gearbox deviate individually. has_tooth_quality():
 // true if an ISO 1328 grade gives their size. has_measured_teeth(): true if measured deviations are
 // given.
 bool has_tooth_errors(const Study& study);
 bool has_tooth_quality(const Study& study);
 bool has_measured_teeth(const Study& study);
-// has_unlike_planets(): true if the planets of any gearbox differ. draws_planets(): true if their
-// differences are random.
-bool has_unlike_planets(const Study& study);
-bool draws_planets(const Study& study);
+// has_unequal_planets(): true if the planets of any gearbox differ. has_random_planets(): true if
+// their differences are random.
+bool has_unequal_planets(const Study& study);
+bool has_random_planets(const Study& study);
 
 // True if all tooth numbers and the module are given.
 bool has_gears(const Study& study);

@@ -29,7 +29,7 @@ struct Life {
     double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
     // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
     // by default two. Signals between them are interpolated.
-    std::optional<int> marched_torques, marched_speeds;
+    std::optional<int> given_torques, given_speeds;
     // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
     // meets every tooth of the ring once. A record averages `recordings` recordings.
     std::optional<double> record_s, record_turns;
@@ -37,11 +37,11 @@ struct Life {
 
     bool operator==(const Life&) const = default;
 };
-inline int torques_marched(const Life& life) {
-    return life.marched_torques.value_or(2);
+inline int integrated_torques(const Life& life) {
+    return life.given_torques.value_or(2);
 }
-inline int speeds_marched(const Life& life) {
-    return life.marched_speeds.value_or(2);
+inline int integrated_speeds(const Life& life) {
+    return life.given_speeds.value_or(2);
 }
 // Depth of the crack at the start of a life.
 double crack_begin_m(const Life& life);

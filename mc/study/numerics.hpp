@@ -10,10 +10,10 @@ namespace gearpod::mc {
 
 using lockstep::Precision;
 enum class StepGrid { uniform, graded };
-// Strategy of time integration. `reuse`: the periodic orbit and a fault's passages are integrated.
-// `superpose`: the effect of each gear's tooth errors is integrated separately, as long as no tooth
-// pair loses contact. `march`: every mesh period is integrated.
-enum class Horizon { reuse, superpose, march };
+// Strategy of time integration. `periodic`: the periodic orbit and a fault's passages are
+// integrated. `superposed`: the effect of each gear's tooth errors is integrated separately, as
+// long as no tooth pair loses contact. `full`: every mesh period is integrated.
+enum class Horizon { periodic, superposed, full };
 
 // Number of lanes that fill a 512-bit register.
 constexpr int full_lanes(Precision precision) {
@@ -31,11 +31,11 @@ struct Numerics {
     // are chosen; 0: they are not chosen.
     double tolerance = 0.0;
     bool verify = false;  // repeat some gearboxes with finer steps; always with a tolerance
-    double settle_tolerance = 1e-10;
+    double convergence_tolerance = 1e-10;
     double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: the smallest that is possible
     int face_slices = 0;               // slices across a face with varying gaps; 0: chosen
     int max_meshes = 0;                // 0: derived from the damping
-    Horizon horizon = Horizon::reuse;
+    Horizon horizon = Horizon::periodic;
     int lanes = full_lanes(Precision::double_precision);     // 16 (single only), 8, 4 or 1
     int threads = 0;                                         // 0: all
     std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest set

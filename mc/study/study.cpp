@@ -20,7 +20,7 @@ bool compares_records(const Study& study) {
     return std::any_of(
         study.features.use.begin(), study.features.use.end(), [](const std::string& name) {
             const features::Feature* feature = features::find_feature(name);
-            return feature != nullptr && feature->compared != features::Compared::nothing;
+            return feature != nullptr && feature->baseline_use != features::BaselineUse::nothing;
         });
 }
 

@@ -44,17 +44,17 @@ using FaultSide = lockstep::PlanetSide;
 
 // Array indexed by an enumeration with `kCount` enumerators.
 template <class Enum, std::size_t kCount, class Value>
-struct Each {
+struct EnumArray {
     std::array<Value, kCount> values{};
 
     Value& operator[](Enum which) { return values.at(static_cast<std::size_t>(which)); }
     const Value& operator[](Enum which) const { return values.at(static_cast<std::size_t>(which)); }
-    bool operator==(const Each&) const = default;
+    bool operator==(const EnumArray&) const = default;
 };
 template <class Value>
-using EachMember = Each<Member, kAllMembers.size(), Value>;
+using MemberArray = EnumArray<Member, kAllMembers.size(), Value>;
 template <class Value>
-using EachMesh = Each<MeshKind, kMeshKinds, Value>;
+using MeshArray = EnumArray<MeshKind, kMeshKinds, Value>;
 
 // Inputs that may be random store their nominal value: the value in its section, else the
 // distribution's median. An empty optional means "not given".
@@ -99,8 +99,8 @@ struct MeshValues {
 struct Gearbox {
     GearboxKind kind = GearboxKind::planetary;
     int planets = 0;
-    EachMember<MemberValues> bodies;
-    EachMesh<MeshValues> meshes;
+    MemberArray<MemberValues> bodies;
+    MeshArray<MeshValues> meshes;
     std::vector<double> planet_positions_rad;         // ascending from 0; empty: equally spaced
     std::optional<double> module_m, normal_module_m;  // transverse, or normal (helical)
     std::optional<double> centre_distance_m;          // working centre distance
@@ -157,14 +157,14 @@ struct MeshErrors {
 
 // Differences between the planets of a planetary gearbox: given for each planet (empty: none), and
 // random.
-struct UnlikePlanets {
+struct PlanetDifferences {
     std::vector<double> pin_tangential_m, pin_radial_m;  // deviations from the nominal positions
     std::vector<double> bearing_stiffness, bearing_damping, mass;  // factors
     double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;     // of normal distributions
     // Standard deviations of the factors' logarithms, which are normal.
     double bearing_stiffness_scatter = 0.0, bearing_damping_scatter = 0.0, mass_scatter = 0.0;
 
-    bool operator==(const UnlikePlanets&) const = default;
+    bool operator==(const PlanetDifferences&) const = default;
 };
 
 struct Operation {
@@ -308,16 +308,16 @@ struct Until {
 enum class SamplingKind { plain, sobol };
 
 struct Ensemble {
-    std::int64_t instances = 0;            // gearboxes over all fault sizes
-    std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
-    int threshold_records = 1;             // records of each of those, with independent noise
-    std::optional<bool> threshold_tilt;    // most records with exponentially tilted noise
-    std::int64_t seed = 0;                 // 0..2^63-1
+    std::int64_t instances = 0;               // gearboxes over all fault sizes
+    std::int64_t threshold_instances = 0;     // further healthy gearboxes that set the thresholds
+    int threshold_records = 1;                // records of each of those, with independent noise
+    std::optional<bool> importance_sampling;  // most records with exponentially tilted noise
+    std::int64_t seed = 0;                    // 0..2^63-1
     SamplingKind sampling = SamplingKind::plain;
     double checkpoint_s = 30.0;  // interval of writing finished gearboxes to disk
     Until until;
 
-    bool tilted() const { return threshold_tilt.value_or(false); }
+    bool uses_importance_sampling() const { return importance_sampling.value_or(false); }
     bool operator==(const Ensemble&) const = default;
 };
 
@@ -326,7 +326,7 @@ struct Study {
     Gearbox gearbox;
     FixedShaft fixed_shaft;
     MeshErrors errors;
-    UnlikePlanets planets;
+    PlanetDifferences planets;
     Operation operation;
     Fluctuations fluctuations;
     Effects effects;

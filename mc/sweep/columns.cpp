@@ -6,7 +6,7 @@
 
 namespace gearpod::mc {
 
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+std::string aligned_columns(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> width;
     for (const auto& line : lines) {
         width.resize(std::max(width.size(), line.size()));

@@ -7,6 +7,6 @@
 namespace gearpod::mc {
 
 // Aligns cells in columns; all are right-aligned except the last column.
-std::string aligned(const std::vector<std::vector<std::string>>& lines);
+std::string aligned_columns(const std::vector<std::vector<std::string>>& lines);
 
 }  // namespace gearpod::mc

@@ -48,8 +48,8 @@ std::string toml_text(const Value& value) {
 }
 
 // Returns the value of the only key of a document made by an override.
-const Value& end_of(const Value& document, std::size_t depth) {
-    return depth == 0 ? document : end_of(document.entries.front().value, depth - 1);
+const Value& nested_value(const Value& document, std::size_t depth) {
+    return depth == 0 ? document : nested_value(document.entries.front().value, depth - 1);
 }
 
 // Replaces characters that are not portable in file names.
@@ -109,7 +109,7 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
             reject(own.front().what, "write section.key=[a, b, c]");
             continue;
         }
-        const Value& value = end_of(document, split(key, '.').size());
+        const Value& value = nested_value(document, split(key, '.').size());
         if (value.kind != Value::Kind::array || value.elements.empty()) {
             reject(fmt::format("must be a list of values, but is {}",
                                value.kind == Value::Kind::array ? "empty" : value.kind_name()),

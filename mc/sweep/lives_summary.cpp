@@ -17,7 +17,7 @@
 namespace gearpod::mc {
 namespace {
 
-const MonitoredFeature* find_answers(const LivesPoint& point, const MonitoredFeature& like) {
+const MonitoredFeature* find_life_result(const LivesPoint& point, const MonitoredFeature& like) {
     const auto at = std::ranges::find_if(point.monitored, [&](const MonitoredFeature& one) {
         return one.feature == like.feature && one.detector == like.detector;
     });
@@ -31,8 +31,8 @@ std::string name_of(const MonitoredFeature* one) {
 const MonitoredFeature* best_at(const LivesPoint& point) {
     const MonitoredFeature* best = nullptr;
     for (const MonitoredFeature& one : point.monitored) {
-        if (!std::isnan(one.answers.threshold.value) &&
-            (best == nullptr || better(one.answers, best->answers))) {
+        if (!std::isnan(one.performance.threshold.value) &&
+            (best == nullptr || finds_more(one.performance, best->performance))) {
             best = &one;
         }
     }
@@ -54,7 +54,7 @@ LivesPoint summarise_lives(const SweepPoint& point, const std::string& results) 
     summary.failed = campaign.failed;
     summary.record = campaign.record;
     summary.interpolation = campaign.interpolation;
-    summary.monitored = LifeMonitor(summary.study, campaign).answers();
+    summary.monitored = LifeMonitor(summary.study, campaign).results();
     return summary;
 }
 
@@ -68,12 +68,15 @@ const MonitoredFeature* best_over(const std::vector<LivesPoint>& points) {
             bool known = false;
             for (const LivesPoint& point : points) {
                 const double last = *point.study.life.last_depth_m;
-                const MonitoredFeature* here = find_answers(point, one);
-                known = known || (here != nullptr && !std::isnan(here->answers.threshold.value));
-                found += here == nullptr ? 0 : here->answers.found;
+                const MonitoredFeature* here = find_life_result(point, one);
+                known =
+                    known || (here != nullptr && !std::isnan(here->performance.threshold.value));
+                found += here == nullptr ? 0 : here->performance.found;
                 // std::fmin returns the number if the other argument is NaN.
-                deep_90 += here == nullptr ? last : std::fmin(here->answers.size_90.value, last);
-                deep_50 += here == nullptr ? last : std::fmin(here->answers.size_50.value, last);
+                deep_90 +=
+                    here == nullptr ? last : std::fmin(here->performance.size_90.value, last);
+                deep_50 +=
+                    here == nullptr ? last : std::fmin(here->performance.size_50.value, last);
             }
             const std::tuple key(-found, deep_90, deep_50);
             if (known && (best == nullptr || key < least)) {
@@ -96,7 +99,7 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
         lines[0].push_back(short_key(key.key));
     }
     lines[0].insert(lines[0].end(), {"lives", "failed"});
-    for (const std::string& column : answer_columns(points[0].study)) {
+    for (const std::string& column : life_result_columns(points[0].study)) {
         lines[0].push_back(column);
     }
     lines[0].emplace_back("best at this point");
@@ -104,15 +107,15 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
         std::vector<std::string> line = point.point.values;
         line.push_back(std::to_string(point.cracked));
         line.push_back(std::to_string(point.failed));
-        const MonitoredFeature* here = find_answers(point, *best);
-        const auto cells =
-            answer_cells(here == nullptr ? analysis::LifeAnswers{} : here->answers, point.study);
+        const MonitoredFeature* here = find_life_result(point, *best);
+        const auto cells = life_result_cells(
+            here == nullptr ? analysis::MonitorPerformance{} : here->performance, point.study);
         line.insert(line.end(), cells.begin(), cells.end());
         line.push_back(name_of(best_at(point)));
         lines.push_back(std::move(line));
     }
     return fmt::format("by {}, which finds most cracks over all points\n", name_of(best)) +
-           aligned(lines);
+           aligned_columns(lines);
 }
 
 nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
@@ -149,7 +152,7 @@ nlohmann::json lives_sweep_json(const std::string& title, const std::vector<Vari
             one["values"][keys[k].key] = point.point.values[k];
         }
         for (const MonitoredFeature& monitored : point.monitored) {
-            one["monitored"].push_back(answers_json(monitored));
+            one["monitored"].push_back(life_result_json(monitored));
         }
         json["points"].push_back(std::move(one));
     }

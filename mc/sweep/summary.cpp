@@ -9,11 +9,11 @@
 
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
-#include "mc/answers/run_report.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/summary/run_report.hpp"
 #include "mc/sweep/columns.hpp"
 
 namespace gearpod::mc {
@@ -81,11 +81,11 @@ std::string best_cell(const PointSummary& point) {
 
 // Warnings of all points, without duplicates.
 std::string shortages(const std::vector<PointSummary>& points) {
-    std::vector<std::string> said;
+    std::vector<std::string> printed;
     std::string text;
     for (const PointSummary& point : points) {
-        if (!point.shortage.empty() && std::ranges::count(said, point.shortage) == 0) {
-            said.push_back(point.shortage);
+        if (!point.shortage.empty() && std::ranges::count(printed, point.shortage) == 0) {
+            printed.push_back(point.shortage);
             analysis::add_wrapped(text, point.shortage, 2);
         }
     }
@@ -156,7 +156,7 @@ std::string sweep_text(const std::vector<VariedKey>& keys,
            fmt::format(
                "smallest fault found with 90 % probability at {:g} % confidence, by noise level\n",
                points.empty() ? 0.0 : 100.0 * points[0].confidence) +
-           aligned(lines) +
+           aligned_columns(lines) +
            "none: no tested fault is found; ?: too few healthy gearboxes for a threshold\n";
 }
 

@@ -6,21 +6,21 @@ namespace gearpod::dynamics {
 namespace {
 
 template <class... Cases>
-struct ByKind : Cases... {
+struct Overloaded : Cases... {
     using Cases::operator()...;
 };
 template <class... Cases>
-ByKind(Cases...) -> ByKind<Cases...>;
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 // Calls f(layout, inputs) with the alternatives of their common kind.
 template <class F>
 auto with_inputs(const GearboxLayout& layout, const GearboxInputs& inputs, F f) {
-    return std::visit(ByKind{[&](const PlanetaryLayout& kind) {
-                                 return f(kind, std::get<PlanetaryInputs>(inputs));
-                             },
-                             [&](const FixedShaftLayout& kind) {
-                                 return f(kind, std::get<FixedShaftInputs>(inputs));
-                             }},
+    return std::visit(Overloaded{[&](const PlanetaryLayout& kind) {
+                                     return f(kind, std::get<PlanetaryInputs>(inputs));
+                                 },
+                                 [&](const FixedShaftLayout& kind) {
+                                     return f(kind, std::get<FixedShaftInputs>(inputs));
+                                 }},
                       layout);
 }
 
@@ -59,8 +59,8 @@ double backlash_m(const GearboxInputs& inputs) {
 }
 
 double frame_speed_rad_s(const GearboxInputs& inputs) {
-    return std::visit(ByKind{[](const PlanetaryInputs& in) { return in.carrier_speed_rad_s; },
-                             [](const FixedShaftInputs&) { return 0.0; }},
+    return std::visit(Overloaded{[](const PlanetaryInputs& in) { return in.carrier_speed_rad_s; },
+                                 [](const FixedShaftInputs&) { return 0.0; }},
                       inputs);
 }
 
@@ -101,23 +101,23 @@ std::vector<std::string> motion_names(const GearboxLayout& layout) {
 
 Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair) {
     return std::visit(
-        ByKind{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
-                   const int n = pair % kind.planets;
-                   return motions_from_degrees(kind).transpose() *
-                          (pair == n ? sun_planet_row(kind, n) : ring_planet_row(kind, n));
-               },
-               [](const FixedShaftLayout& kind) { return mesh_row(kind); }},
+        Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
+                       const int n = pair % kind.planets;
+                       return motions_from_degrees(kind).transpose() *
+                              (pair == n ? sun_planet_row(kind, n) : ring_planet_row(kind, n));
+                   },
+                   [](const FixedShaftLayout& kind) { return mesh_row(kind); }},
         layout);
 }
 
 Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis) {
     return std::visit(
-        ByKind{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
-                   return motions_from_degrees(kind).row(motion_index(planet, source) + axis);
-               },
-               [&](const FixedShaftLayout& kind) -> Eigen::VectorXd {
-                   return Eigen::VectorXd::Unit(fixed_shaft_motions, 2 * kind.sensor + axis);
-               }},
+        Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
+                       return motions_from_degrees(kind).row(motion_index(planet, source) + axis);
+                   },
+                   [&](const FixedShaftLayout& kind) -> Eigen::VectorXd {
+                       return Eigen::VectorXd::Unit(fixed_shaft_motions, 2 * kind.sensor + axis);
+                   }},
         layout);
 }
 

@@ -37,7 +37,7 @@ void add_inertial_terms(GearboxMatrices& m, const PlanetaryLayout& layout,
 void add_pin_forces(GearboxMatrices& m, const PlanetaryLayout& layout,
                     const PlanetaryInputs& inputs) {
     for (int n = 0; n < layout.planets; ++n) {
-        const PlanetOwn& own = inputs.own[n];
+        const PlanetDeviations& own = inputs.planet_deviations[n];
         const double k = own.bearing_stiffness * inputs.bearing_stiffness_N_m[planet];
         m.force += k * own.pin_x_m * planet_bearing_row(layout, n, 0) +
                    k * own.pin_y_m * planet_bearing_row(layout, n, 1);
@@ -69,7 +69,7 @@ double PlanetaryLayout::transverse_pressure_angle() const {
     return dynamics::transverse_pressure_angle(pressure_angle_rad, helix_angle_rad);
 }
 
-Body held_body(gears::FixedMember fixed) {
+Body fixed_body(gears::FixedMember fixed) {
     switch (fixed) {
         case gears::FixedMember::sun:
             return sun;
@@ -154,15 +154,18 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                                inputs.bearing_damping_N_s_m[body]});
         }
     }
-    const Body held = held_body(layout.fixed);
-    springs.push_back({fmt::format("the {}'s support", kBodyNames[held]), motion(3 * held + 2),
-                       inputs.support_stiffness_N_m, inputs.support_damping_N_s_m});
+    const Body fixed_member = fixed_body(layout.fixed);
+    springs.push_back({fmt::format("the {}'s support", kBodyNames[fixed_member]),
+                       motion(3 * fixed_member + 2), inputs.support_stiffness_N_m,
+                       inputs.support_damping_N_s_m});
     for (int n = 0; n < layout.planets; ++n) {
         for (int axis : {0, 1}) {
-            springs.push_back(
-                {fmt::format("planet {}'s bearing", n + 1), planet_bearing_row(layout, n, axis),
-                 inputs.own[n].bearing_stiffness * inputs.bearing_stiffness_N_m[planet],
-                 inputs.own[n].bearing_damping * inputs.bearing_damping_N_s_m[planet]});
+            springs.push_back({fmt::format("planet {}'s bearing", n + 1),
+                               planet_bearing_row(layout, n, axis),
+                               inputs.planet_deviations[n].bearing_stiffness *
+                                   inputs.bearing_stiffness_N_m[planet],
+                               inputs.planet_deviations[n].bearing_damping *
+                                   inputs.bearing_damping_N_s_m[planet]});
         }
         for (const int pair : {n, layout.planets + n}) {
             const bool with_sun = pair == n;
@@ -182,7 +185,7 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
     GearboxMatrices m = zero_matrices(layout.motions());
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        const double own = i < planet ? 1.0 : inputs.own[i - planet].mass;
+        const double own = i < planet ? 1.0 : inputs.planet_deviations[i - planet].mass;
         m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = own * inputs.mass_kg[body];
         m.mass(3 * i + 2, 3 * i + 2) = own * inputs.inertia_over_r2_kg[body];
     }
@@ -223,13 +226,13 @@ Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
     // a_r.
     const double cos_s = std::cos(layout.sun_mesh_angle());
     const double cos_r = std::cos(layout.ring_mesh_angle());
-    const Body held = held_body(layout.fixed);
-    const double u_c = held == carrier ? 0.0 : 1.0;
-    const double u_s = held == sun ? 0.0 : held == ring ? cos_s + cos_r : 1.0;
+    const Body fixed_member = fixed_body(layout.fixed);
+    const double u_c = fixed_member == carrier ? 0.0 : 1.0;
+    const double u_s = fixed_member == sun ? 0.0 : fixed_member == ring ? cos_s + cos_r : 1.0;
     const double u_n = u_c * cos_s - u_s;
     Eigen::VectorXd turn = Eigen::VectorXd::Zero(layout.degrees_of_freedom());
     turn(layout.rotation_index(carrier)) = u_c;
-    turn(layout.rotation_index(ring)) = held == ring ? 0.0 : u_c * cos_r + u_n;
+    turn(layout.rotation_index(ring)) = fixed_member == ring ? 0.0 : u_c * cos_r + u_n;
     turn(layout.rotation_index(sun)) = u_s;
     for (int n = 0; n < layout.planets; ++n) {
         turn(layout.rotation_index(planet + n)) = u_n;

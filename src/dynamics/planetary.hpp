@@ -66,7 +66,7 @@ struct PlanetaryLayout {
 // Individual deviations of a planet: factors on the properties of all planets, and the offset of
 // its pin from the nominal position in the carrier, m along the frame's x and y. The bearing is
 // unloaded at that offset.
-struct PlanetOwn {
+struct PlanetDeviations {
     double bearing_stiffness = 1.0, bearing_damping = 1.0;
     double mass = 1.0;  // and inertia
     double pin_x_m = 0.0, pin_y_m = 0.0;
@@ -85,9 +85,9 @@ struct PlanetaryInputs {
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
     double force_N[3] = {};              // on u of carrier, ring, sun: torque / r
-    PlanetOwn own[kMaxPlanets] = {};     // of planets 1..N
+    PlanetDeviations planet_deviations[kMaxPlanets] = {};  // of planets 1..N
 
-    double planet_mass_kg(int n) const { return own[n].mass * mass_kg[planet]; }
+    double planet_mass_kg(int n) const { return planet_deviations[n].mass * mass_kg[planet]; }
 };
 
 // Row vectors of the deflections over all 9 + 3N motions.
@@ -114,7 +114,7 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
 std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 
 // Body of the fixed member.
-Body held_body(gears::FixedMember fixed);
+Body fixed_body(gears::FixedMember fixed);
 
 // Mesh damping of a pair divided by the damping shape of its stiffness (effects/mesh_damping.hpp).
 // The damping is 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22) or c.

@@ -27,10 +27,10 @@ void set_directions(PlanetaryLanes<W, Real>& lanes, const PlanetaryLayout& layou
 }
 
 // Mass of the planets, which the carrier moves in torsional motion.
-double riding_mass_kg(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
+double planets_mass_kg(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
     double factors = 0.0;
     for (int n = 0; n < layout.planets; ++n) {
-        factors += in.own[n].mass;
+        factors += in.planet_deviations[n].mass;
     }
     return factors * in.mass_kg[planet];
 }
@@ -40,10 +40,11 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
               const PlanetaryInputs& in) {
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        const PlanetOwn own = i < planet ? PlanetOwn{} : in.own[i - planet];
+        const PlanetDeviations own =
+            i < planet ? PlanetDeviations{} : in.planet_deviations[i - planet];
         double inertia = own.mass * in.inertia_over_r2_kg[body];
         if (layout.motion == Motion::torsional && body == carrier) {
-            inertia += riding_mass_kg(layout, in);
+            inertia += planets_mass_kg(layout, in);
         }
         lanes.inverse_mass[i][l] = Real(1.0 / (own.mass * in.mass_kg[body]));
         lanes.inverse_inertia[i][l] = Real(1.0 / inertia);
@@ -52,13 +53,13 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
         lanes.bearing_damping[i][l] = Real(own.bearing_damping * in.bearing_damping_N_s_m[body]);
     }
     for (int n = 0; n < layout.planets; ++n) {
-        lanes.pin_x[n][l] = Real(in.own[n].pin_x_m);
-        lanes.pin_y[n][l] = Real(in.own[n].pin_y_m);
+        lanes.pin_x[n][l] = Real(in.planet_deviations[n].pin_x_m);
+        lanes.pin_y[n][l] = Real(in.planet_deviations[n].pin_y_m);
     }
     for (int body : {carrier, ring, sun}) {
-        const bool held = body == held_body(layout.fixed);
-        lanes.support_stiffness[body][l] = Real(held ? in.support_stiffness_N_m : 0.0);
-        lanes.support_damping[body][l] = Real(held ? in.support_damping_N_s_m : 0.0);
+        const bool is_fixed = body == fixed_body(layout.fixed);
+        lanes.support_stiffness[body][l] = Real(is_fixed ? in.support_stiffness_N_m : 0.0);
+        lanes.support_damping[body][l] = Real(is_fixed ? in.support_damping_N_s_m : 0.0);
         lanes.force[body][l] = Real(in.force_N[body]);
     }
     for (int pair = 0; pair < layout.pairs(); ++pair) {

@@ -132,13 +132,15 @@ struct TranslationalMotion {
             f[8 * W + l] -= f_sun;
 
             const Real w = p.speed[l];
-            const Real pull = p.centrifugal[l];
-            f[o + l] = std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)),
-                                p.inverse_mass[planet + n][l],
-                                InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));
-            f[o + W + l] = std::fma(std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)),
-                                    p.inverse_mass[planet + n][l],
-                                    InertialTerms::y(y, vx, w) + InertialTerms::pull(pull, sp));
+            const Real centrifugal_acceleration = p.centrifugal[l];
+            f[o + l] = std::fma(
+                std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)), p.inverse_mass[planet + n][l],
+                InertialTerms::x(x, vy, w) +
+                    InertialTerms::centrifugal_acceleration(centrifugal_acceleration, cp));
+            f[o + W + l] = std::fma(
+                std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)), p.inverse_mass[planet + n][l],
+                InertialTerms::y(y, vx, w) +
+                    InertialTerms::centrifugal_acceleration(centrifugal_acceleration, sp));
             f[o + 2 * W + l] = (f_ring - f_sun) * p.inverse_inertia[planet + n][l];
         }
     }

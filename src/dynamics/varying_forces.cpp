@@ -24,14 +24,14 @@ Eigen::MatrixX2d planetary_weight(const PlanetaryLayout& layout, const Planetary
 
 // Removes the part of the force that rotates the train as a rigid body, as for unbalanced torques
 // (fixed_shaft.cpp). Unbalanced planets cause such a part, but the rotation is prescribed.
-Eigen::VectorXd without_turning(const Eigen::VectorXd& force, const Eigen::MatrixXd& mass,
-                                const Eigen::VectorXd& turn) {
-    const double turning = turn.dot(force);
-    if (std::abs(turning) <= 1e-12 * force.cwiseAbs().sum()) {
+Eigen::VectorXd without_rigid_rotation(const Eigen::VectorXd& force, const Eigen::MatrixXd& mass,
+                                       const Eigen::VectorXd& turn) {
+    const double generalized_force = turn.dot(force);
+    if (std::abs(generalized_force) <= 1e-12 * force.cwiseAbs().sum()) {
         return force;
     }
     const Eigen::VectorXd inertia = mass * turn;
-    return force - inertia * (turning / turn.dot(inertia));
+    return force - inertia * (generalized_force / turn.dot(inertia));
 }
 
 }  // namespace
@@ -53,7 +53,8 @@ Eigen::MatrixX2d weight_force(const GearboxLayout& layout, const GearboxInputs& 
         Eigen::MatrixX2d weight = planetary_weight(*planetary, std::get<PlanetaryInputs>(inputs));
         const Eigen::MatrixXd mass = without_meshes(layout, inputs).mass;
         for (const int axis : {0, 1}) {
-            weight.col(axis) = without_turning(weight.col(axis), mass, rigid_rotation(layout));
+            weight.col(axis) =
+                without_rigid_rotation(weight.col(axis), mass, rigid_rotation(layout));
         }
         return weight;
     }
@@ -64,11 +65,11 @@ Eigen::MatrixX2d weight_force(const GearboxLayout& layout, const GearboxInputs& 
     return weight;
 }
 
-Eigen::VectorXd uneven_turning_force(const GearboxLayout& layout, const GearboxInputs& inputs,
-                                     int driving) {
+Eigen::VectorXd angular_acceleration_force(const GearboxLayout& layout, const GearboxInputs& inputs,
+                                           int input_degree) {
     const Eigen::VectorXd turn = rigid_rotation(layout);
     Eigen::VectorXd force = -(without_meshes(layout, inputs).mass * turn);
-    force(driving) -= turn.dot(force) / turn(driving);
+    force(input_degree) -= turn.dot(force) / turn(input_degree);
     return force;
 }
 

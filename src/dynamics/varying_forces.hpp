@@ -16,9 +16,9 @@ Eigen::VectorXd torque_force(const GearboxLayout& layout, const GearboxInputs& i
 Eigen::MatrixX2d weight_force(const GearboxLayout& layout, const GearboxInputs& inputs);
 
 // Force under angular acceleration of the train, N per 1 m/s^2 along rigid_rotation(layout): the
-// inertia forces of all masses, and the torque on degree of freedom `driving` that accelerates
+// inertia forces of all masses, and the torque on degree of freedom `input_degree` that accelerates
 // them. The sum does no work on the free rotation, because that rotation is prescribed.
-Eigen::VectorXd uneven_turning_force(const GearboxLayout& layout, const GearboxInputs& inputs,
-                                     int driving);
+Eigen::VectorXd angular_acceleration_force(const GearboxLayout& layout, const GearboxInputs& inputs,
+                                           int input_degree);
 
 }  // namespace gearpod::dynamics

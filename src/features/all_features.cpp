@@ -108,20 +108,20 @@ constexpr std::array kFeatures{
 
 // Features computed from the change since the baseline record: its energy, and its location on the
 // gears.
-constexpr std::string_view kOfChange[] = {"sensor_rms",       "window_ratio", "window_z",
-                                          "sun_window_ratio", "sun_window_z", "ring_window_ratio",
-                                          "ring_window_z"};
+constexpr std::string_view kChangeFeatures[] = {
+    "sensor_rms",   "window_ratio",      "window_z",     "sun_window_ratio",
+    "sun_window_z", "ring_window_ratio", "ring_window_z"};
 
 class Catalogue {
   public:
     Catalogue() : all_(kFeatures.begin(), kFeatures.end()) {
-        for (const std::string_view name : kOfChange) {
+        for (const std::string_view name : kChangeFeatures) {
             Feature own = *std::find_if(kFeatures.begin(), kFeatures.end(),
                                         [&](const Feature& f) { return f.name == name; });
             own.name = text("change_", own.name, "");
             own.doc = text("", own.doc, ", of the record less the gearbox's own baseline record");
             own.needs |= kChange;
-            own.compared = Compared::change;
+            own.baseline_use = BaselineUse::change;
             all_.push_back(own);
         }
         for (Feature own : kFeatures) {
@@ -130,15 +130,15 @@ class Catalogue {
                 text("", own.name.substr(4), " over that of the gearbox's own baseline record");
             own.unit = "1";
             own.needs |= kBaseline;
-            own.compared = Compared::baseline;
+            own.baseline_use = BaselineUse::baseline;
             all_.push_back(own);
         }
     }
     std::span<const Feature> all() const { return all_; }
 
   private:
-    std::string_view text(std::string_view before, std::string_view of, std::string_view behind) {
-        return texts_.emplace_back(std::string(before).append(of).append(behind));
+    std::string_view text(std::string_view before, std::string_view of, std::string_view suffix) {
+        return texts_.emplace_back(std::string(before).append(of).append(suffix));
     }
     std::deque<std::string> texts_;  // a deque, so that the strings never move
     std::vector<Feature> all_;
@@ -147,12 +147,12 @@ class Catalogue {
 }  // namespace
 
 double Feature::value(const FeatureInput& input) const {
-    switch (compared) {
-        case Compared::change:
+    switch (baseline_use) {
+        case BaselineUse::change:
             return compute(*input.change);
-        case Compared::baseline:
+        case BaselineUse::baseline:
             return compute(input) / compute(*input.baseline);
-        case Compared::nothing:
+        case BaselineUse::nothing:
             break;
     }
     return compute(input);

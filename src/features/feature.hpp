@@ -73,7 +73,7 @@ inline constexpr unsigned kRing = kRingRms | kRingMoments;
 // - nothing: the feature of the record.
 // - change: the feature of the change since the baseline record.
 // - baseline: the feature of the record divided by that of the baseline record.
-enum class Compared { nothing, change, baseline };
+enum class BaselineUse { nothing, change, baseline };
 
 struct Feature {
     std::string_view name;
@@ -84,7 +84,7 @@ struct Feature {
     double (*compute)(const FeatureInput& input) = nullptr;
     bool from_sensor = false;  // true if it needs the sensor signal
     unsigned needs = 0;        // of Need; compared features include those of the underlying feature
-    Compared compared = Compared::nothing;
+    BaselineUse baseline_use = BaselineUse::nothing;
 
     bool basic() const { return needs == 0; }
     // NaN as for `compute`, and if the baseline value is zero.

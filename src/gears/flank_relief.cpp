@@ -8,7 +8,7 @@ namespace gearpod::gears {
 namespace {
 
 // Relief at a distance from the end of contact.
-double ground_off(double amount, double length, ReliefShape shape, double distance) {
+double relief_at(double amount, double length, ReliefShape shape, double distance) {
     if (!(amount > 0) || distance >= length) {
         return 0;
     }
@@ -22,10 +22,10 @@ double relief_gap(const MeshGeometry& mesh, const FlankRelief& gear_1, const Fla
                   double tau) {
     const double since = tau * mesh.base_pitch();
     const double until = (mesh.contact_ratio() - tau) * mesh.base_pitch();
-    return ground_off(gear_1.root_m, gear_1.root_length_m, gear_1.shape, since) +
-           ground_off(gear_1.tip_m, gear_1.tip_length_m, gear_1.shape, until) +
-           ground_off(gear_2.tip_m, gear_2.tip_length_m, gear_2.shape, since) +
-           ground_off(gear_2.root_m, gear_2.root_length_m, gear_2.shape, until);
+    return relief_at(gear_1.root_m, gear_1.root_length_m, gear_1.shape, since) +
+           relief_at(gear_1.tip_m, gear_1.tip_length_m, gear_1.shape, until) +
+           relief_at(gear_2.tip_m, gear_2.tip_length_m, gear_2.shape, since) +
+           relief_at(gear_2.root_m, gear_2.root_length_m, gear_2.shape, until);
 }
 
 std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& gear_1,

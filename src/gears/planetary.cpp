@@ -13,35 +13,35 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr int kCountless = std::numeric_limits<int>::max();
+constexpr int kUnlimited = std::numeric_limits<int>::max();
 
 // Largest number of equally spaced planets whose tip circles do not touch.
-int planets_with_room(const PlanetRoom& room) {
-    const double ratio = room.tip_diameter / (2 * room.centre_distance);
+int max_planets(const PlanetDimensions& dimensions) {
+    const double ratio = dimensions.tip_diameter / (2 * dimensions.centre_distance);
     if (ratio >= 1) {
         return 1;
     }
     const double most = std::ceil(pi / std::asin(ratio)) - 1;
     // Almost no tooth tips, or none: practically unlimited.
-    return ratio > 0 && most < kCountless ? static_cast<int>(most) : kCountless;
+    return ratio > 0 && most < kUnlimited ? static_cast<int>(most) : kUnlimited;
 }
 
 // Reports more planets than can fit at any positions as one problem, instead of one for every pair
 // that touches.
-bool too_many(const PlanetaryTrain& train, const PlanetRoom& room,
-              std::vector<std::string>& problems) {
-    const int most = planets_with_room(room), n = train.planets;
+bool report_too_many(const PlanetaryTrain& train, const PlanetDimensions& dimensions,
+                     std::vector<std::string>& problems) {
+    const int most = max_planets(dimensions), n = train.planets;
     if (n <= most) {
         return false;
     }
-    problems.push_back(
-        fmt::format("the tip circles of {} planets touch: axes {:.2f} modules apart, tip diameter "
-                    "{:.2f} modules (at most {} planets)",
-                    n, 2 * room.centre_distance * std::sin(pi / n), room.tip_diameter, most));
+    problems.push_back(fmt::format(
+        "the tip circles of {} planets touch: axes {:.2f} modules apart, tip diameter "
+        "{:.2f} modules (at most {} planets)",
+        n, 2 * dimensions.centre_distance * std::sin(pi / n), dimensions.tip_diameter, most));
     return true;
 }
 
-PlanetRoom standard_room(const PlanetaryTrain& train, double addendum_coefficient) {
+PlanetDimensions standard_dimensions(const PlanetaryTrain& train, double addendum_coefficient) {
     return {0.5 * (train.sun_teeth + train.planet_teeth),
             train.planet_teeth + 2 * addendum_coefficient};
 }
@@ -53,11 +53,11 @@ double reduced_phase(int teeth, int planet, const PlanetPlaces& at) {
     return static_cast<double>(remainder) / at.places;
 }
 
-// Mesh periods of a gear from planet 0 to the given planet, in the forward direction if `onwards`,
+// Mesh periods of a gear from planet 0 to the given planet, in the forward direction if `forward`,
 // otherwise backward.
-double tooth_delay(int teeth, int planet, const PlanetPlaces& at, bool onwards) {
+double tooth_delay(int teeth, int planet, const PlanetPlaces& at, bool forward) {
     const int place = at.place.at(static_cast<std::size_t>(planet));
-    const int passed = onwards ? place : (at.places - place) % at.places;
+    const int passed = forward ? place : (at.places - place) % at.places;
     return static_cast<double>(static_cast<long long>(teeth) * passed) / at.places;
 }
 
@@ -65,7 +65,7 @@ double signed_phase(double phase, bool negative) {
     return negative && phase != 0 ? -phase : phase;
 }
 
-void equal_spacing_problems(const PlanetaryTrain& train, const PlanetRoom& room,
+void equal_spacing_problems(const PlanetaryTrain& train, const PlanetDimensions& dimensions,
                             std::vector<std::string>& problems) {
     const int teeth = train.sun_teeth + train.ring_teeth, n = train.planets;
     if (teeth % n != 0) {
@@ -75,7 +75,7 @@ void equal_spacing_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                         "planets do not mesh (sun + ring = {} or {} would)",
                         teeth, n, below, below + n));
     }
-    too_many(train, room, problems);
+    report_too_many(train, dimensions, problems);
 }
 
 double degrees(double angle_rad) {
@@ -86,7 +86,7 @@ double degrees(double angle_rad) {
 // spacing of places.
 constexpr double kPlaceTolerance = 0.01;
 
-void position_problems(const PlanetaryTrain& train, const PlanetRoom& room,
+void position_problems(const PlanetaryTrain& train, const PlanetDimensions& dimensions,
                        std::vector<std::string>& problems) {
     const auto& psi = train.positions_rad;
     if (static_cast<int>(psi.size()) != train.planets) {
@@ -117,19 +117,20 @@ void position_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                 std::ceil(place) * 360 / places));
         }
     }
-    if (too_many(train, room, problems)) {
+    if (report_too_many(train, dimensions, problems)) {
         return;
     }
     const PlanetPlaces at = planet_places(train);
     for (int n = 0; n < train.planets; ++n)
         for (int m = 0; m < n; ++m) {
             const double apart = planet_angle(at, n) - planet_angle(at, m);
-            const double between_axes = 2 * room.centre_distance * std::abs(std::sin(apart / 2));
-            if (between_axes <= room.tip_diameter) {
+            const double between_axes =
+                2 * dimensions.centre_distance * std::abs(std::sin(apart / 2));
+            if (between_axes <= dimensions.tip_diameter) {
                 problems.push_back(fmt::format(
                     "the tip circles of planets {} and {} touch: axes {:.2f} modules apart, tip "
                     "diameter {:.2f} modules (move them apart)",
-                    m + 1, n + 1, between_axes, room.tip_diameter));
+                    m + 1, n + 1, between_axes, dimensions.tip_diameter));
             }
         }
 }
@@ -170,7 +171,7 @@ std::vector<double> nearest_positions(const PlanetaryTrain& train) {
 std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
                                            double addendum_coefficient) {
     const int s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth;
-    auto problems = assembly_problems(train, standard_room(train, addendum_coefficient));
+    auto problems = assembly_problems(train, standard_dimensions(train, addendum_coefficient));
     if (s >= 1 && p >= 1 && r >= 1 && train.planets >= 1 && r != s + 2 * p) {
         problems.insert(
             problems.begin(),
@@ -181,7 +182,8 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
     return problems;
 }
 
-std::vector<std::string> assembly_problems(const PlanetaryTrain& train, const PlanetRoom& room) {
+std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
+                                           const PlanetDimensions& dimensions) {
     std::vector<std::string> problems;
     const int s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth, n = train.planets;
     if (s < 1 || p < 1 || r < 1 || n < 1) {
@@ -190,9 +192,9 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train, const Pl
         return problems;
     }
     if (train.positions_rad.empty()) {
-        equal_spacing_problems(train, room, problems);
+        equal_spacing_problems(train, dimensions, problems);
     } else {
-        position_problems(train, room, problems);
+        position_problems(train, dimensions, problems);
     }
     return problems;
 }
@@ -249,10 +251,10 @@ PlanetSense planet_sense(const Speeds& speeds) {
 
 Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given, double speed) {
     const double s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth;
-    const bool stands = (fixed == FixedMember::ring && given == Member::ring) ||
-                        (fixed == FixedMember::sun && given == Member::sun) ||
-                        (fixed == FixedMember::carrier && given == Member::carrier);
-    if (stands) {
+    const bool given_is_fixed = (fixed == FixedMember::ring && given == Member::ring) ||
+                                (fixed == FixedMember::sun && given == Member::sun) ||
+                                (fixed == FixedMember::carrier && given == Member::carrier);
+    if (given_is_fixed) {
         throw std::invalid_argument(
             "the speed of the fixed member is given (it is 0: give another one)");
     }

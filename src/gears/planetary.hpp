@@ -44,16 +44,17 @@ std::vector<double> nearest_positions(const PlanetaryTrain& train);
 
 // Distance between the planets' axes and the train's axis, and the planets' tip diameter, in
 // modules.
-struct PlanetRoom {
+struct PlanetDimensions {
     double centre_distance = 0, tip_diameter = 0;
 };
 
 // Reasons why the train cannot be assembled, one sentence each, with numbers and a remedy. Without
-// `room`, the teeth are standard ones of that addendum, and the ring must have Z_s + 2 Z_p teeth.
-// With it, mesh_problems() checks whether the teeth mesh at that centre distance.
+// `dimensions`, the teeth are standard ones of that addendum, and the ring must have Z_s + 2 Z_p
+// teeth. With it, mesh_problems() checks whether the teeth mesh at that centre distance.
 std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
                                            double addendum_coefficient = 1);
-std::vector<std::string> assembly_problems(const PlanetaryTrain& train, const PlanetRoom& room);
+std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
+                                           const PlanetDimensions& dimensions);
 
 // Mesh phase gamma: pair n's stiffness is pair 0's at t - gamma T_m (Liang, Eqs. 2.3.3-2.3.4). It
 // is reduced to (-1, 1) by whole mesh periods. The sign is that of the formula: +Z_s psi_n / 2 pi

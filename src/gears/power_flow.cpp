@@ -23,7 +23,7 @@ double speed_of(const Speeds& speeds, Member member) {
                                     : speeds.carrier;
 }
 
-double& value_of(Members& members, Member member) {
+double& value_of(CentralMembers& members, Member member) {
     return member == Member::sun    ? members.sun
            : member == Member::ring ? members.ring
                                     : members.carrier;
@@ -38,24 +38,24 @@ Member output_member(const PowerFlow& flow) {
     return Member::carrier;
 }
 
-Speeds driven_speeds(const PlanetaryTrain& train, const PowerFlow& flow, Member given,
+Speeds signed_speeds(const PlanetaryTrain& train, const PowerFlow& flow, Member given,
                      double magnitude) {
     const Speeds s = train_speeds(train, flow.fixed, given, magnitude);
     const bool with_torque = (speed_of(s, flow.input) >= 0) == (flow.input != Member::carrier);
     return with_torque ? s : Speeds{-s.sun, -s.planet, -s.ring, -s.carrier};
 }
 
-Members balanced_torques(const PlanetaryTrain& train, Member given, double magnitude) {
+CentralMembers balanced_torques(const PlanetaryTrain& train, Member given, double magnitude) {
     const double s = train.sun_teeth, r = train.ring_teeth;
-    Members torques{-(s + r), r, s};
+    CentralMembers torques{-(s + r), r, s};
     const double per_tooth = magnitude / std::abs(value_of(torques, given));
     return {per_tooth * torques.carrier, per_tooth * torques.ring, per_tooth * torques.sun};
 }
 
-Members transmission_error_weights(const PlanetaryTrain& train, const PowerFlow& flow) {
+CentralMembers transmission_error_weights(const PlanetaryTrain& train, const PowerFlow& flow) {
     const Speeds s = train_speeds(train, flow.fixed, flow.input, 1);
     const Member output = output_member(flow);
-    Members weights;
+    CentralMembers weights;
     value_of(weights, output) = 1;
     value_of(weights, flow.input) = -speed_of(s, output);
     return weights;

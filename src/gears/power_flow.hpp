@@ -27,11 +27,11 @@ Member output_member(const PowerFlow& flow);
 
 // All speeds, signed as above, from the magnitude of one member's speed. Throws
 // std::invalid_argument if that member is the fixed one.
-Speeds driven_speeds(const PlanetaryTrain& train, const PowerFlow& flow, Member given,
+Speeds signed_speeds(const PlanetaryTrain& train, const PowerFlow& flow, Member given,
                      double magnitude);
 
 // One value for each central member.
-struct Members {
+struct CentralMembers {
     double carrier = 0;
     double ring = 0;
     double sun = 0;
@@ -39,10 +39,10 @@ struct Members {
 
 // External torques in balance, T_s : T_r : T_c = Z_s : Z_r : -(Z_s + Z_r), from the magnitude of
 // one of them. That of the fixed member is the reaction of its support.
-Members balanced_torques(const PlanetaryTrain& train, Member given, double magnitude);
+CentralMembers balanced_torques(const PlanetaryTrain& train, Member given, double magnitude);
 
 // Transmission error as weights of the members' rotations: the output's rotation minus the input's
 // times their speed ratio (Park et al., Eq. 8). It is zero if the train turns as a rigid mechanism.
-Members transmission_error_weights(const PlanetaryTrain& train, const PowerFlow& flow);
+CentralMembers transmission_error_weights(const PlanetaryTrain& train, const PowerFlow& flow);
 
 }  // namespace gearpod::gears

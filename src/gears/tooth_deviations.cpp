@@ -15,10 +15,10 @@ using std::numbers::pi;
 // normal A and B, of mean square 1 / h^2.
 const double kWaveNorm = 1.0 / std::sqrt(1.0 + 1.0 / 4.0 + 1.0 / 9.0);
 
-// Quantile kShareWithin of values; partially sorts them.
+// Quantile kFractionWithin of values; partially sorts them.
 double quantile(std::vector<double>& values) {
     const auto rank =
-        static_cast<std::ptrdiff_t>(kShareWithin * static_cast<double>(values.size()));
+        static_cast<std::ptrdiff_t>(kFractionWithin * static_cast<double>(values.size()));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[static_cast<std::size_t>(rank)];
 }
@@ -69,9 +69,9 @@ class FlankWaves {
 };
 
 // Random gears of unit scales; weighted sums of their parts are gears of any scales.
-class SampleGears {
+class UnitScaleGears {
   public:
-    SampleGears(int teeth, double pressure_angle_rad) : angle_(pressure_angle_rad) {
+    UnitScaleGears(int teeth, double pressure_angle_rad) : angle_(pressure_angle_rad) {
         // Large enough for quantiles accurate to about one percent.
         const int gears = std::max(600, 60000 / teeth);
         boost::random::mt19937_64 engine(1328);
@@ -101,16 +101,17 @@ class SampleGears {
                 least = t == 0 ? own : std::min(least, own);
                 most = t == 0 ? own : std::max(most, own);
             }
-            worst_slope_.push_back(std::max(std::abs(kCommonSlope * common + kOwnSlope * least),
-                                            std::abs(kCommonSlope * common + kOwnSlope * most)));
+            worst_slope_.push_back(
+                std::max(std::abs(kCommonSlope * common + kIndividualSlope * least),
+                         std::abs(kCommonSlope * common + kIndividualSlope * most)));
             gears_.push_back(std::move(gear));
         }
     }
 
-    static constexpr double kCommonSlope = 2.0 / 3.0, kOwnSlope = 1.0 / 3.0;
+    static constexpr double kCommonSlope = 2.0 / 3.0, kIndividualSlope = 1.0 / 3.0;
 
     // Deviations that 90 % of gears with these scales do not exceed.
-    ToothTolerances kept(const DeviationScales& scales) const {
+    ToothTolerances deviation_quantiles(const DeviationScales& scales) const {
         std::vector<double> single, cumulative, runout;
         std::vector<double> sides[2];
         for (const Gear& gear : gears_) {
@@ -128,8 +129,8 @@ class SampleGears {
         }
         return {quantile(single), quantile(cumulative), 0.0, quantile(runout)};
     }
-    // Same for slopes with the rms kCommonSlope and kOwnSlope.
-    double kept_slope() const {
+    // Same for slopes with the rms kCommonSlope and kIndividualSlope.
+    double slope_quantile() const {
         std::vector<double> worst = worst_slope_;
         return quantile(worst);
     }
@@ -196,30 +197,30 @@ ToothTolerances measured_deviations(double pressure_angle_rad, const std::vector
 }
 
 DeviationScales scales_of(const ToothTolerances& tolerances, int teeth, double pressure_angle_rad) {
-    constexpr int kMostRounds = 30;
+    constexpr int kMaxIterations = 30;
     // fraction of the remaining logarithmic error corrected in each round
     constexpr double kPart = 0.9;
     constexpr double kClose = 0.003;
-    const SampleGears gears(teeth, pressure_angle_rad);
+    const UnitScaleGears gears(teeth, pressure_angle_rad);
     DeviationScales scales;
     scales.pitch = tolerances.single_pitch / 5.0;
     scales.waves = tolerances.cumulative_pitch / 5.0;
     scales.eccentricity = tolerances.runout / 4.0;
     bool close = false;
-    for (int round = 0; round < kMostRounds && !close; ++round) {
-        const ToothTolerances kept = gears.kept(scales);
+    for (int round = 0; round < kMaxIterations && !close; ++round) {
+        const ToothTolerances kept = gears.deviation_quantiles(scales);
         close = true;
-        const auto step = [&](double& scale, double wanted, double got) {
-            scale *= std::pow(wanted / got, kPart);
-            close = close && std::abs(got / wanted - 1.0) < kClose;
+        const auto step = [&](double& scale, double target, double actual) {
+            scale *= std::pow(target / actual, kPart);
+            close = close && std::abs(actual / target - 1.0) < kClose;
         };
         step(scales.pitch, tolerances.single_pitch, kept.single_pitch);
         step(scales.waves, tolerances.cumulative_pitch, kept.cumulative_pitch);
         step(scales.eccentricity, tolerances.runout, kept.runout);
     }
-    const double slope = tolerances.profile / gears.kept_slope();
-    scales.common_slope = SampleGears::kCommonSlope * slope;
-    scales.slope = SampleGears::kOwnSlope * slope;
+    const double slope = tolerances.profile / gears.slope_quantile();
+    scales.common_slope = UnitScaleGears::kCommonSlope * slope;
+    scales.slope = UnitScaleGears::kIndividualSlope * slope;
     return scales;
 }
 

@@ -72,7 +72,7 @@ ToothTolerances measured_deviations(double pressure_angle_rad, const std::vector
 // scatter due to f_pt causes more runout than F_r, the gears have no eccentricity. Two thirds of a
 // slope are common to a side, because one tool cut it. The result is the same for every call and on
 // every machine.
-inline constexpr double kShareWithin = 0.9;
+inline constexpr double kFractionWithin = 0.9;
 DeviationScales scales_of(const ToothTolerances& tolerances, int teeth, double pressure_angle_rad);
 
 }  // namespace gearpod::gears

@@ -112,37 +112,37 @@ double distance_between(const Gear& sun, const Gear& planet, const Gear& ring) {
 
 // True if the shift of sun or planet follows from the ring's, which is specified without the
 // distance.
-bool follows_ring(const Gear* ring, const DrawnShifts& drawn) {
-    return ring != nullptr && drawn.ring && !drawn.centre_distance_m &&
-           !(drawn.first && drawn.second);
+bool follows_ring(const Gear* ring, const SpecifiedShifts& specified) {
+    return ring != nullptr && specified.ring && !specified.centre_distance_m &&
+           !(specified.first && specified.second);
 }
 
 // Distance determined by the specified shifts: those of sun and planet, of planet and ring, or of
 // sun and ring.
-double drawn_distance(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
-                      const DrawnShifts& drawn) {
-    const Gear first = shifted(gear_1, drawn.first.value_or(0));
-    if (!follows_ring(ring, drawn)) {
-        return tight_centre_distance(first, shifted(gear_2, drawn.second.value_or(0)));
+double specified_distance(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
+                          const SpecifiedShifts& specified) {
+    const Gear first = shifted(gear_1, specified.first.value_or(0));
+    if (!follows_ring(ring, specified)) {
+        return tight_centre_distance(first, shifted(gear_2, specified.second.value_or(0)));
     }
-    const Gear outer = shifted(*ring, *drawn.ring);
-    return drawn.second ? tight_centre_distance(shifted(gear_2, *drawn.second), outer)
-                        : distance_between(first, gear_2, outer);
+    const Gear outer = shifted(*ring, *specified.ring);
+    return specified.second ? tight_centre_distance(shifted(gear_2, *specified.second), outer)
+                            : distance_between(first, gear_2, outer);
 }
 
 // Shifts of the first two gears at a distance. Their sum is the one that fits, unless both are
 // specified.
 std::pair<double, double> shifts_at(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
-                                    const DrawnShifts& drawn, double distance) {
+                                    const SpecifiedShifts& specified, double distance) {
     const double sum = tight_shift_sum(gear_1, gear_2, distance);
-    if (drawn.first) {
-        return {*drawn.first, drawn.second.value_or(sum - *drawn.first)};
+    if (specified.first) {
+        return {*specified.first, specified.second.value_or(sum - *specified.first)};
     }
-    if (drawn.second) {
-        return {sum - *drawn.second, *drawn.second};
+    if (specified.second) {
+        return {sum - *specified.second, *specified.second};
     }
-    if (ring != nullptr && drawn.ring) {
-        const double second = tight_shift_sum(gear_2, *ring, distance) - *drawn.ring;
+    if (ring != nullptr && specified.ring) {
+        const double second = tight_shift_sum(gear_2, *ring, distance) - *specified.ring;
         return {sum - second, second};
     }
     return {0.5 * sum, 0.5 * sum};
@@ -151,21 +151,21 @@ std::pair<double, double> shifts_at(const Gear& gear_1, const Gear& gear_2, cons
 }  // namespace
 
 WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
-                             const DrawnShifts& as_drawn) {
+                             const SpecifiedShifts& as_specified) {
     WorkingShifts set;
-    DrawnShifts drawn = as_drawn;
-    const bool by_ring = follows_ring(ring, drawn);
-    if (!drawn.centre_distance_m && !(by_ring && drawn.second)) {
-        drawn.first = drawn.first.value_or(0);
+    SpecifiedShifts specified = as_specified;
+    const bool by_ring = follows_ring(ring, specified);
+    if (!specified.centre_distance_m && !(by_ring && specified.second)) {
+        specified.first = specified.first.value_or(0);
     }
-    if (!drawn.centre_distance_m && !by_ring) {
-        drawn.second = drawn.second.value_or(0);
+    if (!specified.centre_distance_m && !by_ring) {
+        specified.second = specified.second.value_or(0);
     }
     const double distance =
-        drawn.centre_distance_m.value_or(drawn_distance(gear_1, gear_2, ring, drawn));
-    std::tie(set.first, set.second) = shifts_at(gear_1, gear_2, ring, drawn, distance);
+        specified.centre_distance_m.value_or(specified_distance(gear_1, gear_2, ring, specified));
+    std::tie(set.first, set.second) = shifts_at(gear_1, gear_2, ring, specified, distance);
     if (ring != nullptr) {
-        set.ring = drawn.ring.value_or(tight_shift_sum(gear_2, *ring, distance) - set.second);
+        set.ring = specified.ring.value_or(tight_shift_sum(gear_2, *ring, distance) - set.second);
     }
     const bool standard = is_reference(gear_1, gear_2, distance) &&
                           (ring == nullptr || is_reference(gear_2, *ring, distance));

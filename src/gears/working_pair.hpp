@@ -38,10 +38,10 @@ std::vector<std::string> undercut_problems(const Gear& gear);
 
 // Profile shifts as specified on a drawing, in modules, and the centre distance. `ring` is used for
 // a planetary set, whose first gear is the sun and second the planet.
-struct DrawnShifts {
+struct SpecifiedShifts {
     std::optional<double> first = {}, second = {}, ring = {};
     std::optional<double> centre_distance_m = {};
-    bool operator==(const DrawnShifts&) const = default;
+    bool operator==(const SpecifiedShifts&) const = default;
 };
 
 // Complete set of shifts. Standard teeth at the standard distance have no separate centre distance.
@@ -64,6 +64,6 @@ struct WorkingShifts {
 //
 // `gear_1`, `gear_2` and `ring` are the unshifted gears; `ring` is null for a pair.
 WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
-                             const DrawnShifts& drawn);
+                             const SpecifiedShifts& specified);
 
 }  // namespace gearpod::gears

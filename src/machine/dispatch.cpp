@@ -42,7 +42,7 @@ void use_instruction_set(InstructionSet set) {
     active().store(set, std::memory_order_relaxed);
 }
 
-void throw_spare() {
+void throw_kernel_not_built() {
     throw std::logic_error("this program was built without kernels of so few lanes");
 }
 

@@ -30,7 +30,7 @@ void use_instruction_set(InstructionSet set);
 std::string_view name(InstructionSet set);
 
 // Throws std::logic_error: the called kernel's number of lanes was left out of this build.
-[[noreturn]] void throw_spare();
+[[noreturn]] void throw_kernel_not_built();
 
 }  // namespace gearpod::machine
 
@@ -41,8 +41,8 @@ std::string_view name(InstructionSet set);
 // GEARPOD_NARROW_KERNEL does the same for kernels of one or four lanes. Four doubles fill a 256-bit
 // register, so 512-bit registers are no gain.
 //
-// GEARPOD_SPARE_KERNEL is a narrow kernel that a build for one processor leaves out. The build sets
-// GEARPOD_ONLY_X86_64_V4 or a similar macro, and the kernel throws there.
+// GEARPOD_OPTIONAL_KERNEL is a narrow kernel that a build for one processor leaves out. The build
+// sets GEARPOD_ONLY_X86_64_V4 or a similar macro, and the kernel throws there.
 #if defined(GEARPOD_ONLY_X86_64_V4) || defined(GEARPOD_ONLY_X86_64_V3)
 #    define GEARPOD_KERNEL_OF_SET(SET, TARGET, NAME, PARAMETERS, ARGUMENTS, ...) \
         namespace {                                                              \
@@ -55,10 +55,10 @@ std::string_view name(InstructionSet set);
         }
 #    define GEARPOD_NARROW_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...) \
         GEARPOD_KERNEL_OF_SET(x86_64_v3, "arch=x86-64-v3", NAME, PARAMETERS, ARGUMENTS, __VA_ARGS__)
-#    define GEARPOD_SPARE_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...) \
-        void NAME PARAMETERS {                                     \
-            static_cast<void>(noexcept(__VA_ARGS__));              \
-            gearpod::machine::throw_spare();                       \
+#    define GEARPOD_OPTIONAL_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...) \
+        void NAME PARAMETERS {                                        \
+            static_cast<void>(noexcept(__VA_ARGS__));                 \
+            gearpod::machine::throw_kernel_not_built();               \
         }
 #endif
 #if defined(GEARPOD_ONLY_X86_64_V4)
@@ -113,6 +113,6 @@ std::string_view name(InstructionSet set);
         }
 #    define GEARPOD_NARROW_KERNEL GEARPOD_KERNEL
 #endif
-#if !defined(GEARPOD_SPARE_KERNEL)
-#    define GEARPOD_SPARE_KERNEL GEARPOD_NARROW_KERNEL
+#if !defined(GEARPOD_OPTIONAL_KERNEL)
+#    define GEARPOD_OPTIONAL_KERNEL GEARPOD_NARROW_KERNEL
 #endif

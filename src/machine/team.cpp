@@ -7,7 +7,7 @@
 #include <exception>
 #include <mutex>
 
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 
 namespace gearpod::machine {
 namespace {
@@ -51,7 +51,7 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
 #pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(most))
     for (std::size_t i = 0; i < count; ++i) {
         failure.keep_from([&] {
-            leave_if_stopped();
+            throw_if_cancelled();
             work(i);
         });
     }
@@ -62,13 +62,13 @@ int processors() {
     return omp_get_num_procs();
 }
 
-int threads_asked_for() {
+int requested_threads() {
     const char* text = std::getenv("OMP_NUM_THREADS");
     const long first = text == nullptr ? 0 : std::strtol(text, nullptr, 10);
     return first == omp_get_max_threads() ? static_cast<int>(first) : 0;
 }
 
-int most_threads() {
+int thread_limit() {
     return omp_get_thread_limit();
 }
 

@@ -21,9 +21,9 @@ int processors();
 
 // Number of threads requested by OMP_NUM_THREADS (the first of a list). 0 if the variable is not
 // set, or if OpenMP did not accept it; OpenMP itself reports values that it cannot read.
-int threads_asked_for();
+int requested_threads();
 
 // OMP_THREAD_LIMIT, or the largest int without a limit.
-int most_threads();
+int thread_limit();
 
 }  // namespace gearpod::machine

@@ -12,7 +12,7 @@ namespace gearpod::stiffness {
 namespace {
 
 // fraction of the stiffness of contact and mating tooth
-constexpr double kOfContactAndMate = 4e-10;
+constexpr double kFaultyPairTolerance = 4e-10;
 
 ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material& material,
                             Profile profile, double tolerance, int which) {
@@ -119,7 +119,7 @@ AdditiveMesh::AdditiveMesh(const gears::MeshGeometry& geometry, const Material& 
              beam_series(geometry, material, profile, tolerance, 2)},
       pair_([&](double tau) { return 1 / (contact_ + beams_[0](tau) + beams_[1](tau)); }, 0,
             contact_ratio_, kSeriesNodes, std::max(tolerance, kSeriesTolerance)),
-      fit_(std::max(tolerance, kOfContactAndMate) / (contact_ + beams_[1](contact_ratio_ / 2))),
+      fit_(std::max(tolerance, kFaultyPairTolerance) / (contact_ + beams_[1](contact_ratio_ / 2))),
       transitions_(contact_transitions(contact_ratio_)) {}
 
 double AdditiveMesh::tooth_pair(double tau) const {

@@ -17,7 +17,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfHealthyTotal = 4e-10;  // fraction of the healthy total
+constexpr double kFaultyCurveTolerance = 4e-10;  // fraction of the healthy total
 
 // Number of pairs in contact at a phase strictly between transitions.
 int pairs_at(double phase, double contact_ratio) {
@@ -60,7 +60,7 @@ class FaultyCoupledMesh : public FaultyMesh {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         if (inside <= tooth || inside >= tooth + healthy_.contact_ratio())
             return;
-        std::call_once(teeth_known_, [&] { fit_tooth_pairs(); });
+        std::call_once(tooth_pairs_fitted_, [&] { fit_tooth_pairs(); });
         tooth_pairs_[static_cast<std::size_t>(tooth - first_tooth())](
             tau, stretch_around(transitions_, jumps_, inside), stiffness);
     }
@@ -83,7 +83,7 @@ class FaultyCoupledMesh : public FaultyMesh {
     template <class Value>
     ToothPairCurve fit(const Value& value) const {
         const double scale = healthy_.stretches_.front().total(0.0);
-        const ToothPairFit fit(std::max(healthy_.tolerance_, kOfHealthyTotal) * scale);
+        const ToothPairFit fit(std::max(healthy_.tolerance_, kFaultyCurveTolerance) * scale);
         return fit([&](std::span<const double> tau,
                        std::span<double> values) { solve(value, tau, values); },
                    breaks_, duration_);
@@ -100,16 +100,16 @@ class FaultyCoupledMesh : public FaultyMesh {
         for (int tooth = 0; tooth < fault_.teeth(); ++tooth) {
             const int pair = period - tooth;  // number of periods since its engagement
             if (pair >= 0 && pair < pairs)
-                put_fault(healthy_, fault_, tau, tooth, pair, at);
+                apply_fault(healthy_, fault_, tau, tooth, pair, at);
         }
         for (std::size_t i = 0; i < n; ++i)
             values[i] = fault_.mesh_factor() *
                         value(share_load(at[i], healthy_.contact_, healthy_.force_N_), period);
     }
 
-    static void put_fault(const CoupledMesh& healthy, const ToothFault& fault,
-                          std::span<const double> tau, int tooth, int pair,
-                          std::vector<TouchingPairs>& at) {
+    static void apply_fault(const CoupledMesh& healthy, const ToothFault& fault,
+                            std::span<const double> tau, int tooth, int pair,
+                            std::vector<TouchingPairs>& at) {
         const std::size_t n = tau.size();
         std::vector<double> position(n), faulty(n), whole(n);
         std::transform(tau.begin(), tau.end(), position.begin(),
@@ -132,7 +132,7 @@ class FaultyCoupledMesh : public FaultyMesh {
     std::vector<double> transitions_, breaks_, jumps_;
     double duration_;
     ToothPairCurve curve_;
-    mutable std::once_flag teeth_known_;
+    mutable std::once_flag tooth_pairs_fitted_;
     mutable std::vector<ToothPairCurve> tooth_pairs_;
 };
 

@@ -154,7 +154,7 @@ std::vector<double> GappedMesh::make_transitions() const {
     return phases;
 }
 
-double GappedMesh::flank_place(double tau) const {
+double GappedMesh::flank_position(double tau) const {
     const double ratio = spur_->contact_ratio(), at = tau - path_begin();
     const double oldest = std::clamp(at, 0.0, ratio);
     const double youngest = std::clamp(at - overlap_, 0.0, ratio);
@@ -195,7 +195,7 @@ double GappedMesh::slice_gap(int slice, double tau) const {
     return (flank + gears::corner_gap(gaps_.geometry, at)) * (k > 0 ? end.own / k : 1);
 }
 
-double GappedMesh::slice_place(int slice, double tau) const {
+double GappedMesh::slice_flank_position(int slice, double tau) const {
     const double ratio = spur_->contact_ratio();
     return std::clamp((tau - delay(slice) - path_begin()) / ratio, 0.0, 1.0) - 0.5;
 }

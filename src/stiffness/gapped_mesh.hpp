@@ -46,7 +46,7 @@ class GappedMesh : public MeshStiffness {
     }
     double path_begin() const override { return extension_.reach().before; }
     double path_end() const override { return contact_ratio() - extension_.reach().after; }
-    double flank_place(double tau) const override;
+    double flank_position(double tau) const override;
     const MeshStiffness& slice() const override { return *spur_; }
     void total(std::span<const double> tau, double inside,
                std::span<double> stiffness) const override;
@@ -61,7 +61,7 @@ class GappedMesh : public MeshStiffness {
     void slice_stiffness(int slice, std::span<const double> tau, double inside,
                          std::span<double> stiffness) const override;
     double slice_gap(int slice, double tau) const override;
-    double slice_place(int slice, double tau) const override;
+    double slice_flank_position(int slice, double tau) const override;
 
   private:
     friend class FaultyGappedMesh;

@@ -13,7 +13,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfMean = 1e-10;  // fraction of the spur pair's mean stiffness
+constexpr double kIntegralTolerance = 1e-10;  // fraction of the spur pair's mean stiffness
 
 // Transitions within [begin, end], and both ends.
 std::vector<double> points_within(std::span<const double> transitions, double begin, double end) {
@@ -116,7 +116,7 @@ class FaultyHelicalMesh : public FaultyMesh {
         std::vector<double> own(tau.size());
         std::transform(tau.begin(), tau.end(), own.begin(), [&](double t) { return t - tooth; });
         healthy_.one_pair(own, stiffness);
-        std::call_once(teeth_known_, [&] { integrate_tooth_pairs(); });
+        std::call_once(tooth_pairs_fitted_, [&] { integrate_tooth_pairs(); });
         const std::size_t i = static_cast<std::size_t>(tooth - first_tooth());
         if (tooth >= first_tooth() && i < lost_by_tooth_.size())
             add_mean(lost_by_tooth_[i], width_, tau, stiffness, nullptr, late_);
@@ -158,19 +158,19 @@ class FaultyHelicalMesh : public FaultyMesh {
     // mesh periods: delay of the fault's first slice, and from first to last slice
     double late_, width_;
     RunningIntegral lost_;
-    mutable std::once_flag teeth_known_;
+    mutable std::once_flag tooth_pairs_fitted_;
     mutable std::vector<RunningIntegral> lost_by_tooth_;
 };
 
 HelicalMesh::HelicalMesh(std::unique_ptr<const MeshStiffness> spur, double overlap_ratio)
     : spur_(std::move(spur)),
       overlap_(checked(overlap_ratio)),
-      tolerance_(kOfMean * mean_total(*spur_)),
+      tolerance_(kIntegralTolerance * mean_total(*spur_)),
       transitions_(helical_transitions(*spur_, overlap_)),
       period_(integral_of_period(*spur_, tolerance_)),
       pair_(integral_of_pair(*spur_, tolerance_)) {}
 
-double HelicalMesh::flank_place(double tau) const {
+double HelicalMesh::flank_position(double tau) const {
     const double ratio = spur_->contact_ratio();
     const double oldest = std::clamp(tau, 0.0, ratio);
     const double youngest = std::clamp(tau - overlap_, 0.0, ratio);

@@ -41,7 +41,7 @@ class HelicalMesh : public MeshStiffness {
     double contact_ratio() const override { return spur_->contact_ratio() + overlap_; }
     // Pitch position of the middle slice.
     double pitch_position() const override { return spur_->pitch_position() + 0.5 * overlap_; }
-    double flank_place(double tau) const override;
+    double flank_position(double tau) const override;
     void total(std::span<const double> tau, double inside,
                std::span<double> stiffness) const override;
     void share(std::span<const double> tau, double inside, std::span<double> share) const override;

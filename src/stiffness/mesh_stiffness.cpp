@@ -12,20 +12,20 @@ namespace gearpod::stiffness {
 
 namespace {
 
-struct OwnedFault {
+struct FaultAndMesh {
     std::unique_ptr<const ToothFault> fault;
     std::unique_ptr<const FaultyMesh> mesh;
 };
 
 // Offset from a position into the stretch above or below it. Positions this close to the end of a
 // stretch count as the end.
-constexpr double kBeside = 2 * kPositionTolerance;
+constexpr double kEndOffset = 2 * kPositionTolerance;
 
 template <class Mesh>
 double limit_at(const Mesh& mesh, std::span<const double> transitions,
                 std::span<const double> jumps, double tau, Limit limit) {
-    const double beside = limit == Limit::from_above ? kBeside : -kBeside;
-    const Stretch stretch = stretch_around(transitions, jumps, tau + beside);
+    const double offset = limit == Limit::from_above ? kEndOffset : -kEndOffset;
+    const Stretch stretch = stretch_around(transitions, jumps, tau + offset);
     const double at = std::clamp(tau, stretch.begin, stretch.end);
     double stiffness = 0;
     mesh.total({&at, 1}, 0.5 * (stretch.begin + stretch.end), {&stiffness, 1});
@@ -45,7 +45,7 @@ void MeshStiffness::slice_stiffness(int /*slice*/, std::span<const double> tau, 
 
 std::shared_ptr<const FaultyMesh> faulty_mesh(const MeshStiffness& mesh,
                                               std::unique_ptr<const ToothFault> fault) {
-    auto owned = std::make_shared<OwnedFault>();
+    auto owned = std::make_shared<FaultAndMesh>();
     owned->fault = std::move(fault);
     owned->mesh = mesh.with_fault(*owned->fault);
     return {owned, owned->mesh.get()};

@@ -55,7 +55,7 @@ class MeshStiffness {
     virtual double pitch_position() const = 0;
     // Position of the contact on the flank, averaged over the face: -1/2 at the start of the path
     // of contact, 1/2 at its end. Linear in tau for spur teeth.
-    virtual double flank_place(double tau) const { return tau / contact_ratio() - 0.5; }
+    virtual double flank_position(double tau) const { return tau / contact_ratio() - 0.5; }
     // Nominal path of contact, in positions tau. It is the whole engagement unless teeth may touch
     // before and after it (gapped_mesh.hpp).
     virtual double path_begin() const { return 0; }
@@ -80,11 +80,13 @@ class MeshStiffness {
     // True if tooth pairs have individual gaps: relief, crowning or corner contact.
     virtual bool has_gaps() const { return false; }
     // One slice of the tooth pair at tau: its stiffness in N/m (0 outside its engagement), its gap
-    // in m and its position on the flank (flank_place).
+    // in m and its position on the flank (flank_position).
     virtual void slice_stiffness(int slice, std::span<const double> tau, double inside,
                                  std::span<double> stiffness) const;
     virtual double slice_gap(int /*slice*/, double /*tau*/) const { return 0; }
-    virtual double slice_place(int /*slice*/, double tau) const { return flank_place(tau); }
+    virtual double slice_flank_position(int /*slice*/, double tau) const {
+        return flank_position(tau);
+    }
     // Phases in [0, 1), ascending, that bound the stretches: starts and ends of engagements, and
     // kinks of the total. The first is 0, the start of an engagement.
     virtual std::vector<double> transitions() const = 0;

@@ -9,12 +9,12 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kNextTo = 4 * kPositionTolerance;
+constexpr double kSideOffset = 4 * kPositionTolerance;
 
 // True if starts and ends of paths coincide, so that the pairs that join and leave cannot be
 // distinguished.
 bool whole(double contact_ratio) {
-    return std::abs(contact_ratio - std::round(contact_ratio)) < 10 * kNextTo;
+    return std::abs(contact_ratio - std::round(contact_ratio)) < 10 * kSideOffset;
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ double ExtendedPairs::total_at(double tau, double inside) const {
 ExtendedPairs::Change ExtendedPairs::make_change(int tooth, bool joins) const {
     const double ratio = extension_.contact_ratio();
     const double at = joins ? tooth : tooth + ratio;
-    const double with = joins ? at + kNextTo : at - kNextTo;
-    const double without = joins ? at - kNextTo : at + kNextTo;
+    const double with = joins ? at + kSideOffset : at - kSideOffset;
+    const double without = joins ? at - kSideOffset : at + kSideOffset;
     Change change;
     change.own = pair_at(tooth, at, with);
     if (whole(ratio)) {

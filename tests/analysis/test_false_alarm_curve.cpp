@@ -174,14 +174,15 @@ TEST_CASE("A threshold of least cost has the bounds of the method that determine
         const auto least = least_cost(values, {10.0, miss, 0.005}, 0.95);
         REQUIRE(least);
         const Threshold at = all.at(least->false_alarm_rate, 0.975);
-        REQUIRE(at.tilted);  // exponentially tilted thresholds exist at all of these rates
-        CHECK(least->tilted == (least->threshold == at.value));
-        const Interval own = least->tilted
-                                 ? at.tilted->rate
+        REQUIRE(
+            at.importance_sampled);  // exponentially tilted thresholds exist at all of these rates
+        CHECK(least->importance_sampled == (least->threshold == at.value));
+        const Interval own = least->importance_sampled
+                                 ? at.importance_sampled->rate
                                  : threshold_rate_interval(300, least->false_alarm_rate, 0.975);
         CHECK(least->rate_bounds.lower == Approx(own.lower));
         CHECK(least->rate_bounds.upper == Approx(own.upper));
-        counted += least->tilted ? 0 : 1;
+        counted += least->importance_sampled ? 0 : 1;
     }
     CHECK(counted > 0);
 }

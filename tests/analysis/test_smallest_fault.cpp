@@ -67,7 +67,7 @@ LevelReliability level_of(const Sizes& made, const std::vector<int>& hit, double
         level.pd.push_back(cell.pd);
     }
     level.hit_miss = pod_of_outcomes(made.size, hit, detection, 0.95, 2);
-    level.tested_size = tested_size(detection, made.size, hit, 0.9, 0.95);
+    level.demonstrated_size = demonstrated_size(detection, made.size, hit, 0.9, 0.95);
     return level;
 }
 

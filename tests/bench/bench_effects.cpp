@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bench_scene.hpp"
-#include "lockstep/tile/driven_march.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/excited_integrator.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
-#include "mc/gearbox/tile_draws.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 
 namespace {
 
@@ -76,17 +76,18 @@ class Tile {
         }
         excitation_ = mc::draw_excitation(*scene_, ids, instances);
         if (excitation_) {
-            driven_ = lockstep::make_driven_march<kLanes>(scene_->plan(), *excitation_, inputs_);
+            mesh_integrator_ =
+                lockstep::make_excited_integrator<kLanes>(scene_->plan(), *excitation_, inputs_);
         } else {
-            steady_ = lockstep::make_mesh_march<kLanes>(scene_->plan(), inputs_);
+            steady_ = lockstep::make_mesh_integrator<kLanes>(scene_->plan(), inputs_);
         }
-        state_ = lockstep::rest_state(scene_->plan(), inputs_);
+        state_ = lockstep::equilibrium_state(scene_->plan(), inputs_);
         record_ = lockstep::make_record(scene_->plan(), kLanes, false);
     }
 
-    void march(int mesh) {
-        if (driven_ != nullptr) {
-            (*driven_)(mesh, {}, state_, record_);
+    void integrate_mesh(int mesh) {
+        if (mesh_integrator_ != nullptr) {
+            (*mesh_integrator_)(mesh, {}, state_, record_);
         } else {
             (*steady_)({}, state_, record_);
         }
@@ -99,8 +100,8 @@ class Tile {
     const std::unique_ptr<mc::Scene> scene_;
     std::vector<dynamics::GearboxInputs> inputs_;
     std::optional<lockstep::Excitation> excitation_;
-    std::unique_ptr<lockstep::DrivenMarch<kLanes>> driven_;
-    std::unique_ptr<const lockstep::MeshMarch<kLanes>> steady_;
+    std::unique_ptr<lockstep::ExcitedIntegrator<kLanes>> mesh_integrator_;
+    std::unique_ptr<const lockstep::MeshIntegrator<kLanes>> steady_;
     lockstep::TileState state_;
     lockstep::MeshRecord record_;
 };
@@ -109,9 +110,9 @@ void run(benchmark::State& state, const std::string& study,
          const std::vector<std::string>& overrides) {
     Tile tile(study, overrides);
     int mesh = 0;
-    tile.march(mesh++);
+    tile.integrate_mesh(mesh++);
     for (auto _ : state) {
-        tile.march(mesh++ % 200);
+        tile.integrate_mesh(mesh++ % 200);
     }
     state.counters["a_step"] =
         benchmark::Counter(tile.gearbox_steps(), benchmark::Counter::kIsIterationInvariantRate |

@@ -14,7 +14,7 @@
 
 #include "bench_scene.hpp"
 #include "fma_peak.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/dispatch.hpp"
 #include "machine/thread_clock.hpp"
@@ -52,15 +52,15 @@ class Tile {
   public:
     explicit Tile(const mc::Scene& scene)
         : inputs_(W, scene.inputs(mc::Sampler(scene.study()).nominal())),
-          march_(lockstep::make_mesh_march<W>(scene.plan(), inputs_)),
+          mesh_integrator_(lockstep::make_mesh_integrator<W>(scene.plan(), inputs_)),
           rotation_(scene.plan().layout, inputs_),
-          state_(lockstep::rest_state(scene.plan(), inputs_)),
+          state_(lockstep::equilibrium_state(scene.plan(), inputs_)),
           record_(lockstep::make_record(scene.plan(), W, false)) {}
 
     // Time of one mesh period in seconds of processor time.
     double mesh_s() {
         const double start = mc::thread_processor_s();
-        (*march_)({}, state_, record_);
+        (*mesh_integrator_)({}, state_, record_);
         const double seconds = mc::thread_processor_s() - start;
         rotation_.remove(state_);  // otherwise it grows from mesh period to mesh period
         return seconds;
@@ -68,7 +68,7 @@ class Tile {
 
   private:
     std::vector<dynamics::GearboxInputs> inputs_;
-    std::unique_ptr<const lockstep::MeshMarch<W>> march_;
+    std::unique_ptr<const lockstep::MeshIntegrator<W>> mesh_integrator_;
     lockstep::RigidRotation rotation_;
     lockstep::TileState state_;
     lockstep::MeshRecord record_;
@@ -112,10 +112,10 @@ void count_operations(const Operations& done, double step_s, double peak,
     }
 }
 
-void march(benchmark::State& state, const Setting& setting) {
+void measure_steps(benchmark::State& state, const Setting& setting) {
     machine::use_instruction_set(setting.set);
     const auto scene = reference_scene(setting.planets, setting.overrides());
-    const lockstep::MarchPlan& plan = scene->plan();
+    const lockstep::IntegrationPlan& plan = scene->plan();
     const auto mesh_s = mesh_of(*scene, setting.lanes);
     for (int i = 0; i < 3; ++i) {
         mesh_s();
@@ -140,8 +140,9 @@ void march(benchmark::State& state, const Setting& setting) {
 }
 
 void add(const Setting& setting) {
-    benchmark::RegisterBenchmark(setting.text().c_str(),
-                                 [setting](benchmark::State& state) { march(state, setting); })
+    benchmark::RegisterBenchmark(
+        setting.text().c_str(),
+        [setting](benchmark::State& state) { measure_steps(state, setting); })
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
 }

@@ -12,8 +12,8 @@
 
 namespace gearpod::bench {
 
-// Same as advance() of lockstep/integrators/march_state.hpp for doubles.
-inline Counted advance(Counted sum, Counted h, Counted rate, lockstep::NoRest, int) {
+// Same as advance() of lockstep/integrators/integration_state.hpp for doubles.
+inline Counted advance(Counted sum, Counted h, Counted rate, lockstep::NoRounding, int) {
     return std::fma(h, rate, sum);
 }
 
@@ -22,13 +22,13 @@ namespace {
 struct CountedState {
     machine::AlignedArray<Counted> q, v, filter;
 };
-[[maybe_unused]] lockstep::NoRest position_rest(CountedState&) {
+[[maybe_unused]] lockstep::NoRounding position_rounding(CountedState&) {
     return {};
 }
 
 // Counts step `i`. The values have no influence: no kernel branches on them.
 template <class Integrator, class Model>
-Operations operations_of(const lockstep::MarchPlan& plan, int planets, int i) {
+Operations operations_of(const lockstep::IntegrationPlan& plan, int planets, int i) {
     typename Model::Lanes lanes{};
     lanes.planets = planets;
     const auto degrees = static_cast<std::size_t>(Model::degrees_of_freedom(lanes));
@@ -46,7 +46,7 @@ Operations operations_of(const lockstep::MarchPlan& plan, int planets, int i) {
 }
 
 template <class Integrator>
-Operations of_planetary(const lockstep::MarchPlan& plan, int i) {
+Operations of_planetary(const lockstep::IntegrationPlan& plan, int i) {
     using dynamics::LinearMesh;
     const auto& layout = std::get<dynamics::PlanetaryLayout>(plan.layout);
     if (layout.motion == dynamics::Motion::torsional) {
@@ -66,11 +66,11 @@ void add_filter(int channels, Operations& sum) {
 
 }  // namespace
 
-Operations rk4_operations(const lockstep::MarchPlan& plan) {
+Operations rk4_operations(const lockstep::IntegrationPlan& plan) {
     return of_planetary<lockstep::RungeKutta4>(plan, 0);
 }
 
-Operations central_difference_operations(const lockstep::MarchPlan& plan) {
+Operations central_difference_operations(const lockstep::IntegrationPlan& plan) {
     const auto& steps = plan.grid.steps;
     int i = 1;
     while (i + 1 < static_cast<int>(steps.size()) &&
@@ -81,7 +81,7 @@ Operations central_difference_operations(const lockstep::MarchPlan& plan) {
 }
 
 // Same order as lockstep/integrators/generalized_alpha.hpp and implicit_stage.hpp.
-Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
+Operations generalized_alpha_operations(const lockstep::IntegrationPlan& plan,
                                         const dynamics::GearboxInputs& inputs) {
     const auto lanes =
         lockstep::make_implicit_lanes<1>(plan, lockstep::facts(plan.integrator).span, {&inputs, 1});
@@ -113,7 +113,7 @@ Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
     return sum;
 }
 
-double bytes_streamed(const lockstep::MarchPlan& plan, int lanes) {
+double bytes_streamed(const lockstep::IntegrationPlan& plan, int lanes) {
     const auto steps = static_cast<double>(plan.grid.steps.size());
     const double nodes = static_cast<double>(plan.grid.stage_nodes.size());
     const double read = 2.0 * nodes * plan.nodes.pairs * sizeof(double);
@@ -122,7 +122,7 @@ double bytes_streamed(const lockstep::MarchPlan& plan, int lanes) {
     return read + written;
 }
 
-double bytes_of_tile(const lockstep::MarchPlan& plan, int lanes, int bytes_of_number) {
+double bytes_of_tile(const lockstep::IntegrationPlan& plan, int lanes, int bytes_of_number) {
     const double degrees = dynamics::degrees_of_freedom(plan.layout);
     const double pairs = plan.nodes.pairs, channels = plan.channels();
     constexpr double kParameters = 4 * 4 + 3 * 3 + 2 + 4;  // rows of PlanetaryLanes

@@ -2,27 +2,27 @@
 #pragma once
 
 #include "counted.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::bench {
 
 // Operations of one step of the classical Runge-Kutta method with its sensor filter and without a
 // fault's passage, counted by running the step's template on counting numbers. Requires a planetary
 // gearbox with linear meshes, torsional or with inertial terms.
-Operations rk4_operations(const lockstep::MarchPlan& plan);
+Operations rk4_operations(const lockstep::IntegrationPlan& plan);
 // Operations of one step of central differences; the step begins at no sample if samples are
 // further apart.
-Operations central_difference_operations(const lockstep::MarchPlan& plan);
+Operations central_difference_operations(const lockstep::IntegrationPlan& plan);
 
 // Operations of one step of the generalized-alpha method at whose start no stiffness jumps, by the
 // lists of matrix entries that its kernel goes through.
-Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
+Operations generalized_alpha_operations(const lockstep::IntegrationPlan& plan,
                                         const dynamics::GearboxInputs& inputs);
 
 // Bytes per step of a tile streamed from and to memory outside its own scratch: stiffness and
 // damping at the stage nodes are read, the mean of a mesh period's records is written.
-double bytes_streamed(const lockstep::MarchPlan& plan, int lanes);
+double bytes_streamed(const lockstep::IntegrationPlan& plan, int lanes);
 // Bytes of a tile that are used in every step: state, filter, their scratch, the lanes' parameters.
-double bytes_of_tile(const lockstep::MarchPlan& plan, int lanes, int bytes_of_number);
+double bytes_of_tile(const lockstep::IntegrationPlan& plan, int lanes, int bytes_of_number);
 
 }  // namespace gearpod::bench

@@ -42,8 +42,8 @@ Loads loads(int planets, double sun_bearing, double planet_bearing, double tange
     in.force_N[carrier] = -2.0 * std::cos(kAngle) * in.force_N[sun];
     // The pin of planet 2.
     const double psi = layout.planet_angle(1);
-    in.own[1].pin_x_m = radial_m * std::cos(psi) - tangential_m * std::sin(psi);
-    in.own[1].pin_y_m = radial_m * std::sin(psi) + tangential_m * std::cos(psi);
+    in.planet_deviations[1].pin_x_m = radial_m * std::cos(psi) - tangential_m * std::sin(psi);
+    in.planet_deviations[1].pin_y_m = radial_m * std::sin(psi) + tangential_m * std::cos(psi);
     std::vector<double> k(static_cast<std::size_t>(planets), kSunMesh);
     k.resize(2 * k.size(), kRingMesh);
     const Eigen::VectorXd q = static_equilibrium(assemble(layout, in, k));

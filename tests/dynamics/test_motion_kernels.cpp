@@ -32,7 +32,7 @@ PlanetaryInputs random_inputs(std::mt19937& engine) {
     for (double& force : in.force_N) {
         force = 1e4 * uniform(engine);
     }
-    for (PlanetOwn& own : in.own) {
+    for (PlanetDeviations& own : in.planet_deviations) {
         own = {uniform(engine), uniform(engine), uniform(engine), 1e-5 * uniform(engine),
                -1e-5 * uniform(engine)};
     }
@@ -138,7 +138,7 @@ TEST_CASE("At rest every planet carries the same share and the fixed ring takes 
         layout_of(4, Motion::translational_torsional, false, MeshDamping::ratio);
     std::mt19937 engine(1);
     PlanetaryInputs in = random_inputs(engine);
-    std::fill(std::begin(in.own), std::end(in.own), PlanetOwn{});
+    std::fill(std::begin(in.planet_deviations), std::end(in.planet_deviations), PlanetDeviations{});
     const double cos_a = std::cos(layout.pressure_angle_rad);
     const double m = 3.175e-3, torque = 429.0;
     const double r_s = 19 * m / 2 * cos_a, r_c = 25 * m;
@@ -171,7 +171,8 @@ TEST_CASE("Shifted gears balance the carrier's torque at their own working angle
                                 95 * 2 * std::numbers::pi / 126};
         std::mt19937 engine(3);
         PlanetaryInputs in = random_inputs(engine);
-        std::fill(std::begin(in.own), std::end(in.own), PlanetOwn{});
+        std::fill(std::begin(in.planet_deviations), std::end(in.planet_deviations),
+                  PlanetDeviations{});
         const double torque = 300.0;
         in.force_N[sun] = torque / r_s;
         in.force_N[ring] = 0.0;

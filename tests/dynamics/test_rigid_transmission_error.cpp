@@ -22,7 +22,7 @@ TEST_CASE("The free rotation of the model gives no transmission error in any wor
         {FixedMember::ring, Member::sun},    {FixedMember::ring, Member::carrier},
         {FixedMember::carrier, Member::sun}, {FixedMember::carrier, Member::ring}};
     for (const gears::PowerFlow& flow : conditions) {
-        const gears::Members w = gears::transmission_error_weights(train, flow);
+        const gears::CentralMembers w = gears::transmission_error_weights(train, flow);
         for (const auto motion : {Motion::torsional, Motion::translational_torsional}) {
             PlanetaryLayout layout;
             layout.planets = 3;

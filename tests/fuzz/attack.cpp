@@ -213,9 +213,10 @@ bool arm(Arsenal& arsenal) {
     bool good = true;
     const auto make = [&](const std::vector<std::string>& arguments, int code) {
         const Ending ending = call(arsenal.program, arguments, at + "/log");
-        const bool as_asked = WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == code;
-        std::fputs(as_asked ? "" : ending.output.c_str(), stderr);
-        good = good && as_asked;
+        const bool exited_as_requested =
+            WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == code;
+        std::fputs(exited_as_requested ? "" : ending.output.c_str(), stderr);
+        good = good && exited_as_requested;
     };
     const std::string& study = arsenal.small_study;
     make({"run", study, "--instances", "4", "--out", at + "/r.h5"}, 0);

@@ -11,7 +11,7 @@
 
 #include "attack.hpp"
 #include "mutation.hpp"
-#include "tests/mc/resealed.hpp"
+#include "tests/mc/edited_results.hpp"
 
 namespace gearpod::test {
 namespace {

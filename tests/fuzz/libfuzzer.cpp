@@ -9,13 +9,13 @@
 #include <iterator>
 #include <string>
 
-#include "mc/answers/run_report.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/recordings/manifest.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/study/study.hpp"
-#include "tests/mc/resealed.hpp"
+#include "mc/summary/run_report.hpp"
+#include "tests/mc/edited_results.hpp"
 
 namespace {
 

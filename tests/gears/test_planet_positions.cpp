@@ -18,7 +18,7 @@ PlanetaryTrain park_at(std::vector<double> degrees) {
     return train;
 }
 
-bool says(const std::vector<std::string>& problems, const std::string& part) {
+bool contains(const std::vector<std::string>& problems, const std::string& part) {
     return problems.size() == 1 && problems[0].find(part) != std::string::npos;
 }
 
@@ -69,16 +69,16 @@ TEST_CASE("A planet meshes with sun and ring only at the allowed positions") {
     // allowed position teeth of both gears coincide again: 1/84 turn further for one more tooth of
     // either.
     CHECK(assembly_problems(park_at({0, 120.00001, 240})).empty());
-    CHECK(says(assembly_problems(park_at({0, 121, 240})), "120.000000 or 124.285714"));
-    CHECK(says(assembly_problems(park_at({0, 360.0 * 14 / 84, 240})), "planets 1 and 2 touch"));
+    CHECK(contains(assembly_problems(park_at({0, 121, 240})), "120.000000 or 124.285714"));
+    CHECK(contains(assembly_problems(park_at({0, 360.0 * 14 / 84, 240})), "planets 1 and 2 touch"));
     // Axes 42 sin 30 = 21 modules apart leave no room for tip circles of 28. This is one problem,
     // not six.
-    CHECK(says(assembly_problems(park_at({0, 60, 120, 180, 240, 300})), "(at most 4 planets)"));
-    CHECK(says(assembly_problems(park_at({0, 240, 120})), "does not follow planet 2"));
+    CHECK(contains(assembly_problems(park_at({0, 60, 120, 180, 240, 300})), "(at most 4 planets)"));
+    CHECK(contains(assembly_problems(park_at({0, 240, 120})), "does not follow planet 2"));
     CHECK(assembly_problems(park_at({0, 120, 360})).size() ==
           2);  // not below 360; overlaps planet 1
-    CHECK(says(assembly_problems(park_at({360.0 / 84, 120, 240})), "counted from it"));
+    CHECK(contains(assembly_problems(park_at({360.0 / 84, 120, 240})), "counted from it"));
     PlanetaryTrain two = park_at({0, 120});
     two.planets = 3;
-    CHECK(says(assembly_problems(two), "2 planet positions are given for 3 planets"));
+    CHECK(contains(assembly_problems(two), "2 planet positions are given for 3 planets"));
 }

@@ -24,7 +24,7 @@ double of(const Speeds& s, Member m) {
     return m == Member::sun ? s.sun : m == Member::ring ? s.ring : s.carrier;
 }
 
-double of(const Members& v, Member m) {
+double of(const CentralMembers& v, Member m) {
     return m == Member::sun ? v.sun : m == Member::ring ? v.ring : v.carrier;
 }
 
@@ -36,7 +36,7 @@ TEST_CASE("Speed decreases or increases, along or against the input, as in Park'
     for (int i = 0; i < 6; ++i) {
         INFO("condition " << i + 1);
         const PowerFlow flow = kConditions[i];
-        const Speeds s = driven_speeds(kPark, flow, flow.input, 3.0);
+        const Speeds s = signed_speeds(kPark, flow, flow.input, 3.0);
         const double ratio = of(s, output_member(flow)) / of(s, flow.input);
         CHECK(std::abs(of(s, flow.input)) == Approx(3.0));
         // The ring drives the smaller sun with the carrier fixed.
@@ -48,8 +48,8 @@ TEST_CASE("Speed decreases or increases, along or against the input, as in Park'
 TEST_CASE("Power enters at the input, leaves at the output, and none is lost") {
     for (const PowerFlow& flow : kConditions) {
         for (const Member on : {Member::sun, Member::ring, Member::carrier}) {
-            const Speeds s = driven_speeds(kPark, flow, output_member(flow), 2.0);
-            const Members t = balanced_torques(kPark, on, 180e3);
+            const Speeds s = signed_speeds(kPark, flow, output_member(flow), 2.0);
+            const CentralMembers t = balanced_torques(kPark, on, 180e3);
             CHECK(std::abs(of(t, on)) == Approx(180e3));
             CHECK(t.sun + t.ring + t.carrier == Approx(0).margin(1e-9));
             CHECK(t.sun > 0);
@@ -66,7 +66,7 @@ TEST_CASE("Transmission errors match those printed for conditions 2, 4 and 6, an
     const auto weights = [](int condition) {
         return transmission_error_weights(kPark, kConditions[condition - 1]);
     };
-    const Members w2 = weights(2), w4 = weights(4), w6 = weights(6);
+    const CentralMembers w2 = weights(2), w4 = weights(4), w6 = weights(6);
     CHECK(w2.ring == 1);
     CHECK(w2.carrier == Approx(-(zr + zs) / zr));
     CHECK(w2.sun == 0);
@@ -74,7 +74,7 @@ TEST_CASE("Transmission errors match those printed for conditions 2, 4 and 6, an
     CHECK(w4.carrier == Approx(-(zr + zs) / zs));
     CHECK(w6.sun == 1);
     CHECK(w6.ring == Approx(zr / zs));
-    const Members w1 = weights(1), w3 = weights(3), w5 = weights(5);
+    const CentralMembers w1 = weights(1), w3 = weights(3), w5 = weights(5);
     CHECK(w1.carrier == 1);
     CHECK(w1.ring == Approx(-zr / (zr + zs)));
     CHECK(w3.carrier == 1);
@@ -85,8 +85,8 @@ TEST_CASE("Transmission errors match those printed for conditions 2, 4 and 6, an
 
 TEST_CASE("Rigid rotation gives no transmission error") {
     for (const PowerFlow& flow : kConditions) {
-        const Speeds s = driven_speeds(kPark, flow, flow.input, 5.0);
-        const Members w = transmission_error_weights(kPark, flow);
+        const Speeds s = signed_speeds(kPark, flow, flow.input, 5.0);
+        const CentralMembers w = transmission_error_weights(kPark, flow);
         CHECK(w.carrier * s.carrier + w.ring * s.ring + w.sun * s.sun == Approx(0).margin(1e-13));
     }
 }
@@ -94,8 +94,8 @@ TEST_CASE("Rigid rotation gives no transmission error") {
 TEST_CASE("A train driven by its carrier reverses the rotation of the planets") {
     for (const FixedMember fixed : {FixedMember::ring, FixedMember::sun}) {
         const Member geared = fixed == FixedMember::ring ? Member::sun : Member::ring;
-        const Speeds by_gear = driven_speeds(kPark, {fixed, geared}, geared, 1.0);
-        const Speeds by_carrier = driven_speeds(kPark, {fixed, Member::carrier}, geared, 1.0);
+        const Speeds by_gear = signed_speeds(kPark, {fixed, geared}, geared, 1.0);
+        const Speeds by_carrier = signed_speeds(kPark, {fixed, Member::carrier}, geared, 1.0);
         CHECK(by_carrier.sun == -by_gear.sun);
         CHECK(by_carrier.planet == -by_gear.planet);
         CHECK(by_carrier.ring == -by_gear.ring);
@@ -124,6 +124,6 @@ TEST_CASE(
 }
 
 TEST_CASE("A fixed member accepts no speed") {
-    CHECK_THROWS_AS(driven_speeds(kPark, {FixedMember::ring, Member::sun}, Member::ring, 1.0),
+    CHECK_THROWS_AS(signed_speeds(kPark, {FixedMember::ring, Member::sun}, Member::ring, 1.0),
                     std::invalid_argument);
 }

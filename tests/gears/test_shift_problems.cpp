@@ -25,7 +25,7 @@ Gear gear(int teeth, double shift = 0) {
     return gear;
 }
 
-bool says(const std::vector<std::string>& problems, const std::string& text) {
+bool contains(const std::vector<std::string>& problems, const std::string& text) {
     for (const auto& problem : problems)
         if (problem.find(text) != std::string::npos) {
             return true;
@@ -100,10 +100,10 @@ TEST_CASE("two shifts of a set give the third and the centre distance") {
         return coarse;
     };
     const Gear sun = standard(18), planet = standard(36), ring = standard(-93);
-    for (const DrawnShifts& drawn :
-         {DrawnShifts{0.3890, 0.5039, {}, {}}, DrawnShifts{{}, 0.5039, 0.1171, {}},
-          DrawnShifts{0.3890, {}, 0.1171, {}}}) {
-        const WorkingShifts set = working_shifts(sun, planet, &ring, drawn);
+    for (const SpecifiedShifts& specified :
+         {SpecifiedShifts{0.3890, 0.5039, {}, {}}, SpecifiedShifts{{}, 0.5039, 0.1171, {}},
+          SpecifiedShifts{0.3890, {}, 0.1171, {}}}) {
+        const WorkingShifts set = working_shifts(sun, planet, &ring, specified);
         REQUIRE(set.centre_distance_m);
         CHECK(1e3 * *set.centre_distance_m == Approx(584).margin(5e-3));
         CHECK(set.first == Approx(0.3890).margin(2e-4));
@@ -150,39 +150,41 @@ TEST_CASE("teeth are as thick as the spaces of the mating gear on the pitch circ
 }
 
 TEST_CASE("gears that cannot be cut or meshed are refused with the relevant numbers") {
-    CHECK(says(undercut_problems(gear(10)),
-               "10 teeth are undercut with a profile shift of 0 (shift by 0.215"));
+    CHECK(contains(undercut_problems(gear(10)),
+                   "10 teeth are undercut with a profile shift of 0 (shift by 0.215"));
     CHECK(undercut_problems(gear(14)).empty());
     CHECK(undercut_problems(gear(10, 0.3)).empty());
-    CHECK(says(gear_problems(gear(12, 1.2)), "where it would be -0."));
+    CHECK(contains(gear_problems(gear(12, 1.2)), "where it would be -0."));
     Gear inside_out = gear(30);
     inside_out.given_tip_radius_m = inside_out.root_radius() - 1e-3;
-    CHECK(says(gear_problems(inside_out), "does not lie outside the root circle, 55 mm"));
-    CHECK(says(gear_problems(gear(-60, -2)), "the spaces between 60 internal teeth close"));
+    CHECK(contains(gear_problems(inside_out), "does not lie outside the root circle, 55 mm"));
+    CHECK(contains(gear_problems(gear(-60, -2)), "the spaces between 60 internal teeth close"));
 
     // The distance is too small, too large, or below that of the base circles.
-    CHECK(says(mesh_problems(gear(30), gear(40), 69.5e-3), "mm thicker than the pitch"));
-    CHECK(says(mesh_problems(gear(30), gear(40), 65e-3), "base circles, 65.7785 mm"));
-    CHECK(says(mesh_problems(gear(30), gear(40), 73e-3), "the contact ratio of 30 against 40"));
+    CHECK(contains(mesh_problems(gear(30), gear(40), 69.5e-3), "mm thicker than the pitch"));
+    CHECK(contains(mesh_problems(gear(30), gear(40), 65e-3), "base circles, 65.7785 mm"));
+    CHECK(contains(mesh_problems(gear(30), gear(40), 73e-3), "the contact ratio of 30 against 40"));
     Gear long_teeth = gear(30);
     long_teeth.given_tip_radius_m = 32.6e-3;
-    CHECK(says(mesh_problems(long_teeth, gear(40)),
-               "the tips of 30 teeth run 0.1000 mm into the root circle of 40 teeth (let the tip "
-               "diameter be 65 mm)"));
-    CHECK(says(mesh_problems(gear(18), gear(-60)), "reach below the base circle of 18 teeth"));
+    CHECK(
+        contains(mesh_problems(long_teeth, gear(40)),
+                 "the tips of 30 teeth run 0.1000 mm into the root circle of 40 teeth (let the tip "
+                 "diameter be 65 mm)"));
+    CHECK(contains(mesh_problems(gear(18), gear(-60)), "reach below the base circle of 18 teeth"));
     // Source: KHK gear technical reference; without shift tips pass where the tooth numbers differ
     // by 9.
-    CHECK(says(mesh_problems(gear(52), gear(-60)), "overlap those of the 60 internal teeth"));
+    CHECK(contains(mesh_problems(gear(52), gear(-60)), "overlap those of the 60 internal teeth"));
     CHECK(mesh_problems(gear(52), gear(-61)).empty());
 }
 
 TEST_CASE("planets that would overlap are refused by their own tip circles") {
     const PlanetaryTrain train{27, 35, 99, 5};
-    CHECK(says(assembly_problems(train, {31.5, 37.1}), "axes 37.03 modules apart, tip diameter"));
-    CHECK(!says(assembly_problems(train, {31.5, 37.0}), "touch"));
+    CHECK(
+        contains(assembly_problems(train, {31.5, 37.1}), "axes 37.03 modules apart, tip diameter"));
+    CHECK(!contains(assembly_problems(train, {31.5, 37.0}), "touch"));
     // The rule holds for any small value.
-    CHECK(!says(assembly_problems(train, {31.5, 1e-9}), "touch"));
-    CHECK(!says(assembly_problems(train, {31.5, 0.0}), "touch"));
+    CHECK(!contains(assembly_problems(train, {31.5, 1e-9}), "touch"));
+    CHECK(!contains(assembly_problems(train, {31.5, 0.0}), "touch"));
 }
 
 // Source: Bell 206B, 126 positions for four planets; DSTG's description has them at 88.57 and 91.43

@@ -130,7 +130,7 @@ TEST_CASE("Nine gears in ten meet each tolerance of their grade") {
         }
         INFO("module " << c.module_mm << " mm, " << c.teeth << " teeth, grade " << c.grade);
         for (const int kept : {single, cumulative, runout, profile}) {
-            CHECK(static_cast<double>(kept) / kGears == Approx(kShareWithin).margin(0.03));
+            CHECK(static_cast<double>(kept) / kGears == Approx(kFractionWithin).margin(0.03));
         }
     }
 }

@@ -30,8 +30,8 @@ Gear with(Gear gear, double shift, double shortening = 0) {
 
 // A gear pair as on a drawing; lengths in mm.
 struct Set {
-    Set(Gear one, Gear two, DrawnShifts drawn)
-        : shifts(working_shifts(one, two, nullptr, drawn)),
+    Set(Gear one, Gear two, SpecifiedShifts specified)
+        : shifts(working_shifts(one, two, nullptr, specified)),
           mesh(with(one, shifts.first, shifts.tip_shortening),
                with(two, shifts.second, shifts.tip_shortening), shifts.centre_distance_m) {}
     double angle() const { return mesh.working_pressure_angle() / kDegree; }

@@ -5,7 +5,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 // Record of the mesh period that follows `meshes` others, from displacements `q` and velocities
 // `v`, without velocity of the rigid rotation.
-MeshRecord from_afar(const MarchPlan& plan, const dynamics::GearboxInputs& in,
+MeshRecord from_afar(const IntegrationPlan& plan, const dynamics::GearboxInputs& in,
                      const machine::AlignedVector& q, const machine::AlignedVector& v, int meshes) {
     const auto degrees = dynamics::degrees_of_freedom(plan.layout);
     const auto mass =
@@ -35,10 +35,10 @@ MeshRecord from_afar(const MarchPlan& plan, const dynamics::GearboxInputs& in,
     remove_rotation(state.q);
     remove_rotation(state.v);
     state.filter.assign(static_cast<std::size_t>(plan.channels() * kFilterStates), 0.0);
-    const auto march = make_mesh_march<1>(plan, std::span(&in, 1));
+    const auto mesh_integrator = make_mesh_integrator<1>(plan, std::span(&in, 1));
     MeshRecord record = make_record(plan, 1, true);
     for (int mesh = 0; mesh <= meshes; ++mesh) {
-        (*march)({}, state, record);
+        (*mesh_integrator)({}, state, record);
         remove_rotation(state.q);
         remove_rotation(state.v);
     }
@@ -61,7 +61,7 @@ void check_same(const machine::AlignedVector& a, const machine::AlignedVector& b
 TEST_CASE(
     "From a tenth of a millimetre away, Liang's train converges to the tile's periodic orbit") {
     const auto& train = test::LiangTrain::instance();
-    MarchPlan plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
+    IntegrationPlan plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
     plan.integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
     plan.grid.stage_nodes = stage_nodes(plan.integrator);
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
@@ -82,7 +82,7 @@ TEST_CASE(
 
 TEST_CASE("Tian's stiff gearbox converges from a far start with an L-stable method") {
     const auto& gearbox = test::TianGearbox::instance();
-    const MarchPlan plan = gearbox.plan(24, 240, Integrator::sdirk3);
+    const IntegrationPlan plan = gearbox.plan(24, 240, Integrator::sdirk3);
     const std::vector<dynamics::GearboxInputs> inputs{gearbox.inputs()};
     TileSettings settings;
     settings.with_motion = true;

@@ -48,7 +48,7 @@ TEST_CASE("For any sequence of impacts the mean contact force carries the load")
             if (mesh == kRunIn) {
                 before = masses.rate();
             }
-            const auto d = masses.march();
+            const auto d = masses.integrate_mesh();
             for (std::size_t i = 0; mesh >= kRunIn && i < d.size(); ++i) {
                 const double phase = 2.0 * std::numbers::pi * static_cast<double>(i) / kSteps;
                 const double pressed = d[i] - kError_m * std::sin(phase);

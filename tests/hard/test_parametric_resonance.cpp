@@ -58,13 +58,13 @@ double size_of(const PairOfMasses& masses) {
 }
 
 // Growth per period over the second half of `meshes`, when the fastest growing motion dominates.
-double marched_growth(PairOfMasses masses, int meshes) {
+double integrated_growth(PairOfMasses masses, int meshes) {
     double half_way = 0.0;
     for (int mesh = 0; mesh < meshes; ++mesh) {
         if (mesh == meshes / 2) {
             half_way = size_of(masses);
         }
-        masses.march();
+        masses.integrate_mesh();
     }
     return std::pow(size_of(masses) / half_way, 2.0 / meshes);
 }
@@ -157,7 +157,7 @@ TEST_CASE("A pair grows or decays by the multiplier of Meissner's equation") {
         INFO("integrator " << static_cast<int>(integrator) << ", damping " << share
                            << " of the balance, multiplier " << expected);
         const PairOfMasses masses = pair_of(m, 400, integrator);
-        CHECK(marched_growth(masses, 60) == Approx(expected).epsilon(2e-4));
+        CHECK(integrated_growth(masses, 60) == Approx(expected).epsilon(2e-4));
         CHECK(growth_per_mesh(masses.plan, masses.in) ==
               Approx(std::max(expected, 1.0)).epsilon(2e-4));
         CHECK((find_instability(masses.plan, masses.in) == Instability::parametric) ==
@@ -181,7 +181,7 @@ TEST_CASE("Away from its resonances a pair is stable although its stiffness chan
         const double first = size_of(masses);
         double largest = first;
         for (int mesh = 0; mesh < 2000; ++mesh) {
-            masses.march();
+            masses.integrate_mesh();
             largest = std::max(largest, size_of(masses));
         }
         CHECK(largest < 2.0 * first);
@@ -191,7 +191,7 @@ TEST_CASE("Away from its resonances a pair is stable although its stiffness chan
 TEST_CASE(
     "Liang's rotations: convergence or divergence of the tile matches independent multipliers") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 600, dynamics::Motion::torsional);
+    const IntegrationPlan plan = train.plan(24, 600, dynamics::Motion::torsional);
     int stable = 0, unstable = 0;
     for (const double speedup : {180.0, 200.0, 230.0, 240.0, 270.0, 320.0, 360.0, 400.0}) {
         auto in = train.inputs(speedup);

@@ -22,7 +22,7 @@ Eigen::VectorXd rigid_rotation() {
 
 // Largest growth rate (1/s) of M q'' + (C + G) q' + (K - W^2 M_xy) q = 0, by eigenvalues of the
 // whole system in the rotating frame. The rigid rotation is projected out.
-double growth_rate(const MarchPlan& plan, const dynamics::PlanetaryInputs& in) {
+double growth_rate(const IntegrationPlan& plan, const dynamics::PlanetaryInputs& in) {
     std::vector<double> mean(8, 0.0);
     for (int i = 0; i < 8; ++i) {
         const auto& pair = LiangTrain::instance().pairs;
@@ -52,7 +52,7 @@ dynamics::PlanetaryInputs soft_train(double carrier_rad_s) {
 }
 
 // The speed between `low` and `high` at which the growth rate becomes positive.
-double critical_speed_rad_s(const MarchPlan& plan, double low, double high) {
+double critical_speed_rad_s(const IntegrationPlan& plan, double low, double high) {
     while (high - low > 1e-4 * high) {
         const double middle = 0.5 * (low + high);
         (growth_rate(plan, soft_train(middle)) > 1e-3 ? high : low) = middle;
@@ -64,7 +64,7 @@ double critical_speed_rad_s(const MarchPlan& plan, double low, double high) {
 
 TEST_CASE("Below its critical speed a train converges, above it is reported as unstable") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 240, dynamics::Motion::translational_torsional);
+    const IntegrationPlan plan = train.plan(24, 240, dynamics::Motion::translational_torsional);
     const double critical = critical_speed_rad_s(plan, 100.0, 5000.0);
     INFO("critical speed " << critical << " rad/s");
     CHECK(critical > 200.0);
@@ -83,7 +83,7 @@ TEST_CASE("Below its critical speed a train converges, above it is reported as u
         const bool stable = share < 1.0;
         CHECK(tile.status[0] == (stable ? LaneStatus::ok : LaneStatus::diverged));
         CHECK(find_instability(plan, in) ==
-              (stable ? Instability::none : Instability::turning_frame));
+              (stable ? Instability::none : Instability::rotating_frame));
     }
 }
 
@@ -91,8 +91,9 @@ TEST_CASE(
     "Without inertial terms no speed is critical, and stiff bearings are stable at 5000 rpm") {
     const auto& train = LiangTrain::instance();
     const auto fast = train.inputs(5000.0 / 8.87);
-    const MarchPlan with = train.plan(24, 240, dynamics::Motion::translational_torsional);
-    const MarchPlan without = train.plan(24, 240, dynamics::Motion::translational_torsional, false);
+    const IntegrationPlan with = train.plan(24, 240, dynamics::Motion::translational_torsional);
+    const IntegrationPlan without =
+        train.plan(24, 240, dynamics::Motion::translational_torsional, false);
     CHECK_FALSE(above_critical_speed(without.layout, soft_train(5000.0), mean_stiffness(without)));
     CHECK(growth_rate(with, fast) < 1e-3);
     CHECK_FALSE(above_critical_speed(with.layout, fast, mean_stiffness(with)));

@@ -48,9 +48,9 @@ struct LiangTrain {
         return train;
     }
 
-    lockstep::MarchPlan plan(int samples, int steps, dynamics::Motion motion,
-                             bool inertial = true) const {
-        lockstep::MarchPlan p;
+    lockstep::IntegrationPlan plan(int samples, int steps, dynamics::Motion motion,
+                                   bool inertial = true) const {
+        lockstep::IntegrationPlan p;
         dynamics::PlanetaryLayout layout;
         layout.planets = 4;
         layout.pressure_angle_rad = kAngle;

@@ -8,7 +8,7 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 
 namespace gearpod::test {
 
@@ -17,7 +17,7 @@ struct PairOfMasses {
     static constexpr double kMass = kSun * kPlanet / (kSun + kPlanet);
     static constexpr double kStiffness = 4e8;
 
-    lockstep::MarchPlan plan;
+    lockstep::IntegrationPlan plan;
     dynamics::PlanetaryInputs in;
     lockstep::TileState state;
 
@@ -61,10 +61,10 @@ struct PairOfMasses {
     double momentum() const { return kSun * state.v[2] - kPlanet * state.v[3]; }
 
     // Integrates one mesh period and returns d at every step.
-    machine::AlignedVector march() {
+    machine::AlignedVector integrate_mesh() {
         const dynamics::GearboxInputs inputs = in;
         auto record = lockstep::make_record(plan, 1, false);
-        (*lockstep::make_mesh_march<1>(plan, std::span(&inputs, 1)))({}, state, record);
+        (*lockstep::make_mesh_integrator<1>(plan, std::span(&inputs, 1)))({}, state, record);
         return record.te;
     }
 };

@@ -39,8 +39,8 @@ struct TianGearbox {
         return layout;
     }
 
-    lockstep::MarchPlan plan(int samples, int steps, lockstep::Integrator integrator) const {
-        lockstep::MarchPlan p;
+    lockstep::IntegrationPlan plan(int samples, int steps, lockstep::Integrator integrator) const {
+        lockstep::IntegrationPlan p;
         p.layout = layout();
         p.integrator = integrator;
         p.grid = lockstep::make_phase_grid(samples, steps, lockstep::contact_transitions(pairs));

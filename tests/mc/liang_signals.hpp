@@ -25,8 +25,8 @@ inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
 inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                          std::uint64_t number = 0) {
     const auto tile = run_one(scene, false, number);
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
-    return signals::synthesize(tile.views, 0, tile.march.content, scene.span(),
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
+    return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
                                mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
 }
 

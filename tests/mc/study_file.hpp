@@ -9,7 +9,7 @@
 
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/realization_features.hpp"
 #include "mc/scene/scene.hpp"
 #include "tests/shipped_studies.hpp"
 

@@ -68,9 +68,9 @@ class Notebook(unittest.TestCase):
                 figures += "image/png" in output.get("data", {})
                 texts.append(output.get("data", {}).get("text/plain", ""))
         self.assertEqual(figures, 4)
-        said = "\n".join(texts)
-        self.assertIn("gearpod results", said)
-        self.assertIn("'window_ratio')", said)  # smallest fault and its feature
+        cell_output = "\n".join(texts)
+        self.assertIn("gearpod results", cell_output)
+        self.assertIn("'window_ratio')", cell_output)  # smallest fault and its feature
 
 
 if __name__ == "__main__":

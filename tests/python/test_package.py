@@ -143,13 +143,13 @@ class Package(unittest.TestCase):
         python = place / "bin" / "python"
         subprocess.run([python, "-m", "pip", "install", "--no-index", "--quiet", PACKAGE],
                        check=True)
-        said = subprocess.run(
+        output = subprocess.run(
             [python, "-c", "import gearpod, sys; print(gearpod.__file__); "
              "print(len(gearpod.open(sys.argv[1])))", self.results.path],
             check=True, capture_output=True, text=True, cwd=self.folder.name,
             env={k: v for k, v in os.environ.items() if k != "PYTHONPATH"}).stdout.split()
-        self.assertTrue(said[0].startswith(str(place)), said)
-        self.assertEqual(said[1], "200")
+        self.assertTrue(output[0].startswith(str(place)), output)
+        self.assertEqual(output[1], "200")
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ class Published(unittest.TestCase):
             env={**os.environ, "PYTHONPATH": str(SOURCES / "analysis" / "python")})
         if done.returncode != 0:
             raise RuntimeError(done.stderr)
-        cls.said = done.stdout
+        cls.output = done.stdout
         with open(pathlib.Path(cls.folder.name, "published.csv"), encoding="utf-8") as file:
             cls.rows = list(csv.DictReader(file))
 
@@ -47,14 +47,14 @@ class Published(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def test_one_command_draws_all(self):
+    def test_one_command_plots_all(self):
         for figure in published.figures():
             with self.subTest(figure["name"]):
                 self.assertTrue((SOURCES / "studies" / "published" / figure["study"]).is_file())
                 for kind in ("svg", "png"):
                     file = pathlib.Path(self.folder.name, f"{figure['name']}.{kind}")
                     self.assertGreater(file.stat().st_size, 5000)
-                self.assertIn(figure["name"], self.said)
+                self.assertIn(figure["name"], self.output)
 
     def test_numbers_match_within_stated_differences(self):
         compared = 0

@@ -54,7 +54,7 @@ LIVES = {
                         ("gearbox.tooth_quality", ["4", "6", "8"])]}
 
 
-def answers(feature, detector, found, threshold=True):
+def life_results(feature, detector, found, threshold=True):
     """Results of 30 lives; without a threshold nothing is known."""
     if not threshold:
         return {"feature": feature, "detector": detector, "threshold": None, "threshold_hours": 500,
@@ -86,7 +86,7 @@ def lives_sweep(varied, threshold=True):
             "failed": k % 2, "confidence": 0.95, "false_alarms_per_1000_h": 1,
             "last_depth_m": 4e-3, "record": "81 turns of 31 mesh periods",
             "interpolation": {"first": 0.2, "last": 0.05, "load": None if k else 0.01},
-            "monitored": [answers(feature, detector, max(0, 30 - (d + 2 * k + 9 * f)), threshold)
+            "monitored": [life_results(feature, detector, max(0, 30 - (d + 2 * k + 9 * f)), threshold)
                           for f, feature in enumerate(("change_window_ratio", "window_z", "fused"))
                           for d, detector in enumerate(("single", "cusum 0.5"))]})
     return {"kind": "lives-sweep", "title": "Lives <b> & \"sons\"",

@@ -84,7 +84,7 @@ Results drawn(const Plan& plan) {
 
 void fail_all(Results& r) {
     for (std::size_t row = 0; row < r.status.size(); ++row) {
-        r.status[row] = static_cast<int>(row % 2 == 0 ? Status::diverged : Status::not_settled);
+        r.status[row] = static_cast<int>(row % 2 == 0 ? Status::diverged : Status::not_converged);
     }
     for (FeatureResult& feature : r.features) {
         feature.values.assign(feature.values.size(), kNan);

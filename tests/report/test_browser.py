@@ -107,7 +107,7 @@ class InBrowser(unittest.TestCase):
     def test_every_page_on_every_screen_and_on_paper(self):
         # The last step opens collapsed sections.
         checks = (self.nothing_is_logged_and_nothing_is_loaded,
-                  self.the_answer_is_on_the_first_screen,
+                  self.the_headline_is_on_the_first_screen,
                   self.every_chart_is_drawn_and_its_text_stays_on_it,
                   self.the_page_is_as_wide_as_the_screen)
         for name in self.pages:
@@ -123,7 +123,7 @@ class InBrowser(unittest.TestCase):
             "return performance.getEntriesByType('resource').map(e => e.name)"
             ".filter(n => !n.startsWith('data:'))"), [])
 
-    def the_answer_is_on_the_first_screen(self, _):
+    def the_headline_is_on_the_first_screen(self, _):
         bottom = self.script("return document.querySelector('.answer')"
                              ".getBoundingClientRect().bottom")
         self.assertLess(bottom, self.script("return innerHeight"))
@@ -206,19 +206,19 @@ class InBrowser(unittest.TestCase):
 
     def goes_through(self, name):
         self.open(name, DESKTOP)
-        wanted = self.script("""
+        expected = self.script("""
             const all = 'a[href], summary, [tabindex="0"]';
             return [...document.querySelectorAll(all)].filter(e => e.offsetParent !== null
                 && e.checkVisibility() || e.className === 'skip').map((e, i) => {
                     e.dataset.order = i; return e.tagName; });""")
         reached = []
-        for _ in wanted:
+        for _ in expected:
             ActionChains(self.browser).send_keys(Keys.TAB).perform()
             reached.append(self.script("return document.activeElement.dataset.order"))
             self.assertNotEqual(self.script(
                 "return getComputedStyle(document.activeElement).outlineStyle"), "none")
-        self.assertEqual(reached, [str(i) for i in range(len(wanted))])
-        self.assertEqual(wanted[0], "A")  # skips the header with one key
+        self.assertEqual(reached, [str(i) for i in range(len(expected))])
+        self.assertEqual(expected[0], "A")  # skips the header with one key
 
     def test_a_dark_screen_has_light_text(self):
         self.open("planet", DESKTOP, dark=True)

@@ -43,12 +43,12 @@ def page(data):
     return PageHtml(build_page.page_html(data))
 
 
-def said(name):
+def page_text(name):
     """All words of a case's page."""
     return PageHtml(case_page(name)).text()
 
 
-def answer(name):
+def headline_text(name):
     """The headline of a case."""
     return PageHtml(re.search(r'<p class="answer">(.*?)</p>', case_page(name), re.S).group(1)).text()
 
@@ -83,26 +83,26 @@ class EveryCase(unittest.TestCase):
         self.assertLess(len(text), 3e6)
 
 
-class Answers(unittest.TestCase):
+class Headlines(unittest.TestCase):
     def test_smallest_fault(self):
         data = case("usual")
         n = data["noise"]["reference"]
         found = data["reliability"]["levels"][n]["smallest_fault"]
         self.assertEqual(
-            answer("usual"),
+            headline_text("usual"),
             f"A fault of {words.number(1e3 * found['size'])} mm is found with 90 % probability at "
             f"95 % confidence by {found['feature']} at noise × 1.")
 
     def test_nothing_is_made_up(self):
-        for name, said in (("no_rows", "cannot be assessed"), ("no_features", "computes no feature"),
+        for name, page_text in (("no_rows", "cannot be assessed"), ("no_features", "computes no feature"),
                            ("all_failed", "cannot be assessed"),
                            ("no_fault", "No gearbox of this study has a fault"),
                            ("no_graded", "No gearbox of this study"), ("only_faulty", "no alarm threshold"),
                            ("few", "Too few healthy gearboxes for a false-alarm rate of 0.05: 5 give"),
                            ("none_detected", "No tested fault is found")):
             with self.subTest(name):
-                self.assertIn(said, answer(name))
-                self.assertNotRegex(answer(name), r"\d mm is found")
+                self.assertIn(page_text, headline_text(name))
+                self.assertNotRegex(headline_text(name), r"\d mm is found")
 
     def test_features_without_a_threshold_are_counted(self):
         data = case("usual")
@@ -112,9 +112,9 @@ class Answers(unittest.TestCase):
         self.assertIn(f"1 of the {len(features)} features has no threshold.", page(data).text())
 
     def test_all_detected_is_a_tested_size(self):
-        self.assertIn("A fault of 0.5 mm is found", answer("all_detected"))
+        self.assertIn("A fault of 0.5 mm is found", headline_text("all_detected"))
         self.assertIn("there is no detection curve for it (te_fm0: every faulty gearbox was",
-                      said("all_detected"))
+                      page_text("all_detected"))
 
     def test_a_transferred_bound_names_its_origin(self):
         data = case("usual")
@@ -127,35 +127,35 @@ class Answers(unittest.TestCase):
         self.assertIn("† the bound of te_fc at noise × 5", text)
 
     def test_without_curves_the_rates_give_the_result(self):
-        self.assertIn("mm is found with 90 % probability", answer("too_large"))
-        self.assertIn("this study has too many", said("too_large"))
+        self.assertIn("mm is found with 90 % probability", headline_text("too_large"))
+        self.assertIn("this study has too many", page_text("too_large"))
 
     def test_pure_numbers_have_no_unit(self):
-        self.assertIn("A fault of 0.001 is found", answer("pure_number"))
+        self.assertIn("A fault of 0.001 is found", headline_text("pure_number"))
 
     def test_an_interrupted_run_is_marked(self):
         self.assertIn("Incomplete study: 1000 of 2000 gearboxes (interrupted by SIGTERM)",
-                      said("interrupted"))
+                      page_text("interrupted"))
 
 
 class Statements(unittest.TestCase):
     def test_missing_values_are_counted(self):
-        self.assertIn("te_fm0 at noise × 1: 1 000", said("nan_feature"))
+        self.assertIn("te_fm0 at noise × 1: 1 000", page_text("nan_feature"))
         self.assertIn("1 000 of 1 000 gearboxes failed: 500 diverged, 500 did not converge",
-                      said("all_failed"))
-        self.assertIn("0 (diverged), 1 (not converged)", said("all_failed"))
+                      page_text("all_failed"))
+        self.assertIn("0 (diverged), 1 (not converged)", page_text("all_failed"))
 
     def test_a_constant_feature_is_named(self):
         self.assertIn("the feature is constant or nearly so",
-                      said("constant_feature"))
+                      page_text("constant_feature"))
 
     def test_signals_that_cannot_be_recomputed_are_refused(self):
-        words_ = said("study_of_another_version")
+        words_ = page_text("study_of_another_version")
         self.assertIn("No example signals: this version cannot build the study in the file", words_)
         self.assertIn("gearbox.colour", words_)
 
     def test_every_detection_rate_is_on_the_page(self):
-        words_ = said("usual")
+        words_ = page_text("usual")
         for feature in case("usual")["detection"]["features"]:
             for level in feature["levels"]:
                 for cell in level["sizes"]:
@@ -163,7 +163,7 @@ class Statements(unittest.TestCase):
                                   words_)
 
     def test_the_numerical_error_is_next_to_the_statistical_one(self):
-        self.assertIn("requested no check of its numerical error", said("usual"))
+        self.assertIn("requested no check of its numerical error", page_text("usual"))
         data = case("usual")
         data["numerical"] = {"rung": "rk4, 400 steps", "finer": "rk4, 1600 steps", "gearboxes": 8,
                              "shares": [{"feature": feature["name"], "noise_level": level,
@@ -321,9 +321,9 @@ class Program(unittest.TestCase):
             made = self.gearpod("pod", str(tables / table), *options, "--html", self.html())
             self.assertEqual(made.returncode, 0, made.stderr)
             html = pathlib.Path(self.html()).read_text()
-            said_ = PageHtml(html).text().replace("\u00a0", " ")
+            shown_text = PageHtml(html).text().replace("\u00a0", " ")
             for words_ in expected:
-                self.assertIn(words_, said_)
+                self.assertIn(words_, shown_text)
             self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
             os.remove(self.html())
 
@@ -341,11 +341,11 @@ class Program(unittest.TestCase):
         self.assertEqual(both.returncode, 0, both.stderr)
         html = pathlib.Path(self.html()).read_text()
         self.assertEqual(html, build_page.page_html(json.loads(both.stdout)))
-        said_ = PageHtml(html).text()
+        shown_text = PageHtml(html).text()
         for words_ in ("B against A", "On 350 graded gearboxes that are the same in both",
                        "Different gearboxes (seed 2 and 8)", "Difference of a90 at noise",
                        "minus A"):
-            self.assertIn(words_, said_)
+            self.assertIn(words_, shown_text)
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())
         shown = self.gearpod("compare", a, a).stdout
@@ -361,11 +361,11 @@ class Program(unittest.TestCase):
                 "features.use": '["window_ratio","change_window_ratio"]',
                 "ensemble.instances": 8, "ensemble.threshold_instances": 8}
         options = [text for key, value in life.items() for text in ("--set", f"{key}={value}")]
-        told = self.gearpod("lives", SOURCES / "studies" / "planet-crack-ideal.toml", "--quiet",
+        outcome = self.gearpod("lives", SOURCES / "studies" / "planet-crack-ideal.toml", "--quiet",
                             *options, "--out", results, "--html", self.html(), "--json", "-")
-        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
         html = pathlib.Path(self.html()).read_text()
-        data = json.loads(told.stdout)
+        data = json.loads(outcome.stdout)
         self.assertEqual(html, build_page.page_html(data))
         parsed = PageHtml(html)
         self.assertEqual(parsed.problems, [])
@@ -380,7 +380,7 @@ class Program(unittest.TestCase):
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())
         again = self.gearpod("report", results, "--html", self.html(), "--json", "-")
-        self.assertEqual(again.stdout, told.stdout)
+        self.assertEqual(again.stdout, outcome.stdout)
         self.assertEqual(pathlib.Path(self.html()).read_text(), html)
         os.remove(self.html())
 

@@ -32,7 +32,7 @@ def reports():
             yield file.stem, Report(data)
 
 
-def boxes(figure):
+def text_areas(figure):
     """All visible texts with their boxes in points."""
     figure.set_dpi(DPI)
     figure.canvas.draw()
@@ -66,18 +66,18 @@ class Sheets(unittest.TestCase):
             with self.subTest(name), warnings.catch_warnings():
                 warnings.filterwarnings("ignore", message="Glyph")
                 figure = summary_sheet.sheet_of(report).figure
-                placed = boxes(figure)
+                placed = text_areas(figure)
                 width, height = DPI * summary_sheet.WIDTH, DPI * summary_sheet.HEIGHT
-                for text, box in placed:
-                    self.assertTrue(box.x0 > 20 and box.x1 < width - 20 and box.y0 > 20
-                                    and box.y1 < height - 20, (text, box))
-                for k, (text, box) in enumerate(placed):
-                    for other, beside in placed[k + 1:]:
-                        over = (min(box.x1, beside.x1) - max(box.x0, beside.x0),
-                                min(box.y1, beside.y1) - max(box.y0, beside.y0))
+                for text, area in placed:
+                    self.assertTrue(area.x0 > 20 and area.x1 < width - 20 and area.y0 > 20
+                                    and area.y1 < height - 20, (text, area))
+                for k, (text, area) in enumerate(placed):
+                    for other, other_area in placed[k + 1:]:
+                        over = (min(area.x1, other_area.x1) - max(area.x0, other_area.x0),
+                                min(area.y1, other_area.y1) - max(area.y0, other_area.y0))
                         self.assertFalse(min(over) > 1.5, (text, other, over))
                 words = " ".join(text for text, _ in placed)
-                for text in headline.answers(report) + headline.limits(report):
+                for text in headline.headline_texts(report) + headline.limits(report):
                     for word in text.split(" "):
                         self.assertIn(word[:12], words)
                 seen += 1

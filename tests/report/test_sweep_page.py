@@ -44,8 +44,8 @@ class MadeUp(unittest.TestCase):
         charts = {"sweep_one": 3, "sweep_two": 9, "sweep_words": 3, "sweep_three": 12,
                   "sweep_single": 3, "sweep_nothing": 1, "sweep_unknown": 1, "sweep_silent": 0,
                   "lives_sweep_one": 4, "lives_sweep_two": 12, "lives_sweep_blind": 0}
-        for name, wanted in charts.items():
-            self.assertEqual(parsed(name).count("svg"), wanted, name)
+        for name, expected in charts.items():
+            self.assertEqual(parsed(name).count("svg"), expected, name)
         self.assertIn("integrator = newmark", parsed("sweep_two").text())
 
     def test_too_few_healthy_samples_come_first_and_hide_no_fault(self):
@@ -73,17 +73,17 @@ class MadeUp(unittest.TestCase):
         found = [(at["size"], p["values"]["sensor.noise_m_s2"])
                  for p in MADE["sweep_one"]["points"] for at in p["smallest_fault"]
                  if at["noise_level"] == 1 and at["size"] is not None]
-        said = parsed("sweep_one").text().replace("\u00a0", " ")
-        self.assertIn(f"{min(found)[0]:.3g} mm by", said)
-        self.assertIn(f"at noise_m_s2 = {min(found)[1]}; largest {max(found)[0]:.3g} mm", said)
+        shown_text = parsed("sweep_one").text().replace("\u00a0", " ")
+        self.assertIn(f"{min(found)[0]:.3g} mm by", shown_text)
+        self.assertIn(f"at noise_m_s2 = {min(found)[1]}; largest {max(found)[0]:.3g} mm", shown_text)
         self.assertIn("none in any of 5 studies", parsed("sweep_nothing").text())
         self.assertIn("computes no feature", parsed("sweep_silent").text())
 
     def test_lives_are_named_with_their_monitor(self):
-        said = parsed("lives_sweep_one").text().replace("\u00a0", " ")
+        shown_text = parsed("lives_sweep_one").text().replace("\u00a0", " ")
         self.assertIn("change_window_ratio by single finds 100 % of the cracks before the tooth breaks "
-                      "at interval_h = 1, 80 % at interval_h = 100", said)
-        self.assertIn("at least 480 h before at interval_h = 100, 600 h at interval_h = 1", said)
+                      "at interval_h = 1, 80 % at interval_h = 100", shown_text)
+        self.assertIn("at least 480 h before at interval_h = 100, 600 h at interval_h = 1", shown_text)
         html = build_page.page_html(MADE["lives_sweep_two"])
         table = html[html.index("<tbody>"):html.index("</tbody>")]
         rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in table.split("<tr>")[1:]]

@@ -35,14 +35,14 @@ Material steel(double width_m, double helix_rad) {
 
 // External pair without backlash.
 LevelPair external(const std::string& name, int z_1, int z_2, double module_m,
-                   gears::DrawnShifts drawn, double width_m, double helix_rad = 0) {
+                   gears::SpecifiedShifts specified, double width_m, double helix_rad = 0) {
     gears::Gear one = rack_gear(z_1, module_m, helix_rad),
                 two = rack_gear(z_2, module_m, helix_rad);
     const double c = std::cos(helix_rad);
-    for (std::optional<double>* shift : {&drawn.first, &drawn.second})
+    for (std::optional<double>* shift : {&specified.first, &specified.second})
         if (*shift)
             **shift *= c;
-    const auto set = gears::working_shifts(one, two, nullptr, drawn);
+    const auto set = gears::working_shifts(one, two, nullptr, specified);
     one.profile_shift = set.first;
     two.profile_shift = set.second;
     one.tip_shortening = two.tip_shortening = set.tip_shortening;

@@ -142,7 +142,7 @@ TEST_CASE("cracks on the fillet and on the involute have Yang's compliances 30 t
             check_equal(tooth_compliance(profile, kSteel, a1, same), expected);
             const CrackedSections sections(profile, same), whole(profile, {});
             const double u = profile.involute_angle(a1);
-            SectionSweep sweep(profile, sections.sees(u) ? sections : whole);
+            SectionSweep sweep(profile, sections.affects(u) ? sections : whole);
             sweep.advance(u);
             CHECK(compliance(sweep.moments(), profile, kSteel, a1) ==
                   Approx(expected.total()).epsilon(1e-8));

@@ -163,7 +163,7 @@ TEST_CASE("teeth on rigid bodies keep their stiffness beyond the path") {
     }
     CHECK(mesh.slice_gap(0, 0.5 * (begin + end)) == 0);
     CHECK(at(mesh, mesh.contact_ratio() + 0.01) == 0);
-    CHECK(mesh.slice_place(0, 0.5 * begin) == -0.5);
+    CHECK(mesh.slice_flank_position(0, 0.5 * begin) == -0.5);
 }
 
 // A pair of equal gears is symmetrical from both ends of its path.

@@ -117,11 +117,11 @@ TEST_CASE("the tooth pairs of a helical pair share its load") {
         CHECK(sum == Approx(1).epsilon(1e-9));
     }
     // Positions from one end of the flank to the other, symmetric from both.
-    CHECK(mesh.flank_place(0) == -0.5);
-    CHECK(mesh.flank_place(mesh.contact_ratio()) == 0.5);
+    CHECK(mesh.flank_position(0) == -0.5);
+    CHECK(mesh.flank_position(mesh.contact_ratio()) == 0.5);
     for (const double tau : {0.1, 0.8, 1.2})
-        CHECK(mesh.flank_place(tau) ==
-              Approx(-mesh.flank_place(mesh.contact_ratio() - tau)).margin(1e-15));
+        CHECK(mesh.flank_position(tau) ==
+              Approx(-mesh.flank_position(mesh.contact_ratio() - tau)).margin(1e-15));
 }
 
 TEST_CASE("a fault passes a helical pair slice by slice") {

@@ -242,8 +242,8 @@ std::vector<double> Distribution::levels() const {
     return std::visit([](const auto& law) { return law.levels(); }, kind_->law);
 }
 
-double Distribution::draw(Philox& engine, std::uint64_t turn) const {
-    return std::visit([&](const auto& law) { return law.draw(engine, turn); }, kind_->law);
+double Distribution::draw(Philox& engine, std::uint64_t level_index) const {
+    return std::visit([&](const auto& law) { return law.draw(engine, level_index); }, kind_->law);
 }
 
 bool Distribution::has_quantile() const {

@@ -26,9 +26,9 @@ class Distribution {
     Support support() const;
     // Values of `levels` and `grid` in their order, or the value of `constant`; empty otherwise.
     std::vector<double> levels() const;
-    // Returns one value. `levels` and `grid` return value number `turn` mod count and use no
-    // randomness; all other distributions ignore `turn`, the level index.
-    double draw(Philox& engine, std::uint64_t turn) const;
+    // Returns one value. `levels` and `grid` return value number `level_index` mod count and use no
+    // randomness; all other distributions ignore `level_index`, the level index.
+    double draw(Philox& engine, std::uint64_t level_index) const;
     // True if quantile() is defined: for all distributions that neither take their values in turn
     // nor are sampled in rows.
     bool has_quantile() const;

@@ -34,8 +34,8 @@ struct Grid {
         }
         return values;
     }
-    double draw(Philox&, std::uint64_t turn) const {
-        return value(static_cast<int>(turn % static_cast<std::uint64_t>(count)));
+    double draw(Philox&, std::uint64_t level_index) const {
+        return value(static_cast<int>(level_index % static_cast<std::uint64_t>(count)));
     }
     bool operator==(const Grid&) const = default;
 

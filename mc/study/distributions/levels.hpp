@@ -33,7 +33,9 @@ struct Levels {
         return {*low, *high, false, false};
     }
     std::vector<double> levels() const { return values; }
-    double draw(Philox&, std::uint64_t turn) const { return values[turn % values.size()]; }
+    double draw(Philox&, std::uint64_t level_index) const {
+        return values[level_index % values.size()];
+    }
     bool operator==(const Levels&) const = default;
 };
 

@@ -21,7 +21,7 @@ const FaultKind* find_fault(std::string_view name) {
     return nullptr;
 }
 
-const FaultKind& sized_as(const Study& study) {
+const FaultKind& size_defining_kind(const Study& study) {
     return study.fault.kind != nullptr ? *study.fault.kind : crack();
 }
 

@@ -16,6 +16,6 @@ const FaultKind* find_fault(std::string_view name);
 
 // Kind of fault that defines the size key: the study's own, or the first kind (with size 0) for a
 // study without a fault.
-const FaultKind& sized_as(const Study& study);
+const FaultKind& size_defining_kind(const Study& study);
 
 }  // namespace gearpod::mc

@@ -29,7 +29,7 @@ class CrackKind final : public FaultKind {
 
     void check(StudyDraft& draft) const override {
         check_size(draft, {max_crack_depth_m(draft.study) * kMmPerM,
-                           "longer " + than_the_tooth(draft.study)});
+                           "longer " + deeper_than_tooth_text(draft.study)});
     }
 
     std::string origin(const Study& study, std::span<const double> sizes) const override {

@@ -74,10 +74,10 @@ std::string crack_origin(const Study& study, std::span<const double> depths_m) {
         start_name(study), section_m * kMmPerM, fmt::join(depths, ", "), fmt::join(shares, ", "));
 }
 
-std::string than_the_tooth(const Study& study) {
+std::string deeper_than_tooth_text(const Study& study) {
     return fmt::format("than the tooth (a crack at {:.4g} deg cuts through it after {} mm)",
                        crack_angle_rad(study) * 180.0 / kPi,
-                       shown(max_crack_depth_m(study) * kMmPerM));
+                       rounded_down(max_crack_depth_m(study) * kMmPerM));
 }
 
 }  // namespace gearpod::mc

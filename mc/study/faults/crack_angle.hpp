@@ -42,6 +42,6 @@ double critical_section_m(const Study& study);
 // section that each of these depths takes.
 std::string crack_origin(const Study& study, std::span<const double> depths_m);
 // "than the tooth (a crack at 45 deg leaves it after 4.2 mm)".
-std::string than_the_tooth(const Study& study);
+std::string deeper_than_tooth_text(const Study& study);
 
 }  // namespace gearpod::mc

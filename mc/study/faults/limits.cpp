@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-double shown(double limit) {
+double rounded_down(double limit) {
     return std::floor(limit * 1e4) / 1e4;
 }
 
@@ -17,7 +17,8 @@ void check_size(StudyDraft& draft, const SizeLimit& limit) {
     const FaultSize& key = draft.study.fault.kind->size();
     const std::string path = "fault." + std::string(key.name);
     const std::string unit = key.unit.suffix.empty() ? "" : " " + std::string(key.unit.name);
-    const std::string remedy = fmt::format("stay at or below {}{}", shown(limit.largest), unit);
+    const std::string remedy =
+        fmt::format("stay at or below {}{}", rounded_down(limit.largest), unit);
     const auto what = [&](double size) { return fmt::format("{}{} is {}", size, unit, limit.why); };
     const double nominal = key.access.get(draft.study).value_or(0.0) / key.unit.to_si;
     if (draft.given.contains(path) && nominal > limit.largest * kMargin) {

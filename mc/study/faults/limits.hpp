@@ -17,7 +17,7 @@ struct SizeLimit {
 };
 
 // The limit rounded down to four decimals, so that the value named in a message is allowed.
-double shown(double limit);
+double rounded_down(double limit);
 
 // Rejects sizes above the limit, whether nominal or random.
 void check_size(StudyDraft& draft, const SizeLimit& limit);

@@ -61,11 +61,11 @@ struct ActiveFlank {
 };
 ActiveFlank active_flank(const Study& study) {
     const Member member = *study.fault.member, mate = mate_of(study.fault);
-    const bool drives = member == Member::sun || member == Member::pinion || mate == Member::ring;
-    const gears::MeshGeometry mesh(gear_of(study, drives ? member : mate),
-                                   gear_of(study, drives ? mate : member),
+    const bool is_first = member == Member::sun || member == Member::pinion || mate == Member::ring;
+    const gears::MeshGeometry mesh(gear_of(study, is_first ? member : mate),
+                                   gear_of(study, is_first ? mate : member),
                                    working_shifts(study).centre_distance_m);
-    const int which = drives ? 1 : 2;
+    const int which = is_first ? 1 : 2;
     const double ends[] = {mesh.contact_radius(which, 0.0),
                            mesh.contact_radius(which, mesh.contact_ratio())};
     return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};

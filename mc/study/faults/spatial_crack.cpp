@@ -50,7 +50,7 @@ void check_entries(StudyDraft& draft, const std::string& key, const std::vector<
         if (list_m[k] > limit_m * kMargin) {
             draft.reject(key,
                          fmt::format("stage {}: {:.6g} mm is {}", k + 1, list_m[k] * kMmPerM, why),
-                         fmt::format("stay at or below {} mm", shown(limit_m * kMmPerM)));
+                         fmt::format("stay at or below {} mm", rounded_down(limit_m * kMmPerM)));
         }
     }
 }
@@ -85,7 +85,7 @@ void check_growth(StudyDraft& draft, const Growth& g) {
     const double face_m = *draft.study.gearbox.face_width_m;
     const double deepest_m = max_crack_depth_m(draft.study);
     const double height_m = tooth_height_m(draft.study);
-    const std::string deep = "deeper " + than_the_tooth(draft.study);
+    const std::string deep = "deeper " + deeper_than_tooth_text(draft.study);
     const std::string high =
         fmt::format("above the tip (the tooth is {:.6g} mm high)", height_m * kMmPerM);
     const std::string wide = fmt::format("longer than the face width, {:.6g} mm", face_m * kMmPerM);

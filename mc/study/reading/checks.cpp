@@ -11,7 +11,7 @@
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "signals/noise/low_pass_noise.hpp"
-#include "signals/windowing/noise_tilt.hpp"
+#include "signals/windowing/noise_importance_sampler.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -204,13 +204,13 @@ void check_lanes(StudyDraft& draft) {
 
 void check_precision(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
-    const bool doubles_only = n.integrator && !lockstep::marches_singles(*n.integrator);
+    const bool doubles_only = n.integrator && !lockstep::has_single_precision(*n.integrator);
     if (n.precision == Precision::single_precision && doubles_only &&
         draft.all_usable({"numerics.precision", "numerics.integrator"})) {
         draft.reject(
             "numerics.precision",
             fmt::format("\"single\" is for the integrators {}, but numerics.integrator is \"{}\"",
-                        lockstep::names_of(&lockstep::IntegratorFacts::marches_singles),
+                        lockstep::names_of(&lockstep::IntegratorFacts::has_single_precision),
                         choice_text(draft.study, "numerics", "integrator")),
             "use precision = \"double\", or integrator = \"rk4\"");
     }
@@ -218,12 +218,12 @@ void check_precision(StudyDraft& draft) {
 
 // Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
 // records.
-void check_tilted_records(StudyDraft& draft) {
+void check_importance_sampling(StudyDraft& draft) {
     const Ensemble& e = draft.study.ensemble;
-    constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
+    constexpr auto kKinds = static_cast<int>(signals::NoiseImportanceSampler::kKinds);
     // The presence check rejects tilting of a single record.
-    if (e.tilted() && e.threshold_records > 1 && draft.all_usable({"ensemble.threshold_records"}) &&
-        e.threshold_records % kKinds != 0) {
+    if (e.uses_importance_sampling() && e.threshold_records > 1 &&
+        draft.all_usable({"ensemble.threshold_records"}) && e.threshold_records % kKinds != 0) {
         draft.reject("ensemble.threshold_records",
                      fmt::format("{} is not a multiple of {} (ensemble.threshold_tilt)",
                                  e.threshold_records, kKinds),
@@ -234,7 +234,7 @@ void check_tilted_records(StudyDraft& draft) {
 }  // namespace
 
 void check_consistency(StudyDraft& draft) {
-    check_tilted_records(draft);
+    check_importance_sampling(draft);
     check_operation(draft);
     check_path(draft);
     check_fixed_shaft_motion(draft);

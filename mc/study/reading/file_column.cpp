@@ -27,15 +27,15 @@ std::optional<FileColumn> file_column(const Value& value) {
                                                 : std::nullopt;
 }
 
-Value list_of(const FileColumn& wanted, const Position& position, std::size_t most) {
-    const TextTable table = read_text_table(wanted.file);
-    const auto column = table.find(wanted.column);
+Value list_of(const FileColumn& source, const Position& position, std::size_t most) {
+    const TextTable table = read_text_table(source.file);
+    const auto column = table.find(source.column);
     if (!column) {
-        throw SignalError(fmt::format("{}: no column {}; its columns are {}", wanted.file,
-                                      wanted.column, table.names()));
+        throw SignalError(fmt::format("{}: no column {}; its columns are {}", source.file,
+                                      source.column, table.names()));
     }
     if (table.rows.empty()) {
-        throw SignalError(wanted.file + ": has no row below its header");
+        throw SignalError(source.file + ": has no row below its header");
     }
     Value list;
     list.kind = Value::Kind::array;
@@ -47,7 +47,7 @@ Value list_of(const FileColumn& wanted, const Position& position, std::size_t mo
         const auto number = number_of(field, table.separator == ';');
         if (!number) {
             throw SignalError(
-                fmt::format("{}:{}: \"{}\" is not a number", wanted.file, table.lines[row], field));
+                fmt::format("{}:{}: \"{}\" is not a number", source.file, table.lines[row], field));
         }
         Value element;
         element.kind = Value::Kind::number;

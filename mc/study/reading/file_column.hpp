@@ -18,7 +18,7 @@ std::optional<FileColumn> file_column(const Value& value);
 
 // The column's numbers as a list at `position`. Of more than `most` rows every n-th one is used.
 // Throws SignalError (mc/files/signal_file.hpp) with the problem.
-Value list_of(const FileColumn& wanted, const Position& position,
+Value list_of(const FileColumn& source, const Position& position,
               std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace gearpod::mc

@@ -36,8 +36,8 @@ void check_gravity(StudyDraft& draft) {
 }
 
 void check_superposition(StudyDraft& draft) {
-    const std::string why = why_not_superposed(draft.study);
-    if (draft.study.numerics.horizon == Horizon::superpose && !why.empty() &&
+    const std::string why = reason_not_superposed(draft.study);
+    if (draft.study.numerics.horizon == Horizon::superposed && !why.empty() &&
         draft.all_usable({"numerics.horizon", "effects.gravity", "effects.motion"})) {
         draft.reject("numerics.horizon", fmt::format("is \"superpose\", but {}", why),
                      "leave the key out");
@@ -46,8 +46,8 @@ void check_superposition(StudyDraft& draft) {
 
 void check_horizon(StudyDraft& draft) {
     check_superposition(draft);
-    const std::string why = why_no_mesh_repeats(draft.study);
-    if (draft.study.numerics.horizon == Horizon::reuse && !why.empty() &&
+    const std::string why = reason_not_periodic(draft.study);
+    if (draft.study.numerics.horizon == Horizon::periodic && !why.empty() &&
         draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {
         draft.reject("numerics.horizon", fmt::format("is \"reuse\", but {}", why),
                      "use horizon = \"march\", or leave the key out");

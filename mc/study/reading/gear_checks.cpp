@@ -18,10 +18,10 @@ std::string teeth_key(Member member) {
 std::vector<Member> toothed_members(const Study& study) {
     std::vector<Member> members;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
-        if (members.empty() || members.back() != mesh.driver) {
-            members.push_back(mesh.driver);
+        if (members.empty() || members.back() != mesh.member_1) {
+            members.push_back(mesh.member_1);
         }
-        members.push_back(mesh.driven);
+        members.push_back(mesh.member_2);
     }
     return members;
 }
@@ -89,7 +89,7 @@ std::vector<std::string> assembly_problems(const StudyDraft& draft,
     const Study& s = draft.study;
     if (shift_given(s) && has_gears(s)) {
         return draft.all_usable(shift_keys()) && draft.usable("gearbox.module_mm")
-                   ? gears::assembly_problems(train, planet_room(s))
+                   ? gears::assembly_problems(train, planet_dimensions(s))
                    : std::vector<std::string>{};
     }
     return gears::assembly_problems(train, s.gearbox.addendum_coefficient);
@@ -149,15 +149,15 @@ std::string mesh_key(const StudyDraft& draft, const MeshMembers& mesh, const gea
         }
     }
     constexpr double kStandardAngle = 20.0 * pi / 180.0;
-    const Member smaller = gear_2.teeth < gear_1.teeth ? mesh.driven : mesh.driver;
+    const Member smaller = gear_2.teeth < gear_1.teeth ? mesh.member_2 : mesh.member_1;
     return gear_1.pressure_angle_rad < kStandardAngle * (1.0 - 1e-12) ? "gearbox.pressure_angle_deg"
                                                                       : teeth_key(smaller);
 }
 
 // Rejects two gears that are possible on their own but do not mesh.
 void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
-    const gears::Gear gear_1 = gear_of(draft.study, mesh.driver);
-    const gears::Gear gear_2 = gear_of(draft.study, mesh.driven);
+    const gears::Gear gear_1 = gear_of(draft.study, mesh.member_1);
+    const gears::Gear gear_2 = gear_of(draft.study, mesh.member_2);
     if (!gears::gear_problems(gear_1).empty() || !gears::gear_problems(gear_2).empty()) {
         return;
     }
@@ -165,8 +165,8 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
     const auto distance = working_shifts(draft.study).centre_distance_m;
     for (const std::string& what : gears::mesh_problems(gear_1, gear_2, distance)) {
         draft.reject(key,
-                     fmt::format("{} and {} do not mesh ({})", member_name(mesh.driver),
-                                 member_name(mesh.driven), what),
+                     fmt::format("{} and {} do not mesh ({})", member_name(mesh.member_1),
+                                 member_name(mesh.member_2), what),
                      "");
     }
 }
@@ -177,7 +177,7 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
 void check_ring_backlash(StudyDraft& draft) {
     constexpr double kRounded = 0.01;  // modules; the effect of shifts rounded to two decimals
     const Study& s = draft.study;
-    const EachMember<MemberValues>& bodies = s.gearbox.bodies;
+    const MemberArray<MemberValues>& bodies = s.gearbox.bodies;
     if (s.gearbox.kind != GearboxKind::planetary || !bodies[Member::ring].profile_shift ||
         (bodies[Member::planet].profile_shift && s.gearbox.centre_distance_m)) {
         return;
@@ -216,11 +216,11 @@ void check_relief(StudyDraft& draft, const gears::MeshGeometry& mesh, Member mem
 
 void check_reliefs(StudyDraft& draft) {
     for (const MeshMembers& mesh : meshes_of(draft.study.gearbox.kind)) {
-        const gears::MeshGeometry geometry(gear_of(draft.study, mesh.driver),
-                                           gear_of(draft.study, mesh.driven),
+        const gears::MeshGeometry geometry(gear_of(draft.study, mesh.member_1),
+                                           gear_of(draft.study, mesh.member_2),
                                            working_shifts(draft.study).centre_distance_m);
-        check_relief(draft, geometry, mesh.driver);
-        check_relief(draft, geometry, mesh.driven);
+        check_relief(draft, geometry, mesh.member_1);
+        check_relief(draft, geometry, mesh.member_2);
     }
 }
 
@@ -316,7 +316,7 @@ void check_levels(StudyDraft& draft, const std::string& mesh, const MeshValues& 
 }
 
 void check_square_waves(StudyDraft& draft) {
-    const EachMesh<MeshValues>& meshes = draft.study.gearbox.meshes;
+    const MeshArray<MeshValues>& meshes = draft.study.gearbox.meshes;
     check_levels(draft, "sun_planet", meshes[MeshKind::sun_planet]);
     check_levels(draft, "ring_planet", meshes[MeshKind::ring_planet]);
     check_levels(draft, "mesh", meshes[MeshKind::pinion_gear]);

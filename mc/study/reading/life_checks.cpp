@@ -37,23 +37,23 @@ void check_curve(StudyDraft& draft) {
 void check_loads(StudyDraft& draft) {
     const Study& study = draft.study;
     const Life& life = study.life;
-    const auto check = [&](const char* key, const std::optional<int>& marched,
+    const auto check = [&](const char* key, const std::optional<int>& given_count,
                            RecordQuantity quantity, double scatter) {
         const bool by_law = std::ranges::any_of(study.random, [&](const RandomInput& input) {
             return input.distribution.per_record() && record_quantity(input.key) == quantity;
         });
-        if (marched && scatter == 0.0 && !by_law) {
+        if (given_count && scatter == 0.0 && !by_law) {
             draft.reject(
                 std::string("life.marched_") + key + "s",
                 fmt::format("all records have the same {}, so nothing is interpolated", key),
                 fmt::format("remove it, or let the records' {0} vary (life.{0}_scatter)", key));
         }
     };
-    check("torque", life.marched_torques, RecordQuantity::torque, life.torque_scatter);
-    check("speed", life.marched_speeds, RecordQuantity::speed, life.speed_scatter);
+    check("torque", life.given_torques, RecordQuantity::torque, life.torque_scatter);
+    check("speed", life.given_speeds, RecordQuantity::speed, life.speed_scatter);
 }
 
-// A baseline of too few records has no scatter estimate, and own_deviations() are then NaN.
+// A baseline of too few records has no scatter estimate, and baseline_deviations() are then NaN.
 void check_watch(StudyDraft& draft) {
     const Life& life = draft.study.life;
     const Monitoring& watch = draft.study.monitoring;
@@ -115,7 +115,7 @@ void check_life(StudyDraft& draft) {
     if (*life.last_depth_m >= largest) {
         draft.reject("life.last_depth_mm",
                      fmt::format("{:g} mm cuts through the tooth", 1e3 * *life.last_depth_m),
-                     fmt::format("give a value below {:.6g} mm", shown(1e3 * largest)));
+                     fmt::format("give a value below {:.6g} mm", rounded_down(1e3 * largest)));
     }
     if (study.ensemble.threshold_records > 1) {
         draft.reject("ensemble.threshold_records", "is not allowed with life.interval_h",

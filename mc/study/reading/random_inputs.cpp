@@ -40,24 +40,24 @@ void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
 Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     constexpr int kFileGroups = 900'000;
     Value table = entry.value;
-    const auto wanted = file_column(table);
-    if (!wanted || table.find("values") != nullptr) {
+    const auto source = file_column(table);
+    if (!source || table.find("values") != nullptr) {
         return table;
     }
     const Position at = entry.position;
     Entry values{"values", {}, at}, rows{"rows", {}, at};
     try {
-        values.value = list_of(*wanted, at, kMostElements);
+        values.value = list_of(*source, at, kMostElements);
     } catch (const SignalError& error) {
         reject(draft, entry, key.path(), error.what(), "name a CSV file and one of its columns");
         draft.bad.insert(key.path());
     }
-    const auto known = std::ranges::find(draft.random_files, wanted->file);
+    const auto known = std::ranges::find(draft.random_files, source->file);
     rows.value.kind = Value::Kind::integer;
     rows.value.integer = kFileGroups + (known - draft.random_files.begin());
     rows.value.number = static_cast<double>(rows.value.integer);
     if (known == draft.random_files.end()) {
-        draft.random_files.push_back(wanted->file);
+        draft.random_files.push_back(source->file);
     }
     std::erase_if(table.entries, [](const Entry& one) {
         return one.name == "file" || one.name == "column" || one.name == "rows";

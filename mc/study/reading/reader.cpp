@@ -153,8 +153,8 @@ void fill_lanes(StudyDraft& draft) {
 
 // Without identical mesh periods, all of them are integrated.
 void fill_horizon(StudyDraft& draft) {
-    if (!draft.is_given("numerics.horizon") && !why_no_mesh_repeats(draft.study).empty()) {
-        draft.study.numerics.horizon = Horizon::march;
+    if (!draft.is_given("numerics.horizon") && !reason_not_periodic(draft.study).empty()) {
+        draft.study.numerics.horizon = Horizon::full;
     }
 }
 

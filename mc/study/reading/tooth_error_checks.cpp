@@ -26,7 +26,7 @@ void check_planet_lists(StudyDraft& draft) {
     if (s.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.planets")) {
         return;
     }
-    const UnlikePlanets& p = s.planets;
+    const PlanetDifferences& p = s.planets;
     for (const auto& [key, list] :
          {std::pair{"gearbox.pin_tangential_um", &p.pin_tangential_m},
           std::pair{"gearbox.pin_radial_um", &p.pin_radial_m},

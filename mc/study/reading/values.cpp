@@ -59,10 +59,10 @@ class ValueReader {
     }
 
     void operator()(const NumbersAccess& access) {
-        if (const auto wanted = file_column(value_)) {
+        if (const auto source = file_column(value_)) {
             try {
                 ValueReader(draft_, key_,
-                            {std::string(key_.name), list_of(*wanted, at_), at_})(access);
+                            {std::string(key_.name), list_of(*source, at_), at_})(access);
             } catch (const SignalError& error) {
                 reject(error.what(), "name a CSV file and one of its columns");
             }

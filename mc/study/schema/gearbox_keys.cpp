@@ -20,7 +20,7 @@ constexpr ChoiceName kReliefShapes[] = {name("linear", gears::ReliefShape::linea
 using G = Gearbox;
 using F = FixedShaft;
 using E = MeshErrors;
-using P = UnlikePlanets;
+using P = PlanetDifferences;
 using B = MemberValues;
 using M = MeshValues;
 

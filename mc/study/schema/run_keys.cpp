@@ -16,9 +16,9 @@ constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision
                                       name("single", Precision::single_precision)};
 constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
                                      name("sobol", SamplingKind::sobol)};
-constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse),
-                                    name("superpose", Horizon::superpose),
-                                    name("march", Horizon::march)};
+constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::periodic),
+                                    name("superpose", Horizon::superposed),
+                                    name("march", Horizon::full)};
 // "auto" and the names of all values.
 template <class Enum>
 std::vector<ChoiceName> names_or_auto(std::span<const Enum> values) {
@@ -97,8 +97,8 @@ const Key kRunKeys[] = {
     {"life", "speed_scatter", number<&Life::speed_scatter>, kNone, from_to(0, 0.3), with_life, kShared, "the same as torque_scatter for the speed"},
     {"life", "gain_scatter", number<&Life::gain_scatter>, kNone, from_to(0, 1), with_life, kShared, "the same as torque_scatter for the sensor's gain"},
     {"life", "noise_scatter", number<&Life::noise_scatter>, kNone, from_to(0, 1), with_life, kShared, "the same as torque_scatter for the noise of accelerometer and encoders"},
-    {"life", "marched_torques", integer<&Life::marched_torques>, kNone, from_to(2, 16), with_life, kShared, "number of torques at which a gearbox is simulated if the torque varies between its records, 2 by default; signals in between are interpolated"},
-    {"life", "marched_speeds", integer<&Life::marched_speeds>, kNone, from_to(2, 16), with_life, kShared, "number of speeds at which a gearbox is simulated if the speed varies between its records, 2 by default; signals in between are interpolated"},
+    {"life", "marched_torques", integer<&Life::given_torques>, kNone, from_to(2, 16), with_life, kShared, "number of torques at which a gearbox is simulated if the torque varies between its records, 2 by default; signals in between are interpolated"},
+    {"life", "marched_speeds", integer<&Life::given_speeds>, kNone, from_to(2, 16), with_life, kShared, "number of speeds at which a gearbox is simulated if the speed varies between its records, 2 by default; signals in between are interpolated"},
     {"life", "record_s", number<&Life::record_s>, kS, kPositive, with_life, kShared, "length of a recording; without it and record_turns, every tooth of a planet meets every tooth of the ring once"},
     {"life", "record_turns", number<&Life::record_turns>, kNone, kPositive, planetary<with_life>, kShared, "length of a recording in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
     {"life", "recordings", integer<&Life::recordings>, kNone, from_to(1, 1000), with_life, kShared, "number of recordings that a record averages; short ones each begin with other teeth in mesh"},
@@ -111,7 +111,7 @@ const Key kRunKeys[] = {
     {"numerics", "step_tolerance", number<&Numerics::step_tolerance>, kNone, inside(0, 1), integration, kShared, "estimated error of a step relative to the largest motion, from which the steps of bs3 are chosen on pilot gearboxes"},
     {"numerics", "grid_tolerance", number<&Numerics::grid_tolerance>, kNone, inside(0, 1), integration, kShared, "rms error of the signals of pilot gearboxes, from which the graded grids of all integrators but bs3 are chosen"},
     {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: chosen on pilot gearboxes of the ensemble"},
-    {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit counts as converged to the periodic steady state"},
+    {"numerics", "settle_tolerance", number<&Numerics::convergence_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit counts as converged to the periodic steady state"},
     {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "fraction of the largest value that may be omitted from the terms of the stiffness curves; 0: 1e-13, for a faulty tooth pair 4e-10"},
     {"numerics", "face_slices", integer<&Numerics::face_slices>, kNone, from_to(0, 16), flank_gaps, kShared, "number of slices of a tooth across the face, each with its own gap, for helical or crowned teeth with relief, crowning or an extended contact; 0: 8"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "largest number of mesh periods for converging to the periodic orbit; 0: derived from the damping"},
@@ -123,7 +123,7 @@ const Key kRunKeys[] = {
     {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "number of gearboxes over all fault sizes"},
     {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "number of additional healthy gearboxes that set the thresholds"},
     {"ensemble", "threshold_records", integer<&Ensemble::threshold_records>, kNone, from_to(1, 10000), may, kShared, "number of records of each of these healthy gearboxes: the same vibration with new sensor and encoder noise, for false-alarm rates below one in the number of gearboxes"},
-    {"ensemble", "threshold_tilt", boolean<&Ensemble::threshold_tilt>, kNone, kAny, white_records, kShared, "importance sampling of the noise by exponential tilting: three in four of those records have a stretch of noise tilted towards an alarm, and a weight that corrects for it. For false-alarm rates down to 1e-6 of accelerometer features whose alarms are caused by noise rather than by the gearbox"},
+    {"ensemble", "threshold_tilt", boolean<&Ensemble::importance_sampling>, kNone, kAny, white_records, kShared, "importance sampling of the noise by exponential tilting: three in four of those records have a stretch of noise tilted towards an alarm, and a weight that corrects for it. For false-alarm rates down to 1e-6 of accelerometer features whose alarms are caused by noise rather than by the gearbox"},
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
     {"ensemble", "sampling", choice<&Ensemble::sampling>(kSamplings), kNone, kAny, may, kShared, "sampling of the random inputs: plain (every gearbox independently) or sobol (a Sobol sequence that fills the inputs' ranges evenly, so that thresholds and rates scatter less where inputs rather than noise decide; best with a power of 2 of gearboxes for each fault size)"},
     {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, from_to(0, 1e6), may, kShared, "seconds between two checkpoints"},

@@ -33,7 +33,7 @@ std::vector<double> single_sizes(const Study& study) {
 }  // namespace
 
 const Key& fault_size_key(const Study& study) {
-    return *find_key("fault", sized_as(study).size().name);
+    return *find_key("fault", size_defining_kind(study).size().name);
 }
 
 double fault_size(const Study& study) {
@@ -42,7 +42,7 @@ double fault_size(const Study& study) {
 }
 
 void set_fault_size(Study& study, double size) {
-    sized_as(study).size().access.set(study, size);
+    size_defining_kind(study).size().access.set(study, size);
 }
 
 std::string fault_size_column(const Study& study) {
@@ -98,7 +98,7 @@ analysis::DetectionRequest detection_request(const Study& study) {
         request.uncertain.push_back(find_key(path.substr(0, dot), path.substr(dot + 1))->column());
     }
     request.threshold_records = static_cast<std::size_t>(study.ensemble.threshold_records);
-    request.threshold_tilt = study.ensemble.tilted();
+    request.importance_sampling = study.ensemble.uses_importance_sampling();
     return request;
 }
 

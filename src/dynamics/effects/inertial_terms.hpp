@@ -20,7 +20,7 @@ struct WithInertialTerms {
     }
     // Constant centrifugal acceleration r_c Omega^2 of a planet, along its radius.
     template <class Real>
-    static GEARPOD_INLINE Real pull(Real acceleration, Real direction) {
+    static GEARPOD_INLINE Real centrifugal_acceleration(Real acceleration, Real direction) {
         return acceleration * direction;
     }
 };
@@ -35,7 +35,7 @@ struct WithoutInertialTerms {
         return 0;
     }
     template <class Real>
-    static GEARPOD_INLINE Real pull(Real, Real) {
+    static GEARPOD_INLINE Real centrifugal_acceleration(Real, Real) {
         return 0;
     }
 };

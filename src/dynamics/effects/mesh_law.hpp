@@ -93,9 +93,9 @@ struct SeparatingMesh {
         const Real none = 0;
         const Real front = d - m.e[i];
         const Real back = front + m.backlash[lane];
-        const Real pressed = front > none ? front : back < none ? back : none;
-        const Real rate = pressed != none ? r - m.de[i] : none;
-        return spring_damper(m.k[i], pressed, m.c[i], rate);
+        const Real compression = front > none ? front : back < none ? back : none;
+        const Real rate = compression != none ? r - m.de[i] : none;
+        return spring_damper(m.k[i], compression, m.c[i], rate);
     }
 };
 
@@ -113,11 +113,11 @@ struct UnilateralContact {
         // [contact][pair][lane], N/m and m; the stiffness is 0 where no tooth pair is engaged.
         Real tooth_k[kMostContacts * kRows], tooth_e[kMostContacts * kRows];
         // Gap of a tooth pair in the middle of its path of contact, and its growth along the path,
-        // m. Both are constant during the steps [kept_from, kept_until).
+        // m. Both are constant during the steps [constant_from, constant_until).
         Real gap[kMostToothPairs * kRows], growth[kMostToothPairs * kRows];
         Real backlash[W];
         int contacts = 1;  // number in use
-        int kept_from = 0, kept_until = 0;
+        int constant_from = 0, constant_until = 0;
     };
     // Forces of one gear pair in all lanes, N, from its deflections and their rates, [lane].
     template <int W, class Pairs, class Real>
@@ -143,9 +143,9 @@ struct UnilateralContact {
         for (int l = 0; l < W; ++l) {
             const int i = pair * W + l;
             const Real back = front[l] + m.backlash[l];
-            const Real pressed = back < none ? std::fma(m.k[i], back, f[l]) : f[l];
-            const Real rate = pressed != none ? r[l] - m.de[i] : none;
-            f[l] = std::fma(m.c[i], rate, pressed);
+            const Real compression = back < none ? std::fma(m.k[i], back, f[l]) : f[l];
+            const Real rate = compression != none ? r[l] - m.de[i] : none;
+            f[l] = std::fma(m.c[i], rate, compression);
         }
     }
 };

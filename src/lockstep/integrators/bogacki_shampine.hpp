@@ -37,7 +37,7 @@ struct BogackiShampine {
     };
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides, int i,
                                     State& state, Stages<Model>& s) {
         using Real = RealOf<Model>;
@@ -74,7 +74,7 @@ struct BogackiShampine {
                 const Real a1 = s.a[0][at], a2 = s.a[1][at], a3 = s.a[2][at];
                 const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[at]);
                 const Real rise = std::fma(Real(2), a1, std::fma(Real(3), a2, Real(4) * a3));
-                x.q[at] = advance(x.q[at], x.h[l], slope, x.q_rest, at);
+                x.q[at] = advance(x.q[at], x.h[l], slope, x.q_rounding, at);
                 x.v[at] = std::fma(ninth[l], rise, x.v[at]);
             }
         }

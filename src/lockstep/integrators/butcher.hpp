@@ -71,7 +71,7 @@ struct Butcher {
     using Stages = ExplicitStages<Model, kStages>;
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides, int i,
                                     State& state, Stages<Model>& s) {
         const ExplicitStep<Model, State> x(plan, lanes, i, state);
@@ -89,7 +89,7 @@ struct Butcher {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 const int at = j + l;
-                x.q[at] = advance(x.q[at], x.h[l], slope<kStages>(x, s, at, l), x.q_rest, at);
+                x.q[at] = advance(x.q[at], x.h[l], slope<kStages>(x, s, at, l), x.q_rounding, at);
                 x.v[at] = std::fma(x.h[l], rise<kStages>(s, at), x.v[at]);
             }
         }

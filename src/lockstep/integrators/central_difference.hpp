@@ -23,7 +23,7 @@ struct CentralDifference {
     static constexpr StepCost kCost{0.32, 0.34, 0.34};
     // Between steps without a sample, positions have already drifted to the midpoint of the next
     // step. They are then ahead of the velocities by this fraction of its length.
-    static constexpr double kPositionsAhead = 0.5;
+    static constexpr double kPositionLead = 0.5;
 
     // Trapezoidal rule with the input at the step's midpoint only.
     template <class System>
@@ -39,7 +39,7 @@ struct CentralDifference {
     using Stages = ExplicitStages<Model, 1>;
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides, int i,
                                     State& state, Stages<Model>& s) {
         using Real = RealOf<Model>;
@@ -52,7 +52,7 @@ struct CentralDifference {
             for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
                 for (int l = 0; l < W; ++l) {
-                    x.q[j + l] = advance(x.q[j + l], x.half[l], x.v[j + l], x.q_rest, j + l);
+                    x.q[j + l] = advance(x.q[j + l], x.half[l], x.v[j + l], x.q_rounding, j + l);
                 }
             }
         }
@@ -70,15 +70,15 @@ struct CentralDifference {
             }
         }
         Model::source_accelerations(lanes, x.q, s.v, a, s.input[0]);
-        const Ahead<Real, W> ahead(plan, i, lanes.mesh_period, x.half);
+        const DriftTimes<Real, W> drift_times(plan, i, lanes.mesh_period, x.half);
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 const int at = j + l;
                 const Real v = std::fma(x.h[l], a[at], x.v[at]);
                 x.v[at] = v;
-                x.q[at] = advance(x.q[at], ahead.drift[l], v, x.q_rest, at);
-                s.v[at] = std::fma(ahead.reach[l], a[at], v);
+                x.q[at] = advance(x.q[at], drift_times.drift[l], v, x.q_rounding, at);
+                s.v[at] = std::fma(drift_times.reach[l], a[at], v);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0]);
@@ -88,10 +88,11 @@ struct CentralDifference {
     // Times in seconds: `drift` from a step's midpoint to its end, or on to the next midpoint;
     // `reach` from the end velocity to the next u.
     template <class Real, int W>
-    struct Ahead {
+    struct DriftTimes {
         alignas(64) Real drift[W], reach[W];
 
-        GEARPOD_INLINE Ahead(const MarchPlan& plan, int i, const Real* period, const Real* half) {
+        GEARPOD_INLINE DriftTimes(const IntegrationPlan& plan, int i, const Real* period,
+                                  const Real* half) {
             const auto now = static_cast<std::size_t>(i);
             const bool last = now + 1 == plan.grid.steps.size();
             const Step& next = plan.grid.steps[last ? now : now + 1];

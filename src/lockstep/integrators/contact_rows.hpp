@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lockstep/integrators/march_state.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/integrators/integration_state.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {
 
 // Fills a row with one value for all lanes.
 template <int W, class Real>
-GEARPOD_INLINE void spread(double value, Real* __restrict row) {
+GEARPOD_INLINE void broadcast(double value, Real* __restrict row) {
     const Real rounded = static_cast<Real>(value);
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
@@ -48,8 +48,8 @@ GEARPOD_INLINE void clear_errors(typename Model::Pairs& m) {
 
 // Sets the rows that stay constant from this step until other teeth engage.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overrides, int step,
-                              typename Model::Pairs& m) {
+GEARPOD_INLINE void set_constant_rows(const IntegrationPlan& plan, const MeshOverrides& overrides,
+                                      int step, typename Model::Pairs& m) {
     using Real = RealOf<Model>;
     constexpr int kRows = Model::Pairs::kRows;
     const int teeth = std::max(1, plan.nodes.tooth_pairs);
@@ -59,11 +59,12 @@ GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overri
     std::fill_n(m.tooth_e, m.contacts * kRows, Real(0));
     std::fill_n(m.gap, teeth * kRows, Real(0));
     std::fill_n(m.growth, teeth * kRows, Real(0));
-    m.kept_from = step;
-    m.kept_until = static_cast<int>(plan.grid.steps.size());
+    m.constant_from = step;
+    m.constant_until = static_cast<int>(plan.grid.steps.size());
     for (const PairGaps& g : overrides.gaps) {
         if (step < g.last_step) {
-            m.kept_until = std::min(m.kept_until, step < g.first_step ? g.first_step : g.last_step);
+            m.constant_until =
+                std::min(m.constant_until, step < g.first_step ? g.first_step : g.last_step);
         }
         if (step < g.first_step || step >= g.last_step) {
             continue;
@@ -93,8 +94,8 @@ GEARPOD_INLINE void load_contact(double stiffness, double place, double shared,
 
 // Loads stiffness and gaps of all pairs' springs at a stage node; call it after loading the pairs.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void load_contacts(const MarchPlan& plan, const MeshOverrides& overrides, int step,
-                                  int node, typename Model::Pairs& m) {
+GEARPOD_INLINE void load_contacts(const IntegrationPlan& plan, const MeshOverrides& overrides,
+                                  int step, int node, typename Model::Pairs& m) {
     constexpr int kRows = Model::Pairs::kRows;
     const StiffnessNodes& table = plan.nodes;
     const int pairs = table.pairs, slices = table.slices, known = table.contacts();

@@ -2,7 +2,7 @@
 // accelerations of a stage.
 #pragma once
 
-#include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/integration_steps.hpp"
 #include "lockstep/integrators/method.hpp"
 
 namespace gearpod::lockstep {
@@ -26,17 +26,17 @@ struct ExplicitStep {
     const int channels, size;
     Real* __restrict const q;
     Real* __restrict const v;
-    const decltype(position_rest(std::declval<State&>())) q_rest;
+    const decltype(position_rounding(std::declval<State&>())) q_rounding;
     alignas(64) Real h[W], half[W];
 
-    GEARPOD_INLINE ExplicitStep(const MarchPlan& plan, const typename Model::Lanes& lanes, int i,
-                                State& state)
+    GEARPOD_INLINE ExplicitStep(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
+                                int i, State& state)
         : step(plan.grid.steps[static_cast<std::size_t>(i)]),
           channels(2 * Model::sources(lanes)),
           size(Model::degrees_of_freedom(lanes) * W),
           q(state.q.data()),
           v(state.v.data()),
-          q_rest(position_rest(state)) {
+          q_rounding(position_rounding(state)) {
         const Real length = static_cast<Real>(step.length);
         for (int l = 0; l < W; ++l) {
             h[l] = length * lanes.mesh_period[l];

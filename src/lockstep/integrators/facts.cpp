@@ -21,9 +21,9 @@ IntegratorFacts facts_of(std::string_view kernels) {
     const auto has = [&](std::string_view kind) {
         return kernels.find(kind) != std::string_view::npos;
     };
-    facts.marches_singles = has("singles");
-    facts.marches_forced = has("forced");
-    facts.marches_paced = has("paced");
+    facts.has_single_precision = has("singles");
+    facts.supports_varying_forces = has("forced");
+    facts.supports_variable_speed = has("variable_speed");
     if constexpr (kImplicit<Method>) {
         facts.span = Method::kSpan;
     }

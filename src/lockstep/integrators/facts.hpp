@@ -20,9 +20,10 @@ struct IntegratorFacts {
     std::vector<double> stage_nodes;
     double steps_in_band;
     StepCost cost;
-    bool is_explicit, marches_singles;
-    bool marches_forced, marches_paced;  // under time-varying forces, at variable speed
-    ImplicitSpan span;                   // 0 for an explicit method
+    bool is_explicit, has_single_precision;
+    bool supports_varying_forces,
+        supports_variable_speed;  // under time-varying forces, at variable speed
+    ImplicitSpan span;            // 0 for an explicit method
     std::complex<double> (*growth)(std::complex<double>);  // or null
     FilterMap (*filter)(const FilterSystem&);
 };
@@ -44,8 +45,8 @@ inline const std::vector<double>& stage_nodes(Integrator integrator) {
 inline bool is_explicit(Integrator integrator) {
     return facts(integrator).is_explicit;
 }
-inline bool marches_singles(Integrator integrator) {
-    return facts(integrator).marches_singles;
+inline bool has_single_precision(Integrator integrator) {
+    return facts(integrator).has_single_precision;
 }
 
 }  // namespace gearpod::lockstep

@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "lockstep/integrators/implicit_stage.hpp"
-#include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/integration_steps.hpp"
 
 namespace gearpod::lockstep {
 
 // True if the stiffness of any pair jumps at the start of a step, or if it is the first step. Only
 // data shared by all lanes decide, so that a lane's bits do not depend on other lanes.
-inline bool jumps(const MarchPlan& plan, int step) {
+inline bool jumps(const IntegrationPlan& plan, int step) {
     if (step == 0) {
         return true;
     }
@@ -80,7 +80,7 @@ struct GeneralizedAlpha {
     };
 
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const ImplicitLanes<W>& lanes,
                                     const machine::AlignedVector& filter,
                                     const MeshOverrides& overrides, int i, TileState& state,
                                     Stages<Model>& s) {

@@ -137,7 +137,7 @@ void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, 
 }  // namespace
 
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, const ImplicitSpan& span,
+ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs) {
     assert(inputs.size() == W);
     ImplicitLanes<W> lanes;
@@ -174,8 +174,8 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, const ImplicitSpan& 
     return lanes;
 }
 
-#define GEARPOD_IMPLICIT_LANES(W, REAL)                                                     \
-    template ImplicitLanes<W> make_implicit_lanes<W>(const MarchPlan&, const ImplicitSpan&, \
+#define GEARPOD_IMPLICIT_LANES(W, REAL)                                                           \
+    template ImplicitLanes<W> make_implicit_lanes<W>(const IntegrationPlan&, const ImplicitSpan&, \
                                                      std::span<const dynamics::GearboxInputs>);
 GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_IMPLICIT_LANES)
 #undef GEARPOD_IMPLICIT_LANES

@@ -19,7 +19,7 @@
 
 #include "lockstep/integrators/method.hpp"
 #include "lockstep/integrators/sparse_lu.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::lockstep {
 
@@ -66,12 +66,12 @@ struct ImplicitLanes {
 // Makes the lanes for the plan's grid and an integrator with the given span. `inputs` holds W
 // gearboxes of the plan's kind.
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, const ImplicitSpan& span,
+ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs);
 
 #define GEARPOD_IMPLICIT_LANES(W, REAL)                      \
     extern template ImplicitLanes<W> make_implicit_lanes<W>( \
-        const MarchPlan&, const ImplicitSpan&, std::span<const dynamics::GearboxInputs>);
+        const IntegrationPlan&, const ImplicitSpan&, std::span<const dynamics::GearboxInputs>);
 GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_IMPLICIT_LANES)
 #undef GEARPOD_IMPLICIT_LANES
 

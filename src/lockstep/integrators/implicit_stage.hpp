@@ -7,7 +7,7 @@
 #include "dynamics/effects/inertial_terms.hpp"
 #include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/integrators/implicit_lanes.hpp"
-#include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/integration_steps.hpp"
 #include "lockstep/integrators/method.hpp"
 #include "machine/dispatch.hpp"
 
@@ -59,18 +59,20 @@ template <class Model, int W = Model::kWidth>
 struct alignas(64) StageScratch {
     static constexpr int kRows = Model::kMaxPairs * W;
     typename Model::Pairs pairs;
-    double g[Model::kMaxDegrees * W];         // forces except those of the meshes, N
-    double force[kRows];                      // mesh forces, N
-    double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
-    double touching[kRows], back[kRows];      // state of a separating mesh: see part()
-    double held[kRows], preload[kRows];       // state of unilateral contact: see push()
-    double s[kRows];                          // S
+    double g[Model::kMaxDegrees * W];     // forces except those of the meshes, N
+    double force[kRows];                  // mesh forces, N
+    double d[kRows], r[kRows], y[kRows];  // R x, R v, R y
+    double in_contact[kRows],
+        back[kRows];  // state of a separating mesh: see update_flank_contact()
+    double active_stiffness[kRows],
+        preload[kRows];  // state of unilateral contact: see update_unilateral_contact()
+    double s[kRows];     // S
     double matrix[Model::kMaxPairs * kRows];  // remainder of G during the elimination
 };
 
 // Hides the address of a row from the compiler. It then vectorizes over the lanes of one entry,
 // instead of gathering from several entries.
-GEARPOD_INLINE const double* one_row(const double* row) {
+GEARPOD_INLINE const double* opaque_row(const double* row) {
     asm("" : "+r"(row));
     return row;
 }
@@ -103,9 +105,9 @@ GEARPOD_INLINE void free_forces(const ImplicitLanes<W>& p, const double* __restr
     const int* __restrict from = p.coupling.from.data();
     const double* __restrict c_k = p.c_k.data();
     for (int e = 0; e < p.coupling.size(); ++e) {
-        const double* __restrict entry = one_row(c_k + 2 * e * W);
-        const double* __restrict xj = one_row(x + from[e] * W);
-        const double* __restrict vj = one_row(v + from[e] * W);
+        const double* __restrict entry = opaque_row(c_k + 2 * e * W);
+        const double* __restrict xj = opaque_row(x + from[e] * W);
+        const double* __restrict vj = opaque_row(v + from[e] * W);
         double* __restrict sum = g + to[e] * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
@@ -120,7 +122,7 @@ GEARPOD_INLINE void substitute(const SparseEntries& entries, const double* facto
     const int* __restrict to = entries.to.data();
     const int* __restrict from = entries.from.data();
     for (int e = 0; e < entries.size(); ++e) {
-        subtract_product<W>(one_row(factor + e * W), one_row(y + from[e] * W), y + to[e] * W);
+        subtract_product<W>(opaque_row(factor + e * W), opaque_row(y + from[e] * W), y + to[e] * W);
     }
 }
 
@@ -144,11 +146,11 @@ template <int W>
 GEARPOD_INLINE void deflections(const ImplicitLanes<W>& p, const double* __restrict values,
                                 double* __restrict out) {
     for (int i = 0; i < p.pairs * W; i += W) {
-        spread<W>(0.0, out + i);
+        broadcast<W>(0.0, out + i);
     }
     for (int e = 0; e < p.row_entries; ++e) {
         for (int pair = 0; pair < p.pairs; ++pair) {
-            const double* __restrict value = one_row(values + p.row_degree[pair][e] * W);
+            const double* __restrict value = opaque_row(values + p.row_degree[pair][e] * W);
             const double weight = p.row_weight[pair][e];
             double* __restrict sum = out + pair * W;
 #pragma omp simd
@@ -166,7 +168,7 @@ GEARPOD_INLINE void subtract_mesh_forces(const ImplicitLanes<W>& p, const double
     for (int pair = 0; pair < p.pairs; ++pair) {
         for (int e = 0; e < p.row_entries; ++e) {
             double* __restrict sum = g + p.row_degree[pair][e] * W;
-            const double* __restrict load = one_row(force + pair * W);
+            const double* __restrict load = opaque_row(force + pair * W);
             const double weight = p.row_weight[pair][e];
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -185,12 +187,12 @@ GEARPOD_INLINE void mesh_loads(const ImplicitLanes<W>& p, const StageSpan<W>& sp
         for (int l = 0; l < W; ++l) {
             double k = t.pairs.k[i + l], c = t.pairs.c[i + l], d = t.d[i + l], r = t.r[i + l];
             if constexpr (Model::Mesh::kSeparates) {
-                k *= t.touching[i + l];
-                c *= t.touching[i + l];
+                k *= t.in_contact[i + l];
+                c *= t.in_contact[i + l];
                 d += t.back[i + l];
             }
             if constexpr (Model::Mesh::kHasTeeth) {
-                k = t.held[i + l];
+                k = t.active_stiffness[i + l];
             }
             if constexpr (Model::Mesh::kHasError) {
                 d -= t.pairs.e[i + l];
@@ -215,7 +217,7 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
     alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the eliminated pairs
     alignas(64) double factor[W];
     for (int i = 0; i < pairs * W; i += W) {
-        spread<W>(0.0, sum + i);
+        broadcast<W>(0.0, sum + i);
     }
     for (int i = 0; i < pairs; ++i) {
         const double* left = i == 0 ? g : matrix;  // remainder of G; all of it for the first pivot
@@ -236,7 +238,7 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
                 factor[l] = other[at + l] * e[at + l];
             }
             for (int c = at + W; c < pairs * W; c += W) {
-                const double* pivot_row = one_row(row + c);
+                const double* pivot_row = opaque_row(row + c);
 #pragma omp simd
                 for (int l = 0; l < W; ++l) {
                     rest[c + l] = std::fma(-factor[l], pivot_row[l], other[c + l]);
@@ -245,13 +247,13 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
         }
     }
     for (int i = 0; i < pairs * W; i += W) {
-        spread<W>(0.0, sum + i);
+        broadcast<W>(0.0, sum + i);
     }
     for (int i = pairs - 1; i >= 0; --i) {
         const int at = i * W;
         subtract_product<W>(e + at, sum + at, force + at);
         for (int r = i - 1; r >= 0; --r) {
-            const double* row = one_row((r == 0 ? g : matrix + r * pairs * W) + at);
+            const double* row = opaque_row((r == 0 ? g : matrix + r * pairs * W) + at);
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 sum[r * W + l] = std::fma(row[l], force[at + l], sum[r * W + l]);
@@ -261,34 +263,36 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
 }
 
 // Determines which flanks of a separating mesh touch if it deflects by `front` beyond its error.
-// t.touching is 1 or 0; t.back is the backlash if the back flanks touch. Returns 1 if any lane
+// t.in_contact is 1 or 0; t.back is the backlash if the back flanks touch. Returns 1 if any lane
 // changed.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE int part(int i, const double* __restrict front, StageScratch<Model>& t) {
+GEARPOD_INLINE int update_flank_contact(int i, const double* __restrict front,
+                                        StageScratch<Model>& t) {
     int changes = 0;
 #pragma omp simd reduction(| : changes)
     for (int l = 0; l < W; ++l) {
-        const bool behind = front[l] + t.pairs.backlash[l] < 0.0;
-        const double touching = front[l] > 0.0 || behind ? 1.0 : 0.0;
-        const double back = behind ? t.pairs.backlash[l] : 0.0;
-        changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
-        t.touching[i + l] = touching;
+        const bool on_back = front[l] + t.pairs.backlash[l] < 0.0;
+        const double in_contact = front[l] > 0.0 || on_back ? 1.0 : 0.0;
+        const double back = on_back ? t.pairs.backlash[l] : 0.0;
+        changes |= in_contact != t.in_contact[i + l] || back != t.back[i + l] ? 1 : 0;
+        t.in_contact[i + l] = in_contact;
         t.back[i + l] = back;
     }
     return changes;
 }
 
-// Same for unilateral contact. The springs in contact combine to one spring t.held with a preload
-// t.preload (N) at the mesh's error. t.touching is 1 if any spring is in contact.
+// Same for unilateral contact. The springs in contact combine to one spring t.active_stiffness with
+// a preload t.preload (N) at the mesh's error. t.in_contact is 1 if any spring is in contact.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Model>& t) {
+GEARPOD_INLINE int update_unilateral_contact(int i, const double* __restrict front,
+                                             StageScratch<Model>& t) {
     constexpr int kRows = StageScratch<Model>::kRows;
-    alignas(64) double held[W], preload[W];
+    alignas(64) double active_stiffness[W], preload[W];
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        const bool behind = front[l] + t.pairs.backlash[l] < 0.0;
-        held[l] = behind ? t.pairs.k[i + l] : 0.0;
-        preload[l] = behind ? -t.pairs.k[i + l] * t.pairs.backlash[l] : 0.0;
+        const bool on_back = front[l] + t.pairs.backlash[l] < 0.0;
+        active_stiffness[l] = on_back ? t.pairs.k[i + l] : 0.0;
+        preload[l] = on_back ? -t.pairs.k[i + l] * t.pairs.backlash[l] : 0.0;
     }
     for (int j = 0; j < t.pairs.contacts; ++j) {
         const double* __restrict k = t.pairs.tooth_k + j * kRows + i;
@@ -296,18 +300,20 @@ GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Mode
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const double own = front[l] > e[l] ? k[l] : 0.0;
-            held[l] += own;
+            active_stiffness[l] += own;
             preload[l] = std::fma(own, e[l], preload[l]);
         }
     }
     int changes = 0;
 #pragma omp simd reduction(| : changes)
     for (int l = 0; l < W; ++l) {
-        const double touching = held[l] > 0.0 ? 1.0 : 0.0;
-        changes |= held[l] != t.held[i + l] || preload[l] != t.preload[i + l] ? 1 : 0;
-        t.held[i + l] = held[l];
+        const double in_contact = active_stiffness[l] > 0.0 ? 1.0 : 0.0;
+        changes |=
+            active_stiffness[l] != t.active_stiffness[i + l] || preload[l] != t.preload[i + l] ? 1
+                                                                                               : 0;
+        t.active_stiffness[i + l] = active_stiffness[l];
         t.preload[i + l] = preload[l];
-        t.touching[i + l] = touching;
+        t.in_contact[i + l] = in_contact;
     }
     return changes;
 }
@@ -315,8 +321,8 @@ GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Mode
 // Updates the contacts at the stage's end. There a mesh deflects by R Q = d + b (y - G F) with F =
 // t.force (0 if `first`). Returns true if any lane changed.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,
-                          const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
+GEARPOD_INLINE bool update_contacts(const ImplicitLanes<W>& p, const double* __restrict matrix,
+                                    const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
     int changes = 0;
     alignas(64) double rest[W];
     for (int pair = 0; pair < p.pairs; ++pair) {
@@ -336,9 +342,9 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict ma
             rest[l] = std::fma(span.b[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
         }
         if constexpr (Model::Mesh::kHasTeeth) {
-            changes |= push<Model>(i, rest, t);
+            changes |= update_unilateral_contact<Model>(i, rest, t);
         } else {
-            changes |= part<Model>(i, rest, t);
+            changes |= update_flank_contact<Model>(i, rest, t);
         }
     }
     return changes != 0;
@@ -348,17 +354,17 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict ma
 // a converged lane does not change in further iterations. Occasionally no solution exists: the
 // damper of flanks that just meet would separate them, and without it they meet. The last iterate
 // is then used for this one step of an impact.
-inline constexpr int kMostRounds = 6;
+inline constexpr int kMaxContactIterations = 6;
 
 // Computes the forces of separating meshes.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* __restrict g,
                                       const StageSpan<W>& span, StageScratch<Model>& t) {
-    touch<Model>(p, g, span, true, t);
-    for (int round = 0; round < kMostRounds; ++round) {
+    update_contacts<Model>(p, g, span, true, t);
+    for (int round = 0; round < kMaxContactIterations; ++round) {
         mesh_loads<Model>(p, span, t);
         solve_meshes<W>(p.pairs, g, t.s, t.matrix, t.force);
-        if (!touch<Model>(p, g, span, false, t)) {
+        if (!update_contacts<Model>(p, g, span, false, t)) {
             return;
         }
     }

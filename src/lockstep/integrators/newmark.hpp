@@ -4,7 +4,7 @@
 #pragma once
 
 #include "lockstep/integrators/implicit_stage.hpp"
-#include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/integration_steps.hpp"
 
 namespace gearpod::lockstep {
 
@@ -30,7 +30,7 @@ struct Newmark {
     };
 
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const ImplicitLanes<W>& lanes,
                                     const machine::AlignedVector& filter,
                                     const MeshOverrides& overrides, int i, TileState& state,
                                     Stages<Model>& s) {

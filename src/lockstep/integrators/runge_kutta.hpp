@@ -40,7 +40,7 @@ struct RungeKutta4 {
     // The stage positions and velocities follow from the stage accelerations, so only those are
     // stored.
     template <class Model, class State, class Filter, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides, int i,
                                     State& state, Stages<Model>& s) {
         using Real = RealOf<Model>;
@@ -62,7 +62,7 @@ struct RungeKutta4 {
             if (stage < 2) {
                 move<W>(x.size, x.half, x.q, from_v, x.v, a, s.q, s.v);
             } else if (stage == 2) {
-                most_of_step<Model>(x, sixth, s);
+                advance_before_last_stage<Model>(x, sixth, s);
             }
         }
         for (int j = 0; j < x.size; j += W) {
@@ -78,7 +78,8 @@ struct RungeKutta4 {
     // Adds all but the last stage's contribution to the velocity; sets s.q and s.v to the last
     // stage's arguments.
     template <class Model, class Step, class Real, int W = Model::kWidth>
-    static GEARPOD_INLINE void most_of_step(const Step& x, const Real* sixth, Stages<Model>& s) {
+    static GEARPOD_INLINE void advance_before_last_stage(const Step& x, const Real* sixth,
+                                                         Stages<Model>& s) {
         for (int j = 0; j < x.channels * W; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -94,7 +95,7 @@ struct RungeKutta4 {
                 s.v[at] = std::fma(x.h[l], s.a[2][at], x.v[at]);
                 // New position, and the part of the new velocity known before the last stage.
                 x.q[at] = advance(x.q[at], x.h[l], std::fma(sixth[l], s.a[0][at] + sum, x.v[at]),
-                                  x.q_rest, at);
+                                  x.q_rounding, at);
                 x.v[at] = std::fma(sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v[at]);
             }
         }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "lockstep/integrators/implicit_stage.hpp"
-#include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/integration_steps.hpp"
 
 namespace gearpod::lockstep {
 
@@ -51,7 +51,7 @@ struct Sdirk3 {
     };
 
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+    static GEARPOD_INLINE void step(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const machine::AlignedVector& filter,
                                     const MeshOverrides& overrides, int i, TileState& state,
                                     Stages<Model>& s) {
@@ -110,7 +110,8 @@ struct Sdirk3 {
     // Computes the stage's velocity and acceleration from s.x and s.v, its positions in s.q_end,
     // and the sensor's input.
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
+    static GEARPOD_INLINE void stage(const IntegrationPlan& plan,
+                                     const typename Model::Lanes& lanes,
                                      const MeshOverrides& overrides, int i, int node,
                                      const StageSpan<W>& span, Stages<Model>& s,
                                      double* __restrict velocity, double* __restrict acceleration) {

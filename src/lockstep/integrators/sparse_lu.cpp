@@ -9,7 +9,7 @@ using Pattern = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 // Row with the fewest neighbours among the remaining ones; this greedy order (minimum degree)
 // causes little fill-in.
-int fewest_neighbours(const Pattern& filled, const std::vector<int>& left) {
+int minimum_degree_row(const Pattern& filled, const std::vector<int>& left) {
     const auto neighbours = [&](int row) {
         return std::count_if(left.begin(), left.end(),
                              [&](int other) { return other != row && filled(row, other); });
@@ -41,7 +41,7 @@ SparseLu eliminate(const Eigen::MatrixXd& pattern) {
     }
     SparseLu lu;
     while (!left.empty()) {
-        const int pivot = fewest_neighbours(filled, left);
+        const int pivot = minimum_degree_row(filled, left);
         lu.order.push_back(pivot);
         left.erase(std::find(left.begin(), left.end(), pivot));
         for (const int row : left) {

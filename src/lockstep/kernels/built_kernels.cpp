@@ -6,20 +6,20 @@
 
 namespace gearpod::lockstep {
 
-void choose_instruction_set(std::optional<machine::InstructionSet> asked_for) {
+void choose_instruction_set(std::optional<machine::InstructionSet> requested) {
     const std::vector<machine::InstructionSet> built = built_instruction_sets();
     const machine::InstructionSet best = machine::best_instruction_set();
-    if (asked_for && *asked_for <= best &&
-        std::find(built.begin(), built.end(), *asked_for) == built.end()) {
-        throw NoSuchKernel(fmt::format("this program was built without {} (it marches {})",
-                                       machine::name(*asked_for), built_kernels()));
+    if (requested && *requested <= best &&
+        std::find(built.begin(), built.end(), *requested) == built.end()) {
+        throw MissingKernel(fmt::format("this program was built without {} (it marches {})",
+                                        machine::name(*requested), built_kernels()));
     }
-    if (asked_for) {
-        return machine::use_instruction_set(*asked_for);
+    if (requested) {
+        return machine::use_instruction_set(*requested);
     }
     const auto above = std::upper_bound(built.begin(), built.end(), best);
     if (above == built.begin()) {
-        throw NoSuchKernel(
+        throw MissingKernel(
             fmt::format("this program was built for {}, and this processor has {}: build "
                         "it here, or for all (preset portable)",
                         machine::name(built.front()), machine::name(best)));
@@ -36,8 +36,8 @@ int lanes_for(Precision precision, int gearboxes) {
 void check_lanes(Precision precision, int lanes) {
     const std::vector<int> built = built_lanes(precision);
     if (std::find(built.begin(), built.end(), lanes) == built.end()) {
-        throw NoSuchKernel(fmt::format("this program was built without {} lanes (it marches {})",
-                                       lanes, built_kernels()));
+        throw MissingKernel(fmt::format("this program was built without {} lanes (it marches {})",
+                                        lanes, built_kernels()));
     }
 }
 

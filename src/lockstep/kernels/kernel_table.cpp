@@ -11,11 +11,11 @@ namespace gearpod::lockstep {
 namespace {
 
 // Largest numbers of lanes for each precision; they fill the registers of AVX-512.
-constexpr int kMostDoubles = 8, kMostSingles = 16;
+constexpr int kMaxDoubleLanes = 8, kMaxSingleLanes = 16;
 
 bool fills_registers(const KernelKey& key) {
     return key.lanes ==
-           (key.precision == Precision::double_precision ? kMostDoubles : kMostSingles);
+           (key.precision == Precision::double_precision ? kMaxDoubleLanes : kMaxSingleLanes);
 }
 
 std::string text_of(const std::vector<int>& lanes) {
@@ -53,7 +53,7 @@ KernelTable::Function KernelTable::find(KernelKey key, std::type_index lanes) co
         }
         return found->second.kernel;
     }
-    throw NoSuchKernel(
+    throw MissingKernel(
         fmt::format("this program marches {}, not {} {} by {}", built_kernels(), key.lanes,
                     key.precision == Precision::double_precision ? "doubles" : "singles",
                     name(key.integrator)));

@@ -11,32 +11,32 @@
 #include <typeindex>
 #include <vector>
 
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {
 
 // Equations of motion: the models of explicit integrators, or the matrices of any gearbox for
 // implicit ones.
-enum class Moving { translational_inertial, translational, torsional, fixed_shaft, matrices };
+enum class MotionModel { translational_inertial, translational, torsional, fixed_shaft, matrices };
 // Input excitation: constant load and speed, time-varying forces, or variable speed (with or
 // without such forces).
-enum class Drive { steady, forced, paced };
+enum class ExcitationKind { steady, forced, variable_speed };
 
 struct KernelKey {
     Integrator integrator{};
     dynamics::MeshLaw law{};
-    Drive drive{};
+    ExcitationKind excitation{};
     Precision precision{};
     machine::InstructionSet set{};
-    Moving moving{};
+    MotionModel motion_model{};
     int lanes = 0;
 
     auto operator<=>(const KernelKey&) const = default;
 };
 
 // Error thrown if the program has no kernel of that instruction set or width.
-class NoSuchKernel : public std::invalid_argument {
+class MissingKernel : public std::invalid_argument {
   public:
     using std::invalid_argument::invalid_argument;
 };
@@ -44,15 +44,15 @@ class NoSuchKernel : public std::invalid_argument {
 class KernelTable {
   public:
     template <class Lanes>
-    void add(const KernelKey& key, MarchKernel<Lanes>* kernel) {
+    void add(const KernelKey& key, IntegrationKernel<Lanes>* kernel) {
         add(key, {typeid(Lanes), reinterpret_cast<Function>(kernel)});
     }
 
     // Kernel of the key's instruction set, or of the next lower one that has this many lanes.
-    // Throws NoSuchKernel.
+    // Throws MissingKernel.
     template <class Lanes>
-    MarchKernel<Lanes>* find(const KernelKey& key) const {
-        return reinterpret_cast<MarchKernel<Lanes>*>(find(key, typeid(Lanes)));
+    IntegrationKernel<Lanes>* find(const KernelKey& key) const {
+        return reinterpret_cast<IntegrationKernel<Lanes>*>(find(key, typeid(Lanes)));
     }
 
     // All keys, ascending.

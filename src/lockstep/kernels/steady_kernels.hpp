@@ -6,22 +6,23 @@
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
 #include "lockstep/integrators/implicit_stage.hpp"
-#include "lockstep/kernels/march_kernel.hpp"
+#include "lockstep/kernels/integration_kernel.hpp"
 
 namespace gearpod::lockstep {
 
 template <machine::InstructionSet kSet, class Method, class Law, class Real, int W>
 void add_steady(KernelTable& table, const KernelKey& key) {
     if constexpr (kImplicit<Method>) {
-        add_kernel<kSet, Method, MatrixMotion<Law, W>>(table, key, Moving::matrices);
+        add_kernel<kSet, Method, MatrixMotion<Law, W>>(table, key, MotionModel::matrices);
     } else {
         using namespace dynamics;
         add_kernel<kSet, Method, TranslationalMotion<WithInertialTerms, Law, W, Real>>(
-            table, key, Moving::translational_inertial);
+            table, key, MotionModel::translational_inertial);
         add_kernel<kSet, Method, TranslationalMotion<WithoutInertialTerms, Law, W, Real>>(
-            table, key, Moving::translational);
-        add_kernel<kSet, Method, TorsionalMotion<Law, W, Real>>(table, key, Moving::torsional);
-        add_kernel<kSet, Method, FixedShaftMotions<Law, W, Real>>(table, key, Moving::fixed_shaft);
+            table, key, MotionModel::translational);
+        add_kernel<kSet, Method, TorsionalMotion<Law, W, Real>>(table, key, MotionModel::torsional);
+        add_kernel<kSet, Method, FixedShaftMotions<Law, W, Real>>(table, key,
+                                                                  MotionModel::fixed_shaft);
     }
 }
 

@@ -14,8 +14,8 @@ double knot_deviation() {
     return std::sqrt(315.0 / 151.0);
 }
 
-void check_excitation(const Excitation* excitation, int march_meshes) {
-    if (excitation != nullptr && !excitation->repeats() && march_meshes == 0) {
+void check_excitation(const Excitation* excitation, int recorded_meshes) {
+    if (excitation != nullptr && !excitation->repeats() && recorded_meshes == 0) {
         throw std::invalid_argument("an excitation that does not repeat needs every mesh marched");
     }
 }

@@ -48,8 +48,8 @@ struct Excitation {
     std::optional<Gravity> gravity;
     // Used with `speed`: the degree of freedom at which the speed is imposed, and the train's
     // velocity along dynamics::rigid_rotation, [lane], m/s.
-    int driving = 0;
-    machine::AlignedVector turning_m_s;
+    int input_degree = 0;
+    machine::AlignedVector rotation_m_s;
 
     // True if every mesh period has the same excitation as the first one.
     bool repeats() const {
@@ -58,7 +58,7 @@ struct Excitation {
 };
 
 // Throws std::invalid_argument if the excitation does not repeat but only a periodic orbit is
-// integrated (march_meshes 0).
-void check_excitation(const Excitation* excitation, int march_meshes);
+// integrated (recorded_meshes 0).
+void check_excitation(const Excitation* excitation, int recorded_meshes);
 
 }  // namespace gearpod::lockstep

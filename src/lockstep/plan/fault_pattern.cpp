@@ -21,7 +21,7 @@ void sort_passages(FaultPattern& pattern) {
 
 // Pattern of a sun or ring tooth. `order` is +1 if the tooth meets the planets in ascending order,
 // -1 if in descending order.
-FaultPattern central_gear_pattern(const PairSet& pairs, const PlanetTurns& planets, int teeth,
+FaultPattern central_gear_pattern(const PairSet& pairs, const PlanetPositions& planets, int teeth,
                                   int first_pair, int order) {
     FaultPattern pattern;
     pattern.length = teeth;
@@ -37,8 +37,8 @@ FaultPattern central_gear_pattern(const PairSet& pairs, const PlanetTurns& plane
 
 }  // namespace
 
-PlanetTurns equal_planets(int planets) {
-    PlanetTurns turns;
+PlanetPositions equal_planets(int planets) {
+    PlanetPositions turns;
     for (int n = 0; n < planets; ++n) {
         turns.position.push_back(static_cast<double>(n) / planets);
     }
@@ -47,11 +47,13 @@ PlanetTurns equal_planets(int planets) {
 
 // The sun overtakes the planets in ascending order, and the planets overtake the ring in descending
 // order. Both orders are swapped if the sun turns more slowly than the carrier.
-FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetTurns& planets, int sun_teeth) {
+FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetPositions& planets,
+                               int sun_teeth) {
     return central_gear_pattern(pairs, planets, sun_teeth, 0, pairs.reversed ? -1 : 1);
 }
 
-FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetTurns& planets, int ring_teeth) {
+FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetPositions& planets,
+                                int ring_teeth) {
     return central_gear_pattern(pairs, planets, ring_teeth, planets.planets(),
                                 pairs.reversed ? 1 : -1);
 }

@@ -26,18 +26,19 @@ struct FaultPattern {
 };
 
 // Angular positions of a planetary train's planets.
-struct PlanetTurns {
+struct PlanetPositions {
     // psi_n / 2 pi, ascending in [0, 1); the first is 0
     std::vector<double> position;
     int planets() const { return static_cast<int>(position.size()); }
 };
-PlanetTurns equal_planets(int planets);
+PlanetPositions equal_planets(int planets);
 
 // Patterns of a sun or ring tooth. It meets all planets in turn, and returns to the first one after
 // one revolution relative to the carrier. The first passage is the engagement with planet 1 that
 // starts in mesh period 0. All passages use curve 0.
-FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetTurns& planets, int sun_teeth);
-FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetTurns& planets, int ring_teeth);
+FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetPositions& planets, int sun_teeth);
+FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetPositions& planets,
+                                int ring_teeth);
 
 // Pattern of a planet tooth, which meets the sun, or the ring, once per planet revolution. With
 // PlanetSide::both, the two engagements are half a revolution apart. From pitch point to pitch

@@ -14,7 +14,7 @@ bool FaultCurves::faulty(int lane) const {
     });
 }
 
-FaultSchedule::FaultSchedule(const MarchPlan& plan, const FaultCurves& faults)
+FaultSchedule::FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults)
     : plan_(plan), faults_(faults) {
     for (const auto& lanes : faults.curve) {
         double longest = 0.0;
@@ -53,11 +53,11 @@ int FaultSchedule::in_pattern(int k) const {
 
 MeshOverrides FaultSchedule::all_overrides(int k) {
     const int mesh = in_pattern(k);
-    auto kept = kept_.find(mesh);
-    if (kept == kept_.end()) {
-        kept = kept_.emplace(mesh, overrides(mesh)).first;
+    auto cached = cache_.find(mesh);
+    if (cached == cache_.end()) {
+        cached = cache_.emplace(mesh, overrides(mesh)).first;
     }
-    MeshOverrides all{kept->second, {}};
+    MeshOverrides all{cached->second, {}};
     if (faults_.tooth_errors) {
         all.gaps = tooth_gaps(plan_, *faults_.tooth_errors, k);
     }
@@ -81,7 +81,7 @@ bool FaultSchedule::continues_after(int k) const {
 
 // Stiffness of the pair with the faulty tooth, lane by lane; healthy lanes keep the plan's values.
 PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, double start) const {
-    const StepPositions steps = steps_under_way(plan_.grid, k, start, duration(passage));
+    const StepPositions steps = overlapping_steps(plan_.grid, k, start, duration(passage));
     const auto& curves = faults_.curve[static_cast<std::size_t>(passage.curve)];
     const std::size_t lanes = curves.size(), count = steps.node.size();
     const auto slots = static_cast<std::size_t>(plan_.nodes.contacts());
@@ -90,7 +90,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
     o.tooth_stiffness.resize(count * slots * lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
         if (!curves[l]) {
-            keep_healthy(l, lanes, o);
+            copy_healthy(l, lanes, o);
             continue;
         }
         const stiffness::MeshStiffness& healthy = faults_.pairs->curve(passage.pair);
@@ -117,7 +117,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
 }
 
 // Copies the plan's healthy values into a lane without a fault.
-void FaultSchedule::keep_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const {
+void FaultSchedule::copy_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const {
     const StiffnessNodes& nodes = plan_.nodes;
     const auto pairs = static_cast<std::size_t>(nodes.pairs);
     const std::size_t first =

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lockstep/plan/fault_pattern.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/plan/tooth_errors.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
@@ -23,7 +23,7 @@ struct FaultCurves {
     // bit-identical. The faults of all lanes have the same number of teeth.
     std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
 
-    // Errors of single teeth; allowed only with TileSettings::march_meshes.
+    // Errors of single teeth; allowed only with TileSettings::recorded_meshes.
     const ToothErrors* tooth_errors = nullptr;
 
     bool faulty(int lane) const;
@@ -33,7 +33,7 @@ struct FaultCurves {
 // it.
 class FaultSchedule {
   public:
-    FaultSchedule(const MarchPlan& plan, const FaultCurves& faults);
+    FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults);
 
     // Pairs whose stiffness the faulty tooth changes during mesh period k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
@@ -54,12 +54,12 @@ class FaultSchedule {
         return duration_[static_cast<std::size_t>(passage.curve)];
     }
     PairOverride make_override(const FaultPassage& passage, int k, double start) const;
-    void keep_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const;
+    void copy_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const;
 
-    const MarchPlan& plan_;
+    const IntegrationPlan& plan_;
     const FaultCurves& faults_;
     std::vector<double> duration_;  // of each curve, mesh periods; 0 if no lane has it
-    std::map<int, std::vector<PairOverride>> kept_;  // cache, by mesh period of the pattern
+    std::map<int, std::vector<PairOverride>> cache_;  // cache, by mesh period of the pattern
 };
 
 }  // namespace gearpod::lockstep

@@ -100,16 +100,16 @@ std::vector<double> contact_transitions(const PairSet& pairs) {
     return phases;
 }
 
-StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration) {
+StepPositions overlapping_steps(const PhaseGrid& grid, double mesh, double start, double duration) {
     // A step lies entirely inside or outside the passage; its middle decides.
     const auto middle = [&](const Step& step) {
         return mesh + step.phase + 0.5 * step.length - start;
     };
-    const auto under_way = [&](const Step& step) {
+    const auto overlaps = [&](const Step& step) {
         return middle(step) > 0.0 && middle(step) < duration;
     };
-    const auto first = std::find_if(grid.steps.begin(), grid.steps.end(), under_way);
-    const auto last = std::find_if_not(first, grid.steps.end(), under_way);
+    const auto first = std::find_if(grid.steps.begin(), grid.steps.end(), overlaps);
+    const auto last = std::find_if_not(first, grid.steps.end(), overlaps);
     StepPositions positions;
     positions.first_step = static_cast<int>(first - grid.steps.begin());
     positions.last_step = static_cast<int>(last - grid.steps.begin());
@@ -166,7 +166,7 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
     nodes.damping_shape.resize(nodes.stiffness.size());
     for (std::size_t pair = 0; pair < count; ++pair) {
         // Positions count from an engagement that starts before the mesh period.
-        const StepPositions steps = steps_under_way(grid, 0.0, pairs.start[pair] - 1.0, kForever);
+        const StepPositions steps = overlapping_steps(grid, 0.0, pairs.start[pair] - 1.0, kForever);
         const stiffness::MeshStiffness& mesh = *pairs.mesh[pair];
         const auto total = healthy_total(mesh, pairs.reversed, steps);
         const auto paths =

@@ -84,7 +84,7 @@ struct StepPositions {
 
 // Steps of mesh period `mesh` (an integer count) that overlap an event that starts at phase `start`
 // (not reduced to one period) and lasts `duration`.
-StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration);
+StepPositions overlapping_steps(const PhaseGrid& grid, double mesh, double start, double duration);
 
 // Total stiffness of a healthy pair during these steps, [step - first_step][stage node], N/m.
 // Positions count from an engagement of its teeth.

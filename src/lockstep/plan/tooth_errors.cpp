@@ -15,14 +15,14 @@ int tooth_of(int mesh_period, int first, int teeth) {
 }
 
 // Gap of a tooth pair in one lane, m, and its growth along the engagement.
-struct TouchingGap {
+struct ToothPairGap {
     double gap = 0.0, growth = 0.0;
 };
 
-TouchingGap touching_gap(const ToothErrors& errors, int pair, int k, std::size_t lane,
-                         std::size_t width) {
+ToothPairGap tooth_pair_gap(const ToothErrors& errors, int pair, int k, std::size_t lane,
+                            std::size_t width) {
     const PairTeeth& teeth = errors.pairs[static_cast<std::size_t>(pair)];
-    TouchingGap sum;
+    ToothPairGap sum;
     for (const int side : {0, 1}) {
         const GearErrors& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
         const auto tooth = static_cast<std::size_t>(tooth_of(k, teeth.first[side], gear.teeth));
@@ -61,16 +61,17 @@ std::vector<PairTeeth> fixed_shaft_teeth() {
     return {{{0, 1}, {0, 0}}};
 }
 
-void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int march_meshes) {
+void check_tooth_errors(const IntegrationPlan& plan, const ToothErrors* errors,
+                        int recorded_meshes) {
     if (errors && plan.nodes.tooth_pairs == 0) {
         throw std::invalid_argument("tooth errors need a mesh law that knows the tooth pairs");
     }
-    if (errors && march_meshes < 1) {
+    if (errors && recorded_meshes < 1) {
         throw std::invalid_argument("tooth errors need every mesh marched for itself");
     }
 }
 
-std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& errors, int k) {
+std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors& errors, int k) {
     const std::size_t width = errors.lanes();
     const auto slots = static_cast<std::size_t>(plan.nodes.tooth_pairs);
     std::vector<PairGaps> all;
@@ -79,7 +80,7 @@ std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& error
                    machine::AlignedVector(slots * width), machine::AlignedVector(slots * width)};
         for (std::size_t j = 0; j < slots; ++j) {
             for (std::size_t l = 0; l < width; ++l) {
-                const TouchingGap own = touching_gap(
+                const ToothPairGap own = tooth_pair_gap(
                     errors, engaged.pair, k - engaged.youngest - static_cast<int>(j), l, width);
                 g.gap[j * width + l] = own.gap;
                 g.growth[j * width + l] = own.growth;
@@ -99,13 +100,13 @@ const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step)
     return nullptr;
 }
 
-std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int contact, int pair) {
+std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact, int pair) {
     const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
     return static_cast<std::size_t>(
         ((step * nodes + node) * plan.nodes.contacts() + contact) * plan.nodes.pairs + pair);
 }
 
-double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
+double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int contact, int lane) {
     const std::size_t at = tooth_pair_at(plan, step, node, contact, pair);
     const double shared = plan.nodes.tooth_gap.empty() ? 0.0 : plan.nodes.tooth_gap[at];

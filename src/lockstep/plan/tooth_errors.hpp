@@ -1,14 +1,14 @@
 // Errors of single teeth. Each is the gap that a tooth pair would have if the gears turned
 // uniformly; it must close before the pair carries load (unilateral contact). The same teeth meet
 // again only after many mesh periods, so every mesh period is integrated
-// (TileSettings::march_meshes).
+// (TileSettings::recorded_meshes).
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "gears/planetary.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::lockstep {
 
@@ -48,20 +48,21 @@ std::vector<PairTeeth> fixed_shaft_teeth();
 
 // Throws std::invalid_argument unless the plan has single tooth pairs and every mesh period is
 // integrated.
-void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int march_meshes);
+void check_tooth_errors(const IntegrationPlan& plan, const ToothErrors* errors,
+                        int recorded_meshes);
 
 // Gaps of the tooth pairs of all pairs in mesh period k, which may be any integer.
-std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& errors, int k);
+std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors& errors, int k);
 
 // Gaps of a pair in a step; null if it has none.
 const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step);
 
 // Index of one spring of a pair in the tables of StiffnessNodes; contact = tooth pair * slices +
 // slice.
-std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int contact, int pair);
+std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact, int pair);
 
 // Total gap of that spring at a stage node, m: tooth errors, relief and corner contact.
-double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
+double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int contact, int lane);
 
 }  // namespace gearpod::lockstep

@@ -34,7 +34,7 @@ double contact_stiffness(const PairSet& pairs, int pair, int slice, double since
 
 }  // namespace
 
-TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase) {
+EngagedTeeth engaged_teeth(const PairSet& pairs, int pair, double phase) {
     const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
     const int youngest = static_cast<int>(std::floor(-since)) + 1;
     const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
@@ -47,7 +47,7 @@ namespace {
 void fill_node(const PairSet& pairs, int pair, double phase, double middle, std::size_t first,
                StiffnessNodes& nodes) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
-    const TouchingTeeth teeth = touching_teeth(pairs, pair, middle);
+    const EngagedTeeth teeth = engaged_teeth(pairs, pair, middle);
     const auto count = static_cast<std::size_t>(nodes.pairs);
     for (int j = 0; j < teeth.count; ++j) {
         const double engaged = pairs.start[static_cast<std::size_t>(pair)] - teeth.youngest - j;
@@ -58,7 +58,7 @@ void fill_node(const PairSet& pairs, int pair, double phase, double middle, std:
                 first + static_cast<std::size_t>(j * nodes.slices + slice) * count;
             nodes.tooth_stiffness[i] =
                 contact_stiffness(pairs, pair, slice, since, middle - engaged);
-            nodes.tooth_place[i] = mesh.slice_place(slice, at);
+            nodes.tooth_place[i] = mesh.slice_flank_position(slice, at);
             if (!nodes.tooth_gap.empty()) {
                 nodes.tooth_gap[i] = mesh.slice_gap(slice, at);
             }
@@ -88,7 +88,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
     for (int pair = 0; pair < nodes.pairs; ++pair) {
         for (int i = 0; const Step& step : grid.steps) {
             const auto [youngest, count] =
-                touching_teeth(pairs, pair, step.phase + 0.5 * step.length);
+                engaged_teeth(pairs, pair, step.phase + 0.5 * step.length);
             nodes.tooth_pairs = std::max(nodes.tooth_pairs, count);
             if (i == 0 || youngest != nodes.engagements.back().youngest) {
                 nodes.engagements.push_back({pair, i, i, youngest});
@@ -143,8 +143,8 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
         if (pairs.reversed) {
             std::reverse(tau.begin(), tau.end());  // ascending again
         }
-        const TouchingTeeth teeth =
-            touching_teeth(pairs, passage.pair, passage.start - passage.mesh + steps.middle[step]);
+        const EngagedTeeth teeth =
+            engaged_teeth(pairs, passage.pair, passage.start - passage.mesh + steps.middle[step]);
         for (int contact = 0; contact < teeth.count * slices; ++contact) {
             const int j = contact / slices, slice = contact % slices;
             const double engaged = passage.mesh - teeth.youngest - j + begun;

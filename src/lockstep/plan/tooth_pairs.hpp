@@ -10,11 +10,11 @@ namespace gearpod::lockstep {
 
 // Tooth pairs of `pair` that are engaged at a phase strictly between transitions. The one that
 // starts to engage in the mesh period of that phase has age 0, the previous one age 1, and so on.
-struct TouchingTeeth {
+struct EngagedTeeth {
     int youngest = 0;  // age of the youngest
     int count = 0;     // each further one is a mesh period older
 };
-TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase);
+EngagedTeeth engaged_teeth(const PairSet& pairs, int pair, double phase);
 
 // Adds the springs of the tooth pairs to a table. Throws std::invalid_argument if more than
 // dynamics::kMostToothPairs are engaged at once, or more than kMostContacts of their slices.

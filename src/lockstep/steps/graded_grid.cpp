@@ -49,7 +49,7 @@ void place_samples(PhaseGrid& grid) {
 }
 
 // Smallest of 1, 2, 3, 4, 6, 8, 12, ... that is at least `least`.
-int round_up_to_few(double least) {
+int round_up_to_allowed_count(double least) {
     int power = 1;
     while (power < least) {
         power *= 2;
@@ -118,7 +118,7 @@ PhaseGrid make_divided_grid(int samples, std::span<const double> transitions,
         if (!(longest > 0.0)) {
             throw std::invalid_argument("a grid's steps must have a length");
         }
-        const int count = round_up_to_few(length / longest * (1.0 - 1e-9));
+        const int count = round_up_to_allowed_count(length / longest * (1.0 - 1e-9));
         for (int part = 0; part < count; ++part) {
             add_step(grid, ends[i] + length * part / count, length / count);
         }

@@ -8,7 +8,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 
 namespace gearpod::lockstep {
@@ -17,7 +17,7 @@ namespace {
 constexpr double kNoGrowth = 1.0 + 1e-5;
 constexpr int kUnitMotions = 8;
 
-std::vector<double> stiffest_nodes(const MarchPlan& plan) {
+std::vector<double> stiffest_nodes(const IntegrationPlan& plan) {
     const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
     std::vector<double> stiffest(pairs, 0.0);
     for (std::size_t i = 0; i < plan.nodes.stiffness.size(); ++i) {
@@ -26,7 +26,7 @@ std::vector<double> stiffest_nodes(const MarchPlan& plan) {
     return stiffest;
 }
 
-bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+bool step_too_long(const IntegrationPlan& plan, const dynamics::GearboxInputs& inputs) {
     if (!is_explicit(plan.integrator)) {
         return false;  // implicit methods are stable for any step
     }
@@ -38,17 +38,18 @@ bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs)
 
 // Largest |eigenvalue| of a mesh period's map of (q, v), with the rigid rotation removed from q and
 // v at its end.
-double growth(const MarchPlan& plan, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& map) {
+double growth(const IntegrationPlan& plan, const Eigen::MatrixXd& mass,
+              const Eigen::MatrixXd& map) {
     if (!map.allFinite()) {
         return std::numeric_limits<double>::infinity();
     }
     const Eigen::VectorXd turn = dynamics::rigid_rotation(plan.layout);
     const Eigen::VectorXd weighted = mass * turn;
-    const Eigen::RowVectorXd turned = (weighted / weighted.dot(turn)).transpose();
+    const Eigen::RowVectorXd rotation = (weighted / weighted.dot(turn)).transpose();
     const Eigen::Index n = turn.size();
     Eigen::MatrixXd kept = map;
-    kept.topRows(n) -= (turn * (turned * map.topRows(n))).eval();
-    kept.bottomRows(n) -= (turn * (turned * map.bottomRows(n))).eval();
+    kept.topRows(n) -= (turn * (rotation * map.topRows(n))).eval();
+    kept.bottomRows(n) -= (turn * (rotation * map.bottomRows(n))).eval();
     return dynamics::eigenvalues(kept).cwiseAbs().maxCoeff();
 }
 
@@ -64,7 +65,7 @@ double velocity_scale(const dynamics::GearboxMatrices& m) {
 // and indices past the last mean no displacement.
 TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
     const auto degrees = static_cast<std::size_t>(n);
-    TileState state = still_state(degrees, channels, kUnitMotions);
+    TileState state = zero_state(degrees, channels, kUnitMotions);
     for (std::size_t lane = 0; lane < kUnitMotions; ++lane) {
         const std::size_t unit = static_cast<std::size_t>(first) + lane;
         if (unit >= 1 && unit <= degrees) {
@@ -78,15 +79,15 @@ TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
 
 // Map of (rate q, v) over a mesh period, computed by time integration. Column 0 is the motion from
 // rest under the load, which is subtracted from the others.
-Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs& inputs,
-                            Eigen::Index n, double rate) {
+Eigen::MatrixXd mesh_period_map(const IntegrationPlan& plan, const dynamics::GearboxInputs& inputs,
+                                Eigen::Index n, double rate) {
     const std::vector<dynamics::GearboxInputs> alike(kUnitMotions, inputs);
-    const auto march = make_mesh_march<kUnitMotions>(plan, alike);
+    const auto mesh_integrator = make_mesh_integrator<kUnitMotions>(plan, alike);
     MeshRecord record = make_record(plan, kUnitMotions, false);
     Eigen::MatrixXd ends(2 * n, 2 * n + 1);
     for (int first = 0; first < ends.cols(); first += kUnitMotions) {
         TileState state = unit_states(n, plan.channels(), first, rate);
-        (*march)({}, state, record);
+        (*mesh_integrator)({}, state, record);
         for (int lane = 0; lane < kUnitMotions && first + lane < ends.cols(); ++lane) {
             for (Eigen::Index d = 0; d < n; ++d) {
                 const auto at = static_cast<std::size_t>(d * kUnitMotions + lane);
@@ -100,7 +101,7 @@ Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs
 
 }  // namespace
 
-std::vector<double> mean_stiffness(const MarchPlan& plan) {
+std::vector<double> mean_stiffness(const IntegrationPlan& plan) {
     const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
     const std::size_t nodes = plan.grid.stage_nodes.size();
     std::vector<double> mean(pairs, 0.0);
@@ -126,22 +127,23 @@ bool above_critical_speed(const dynamics::GearboxLayout& layout,
     // Scaled to unit masses, K must be at least W^2. The rigid rotation has no stiffness, so a much
     // larger one is added to it.
     const Eigen::VectorXd scale = m.mass.diagonal().cwiseSqrt().cwiseInverse();
-    Eigen::MatrixXd held = scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
+    Eigen::MatrixXd constrained =
+        scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
     const Eigen::VectorXd turn = dynamics::rigid_rotation(layout).cwiseQuotient(scale).normalized();
-    held += (1e3 * held.diagonal().cwiseAbs().maxCoeff()) * turn * turn.transpose();
-    return !dynamics::positive_definite(held);
+    constrained += (1e3 * constrained.diagonal().cwiseAbs().maxCoeff()) * turn * turn.transpose();
+    return !dynamics::positive_definite(constrained);
 }
 
-double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+double growth_per_mesh(const IntegrationPlan& plan, const dynamics::GearboxInputs& inputs) {
     const auto matrices = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
-    return growth(
-        plan, matrices.mass,
-        marched_map(in_doubles(plan), inputs, matrices.mass.rows(), velocity_scale(matrices)));
+    return growth(plan, matrices.mass,
+                  mesh_period_map(in_double_precision(plan), inputs, matrices.mass.rows(),
+                                  velocity_scale(matrices)));
 }
 
-Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+Instability find_instability(const IntegrationPlan& plan, const dynamics::GearboxInputs& inputs) {
     if (above_critical_speed(plan.layout, inputs, mean_stiffness(plan))) {
-        return Instability::turning_frame;
+        return Instability::rotating_frame;
     }
     if (step_too_long(plan, inputs)) {
         return Instability::step;

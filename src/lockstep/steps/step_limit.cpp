@@ -71,7 +71,7 @@ StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m, Integrator integ
 
 double central_difference_limit(const dynamics::GearboxMatrices& m) {
     const Eigen::MatrixXd stiffness = m.stiffness + m.centrifugal;
-    const auto stands = [&](double h) {
+    const auto is_stable = [&](double h) {
         const Eigen::MatrixXd left = m.mass - h * (m.damping + 0.25 * h * stiffness);
         return dynamics::positive_definite(left);
     };
@@ -89,7 +89,7 @@ double central_difference_limit(const dynamics::GearboxMatrices& m) {
     double below = 0.0;
     for (int i = 0; i < kHalvings; ++i) {
         const double middle = 0.5 * (below + above);
-        (stands(middle) ? below : above) = middle;
+        (is_stable(middle) ? below : above) = middle;
     }
     return below;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 
 namespace gearpod::lockstep {
@@ -13,21 +13,21 @@ namespace {
 constexpr auto kLanes = static_cast<std::size_t>(kPilotLanes);
 
 // Tile integrated on one grid.
-class PilotMarch {
+class PilotIntegration {
   public:
-    PilotMarch(const Pilot& pilot, PhaseGrid grid)
+    PilotIntegration(const Pilot& pilot, PhaseGrid grid)
         : pilot_(pilot),
-          plan_(in_doubles(pilot.plan(std::move(grid)))),
-          march_(make_mesh_march<kPilotLanes>(plan_, pilot.inputs)),
+          plan_(in_double_precision(pilot.plan(std::move(grid)))),
+          integrator_(make_mesh_integrator<kPilotLanes>(plan_, pilot.inputs)),
           rotation_(plan_.layout, pilot.inputs) {}
 
-    const MarchPlan& plan() const { return plan_; }
+    const IntegrationPlan& plan() const { return plan_; }
 
-    TileState orbit() const {
-        TileState state = rest_state(plan_, pilot_.inputs);
-        MeshRecord unseen = make_record(plan_, kPilotLanes, false);
-        for (int mesh = 0; mesh < pilot_.settle_meshes; ++mesh) {
-            step({}, state, unseen);
+    TileState periodic_orbit() const {
+        TileState state = equilibrium_state(plan_, pilot_.inputs);
+        MeshRecord scratch = make_record(plan_, kPilotLanes, false);
+        for (int mesh = 0; mesh < pilot_.convergence_meshes; ++mesh) {
+            step({}, state, scratch);
         }
         return state;
     }
@@ -62,13 +62,13 @@ class PilotMarch {
 
   private:
     void step(const MeshOverrides& overrides, TileState& state, MeshRecord& record) const {
-        (*march_)(overrides, state, record);
+        (*integrator_)(overrides, state, record);
         rotation_.remove(state);
     }
 
     const Pilot& pilot_;
-    const MarchPlan plan_;
-    const std::unique_ptr<const MeshMarch<kPilotLanes>> march_;
+    const IntegrationPlan plan_;
+    const std::unique_ptr<const MeshIntegrator<kPilotLanes>> integrator_;
     const RigidRotation rotation_;
 };
 
@@ -170,8 +170,8 @@ double StepProfile::longest_step(double start, double end) const {
 }
 
 StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double tolerance) {
-    const PilotMarch march(pilot, grid);
-    const std::vector<MeshRecord> records = march.records(march.orbit(), true);
+    const PilotIntegration integration(pilot, grid);
+    const std::vector<MeshRecord> records = integration.records(integration.periodic_orbit(), true);
     const std::vector<double> position = largest_in_row(records, 0);
     const std::vector<double> velocity = largest_in_row(records, 1);
     constexpr double kSafety = 0.9, kMostGrowth = 10.0, kMostCut = 100.0;
@@ -188,9 +188,9 @@ StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double 
             }
         }
         const double length = grid.steps[i].length;
-        const double wanted = error > 0.0 ? kSafety * length * std::cbrt(tolerance / error) : most;
+        const double desired = error > 0.0 ? kSafety * length * std::cbrt(tolerance / error) : most;
         phases.push_back(grid.steps[i].phase);
-        longest.push_back(std::clamp(wanted, length / kMostCut, most));
+        longest.push_back(std::clamp(desired, length / kMostCut, most));
     }
     return {std::move(phases), std::move(longest)};
 }
@@ -200,11 +200,12 @@ GradedChoice choose_grading(const Pilot& pilot, double step, double tolerance,
     constexpr int kMostHalvings = 3;
     GradedChoice best;
     for (int halving = 0; halving <= kMostHalvings; ++halving, step /= 2.0) {
-        const PilotMarch fine(pilot, grid_of({step / 2.0, 0.0, step / 2.0}));
-        const TileState orbit = fine.orbit();
-        const std::vector<MeshRecord> reference = fine.records(orbit, false);
+        const PilotIntegration fine(pilot, grid_of({step / 2.0, 0.0, step / 2.0}));
+        const TileState periodic_orbit = fine.periodic_orbit();
+        const std::vector<MeshRecord> reference = fine.records(periodic_orbit, false);
         const auto error_of = [&](const PhaseGrid& grid) {
-            return difference(reference, PilotMarch(pilot, grid).records(orbit, false));
+            return difference(reference,
+                              PilotIntegration(pilot, grid).records(periodic_orbit, false));
         };
         best.grading = {step, 0.0, step};
         best.grid = grid_of(best.grading);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lockstep/plan/fault_schedule.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 #include "lockstep/steps/graded_grid.hpp"
 
 namespace gearpod::lockstep {
@@ -18,9 +18,9 @@ inline constexpr int kPilotLanes = 8;
 struct Pilot {
     std::vector<dynamics::GearboxInputs> inputs;  // kPilotLanes gearboxes
     FaultCurves faults;
-    int settle_meshes = 1;  // mesh periods integrated to reach the periodic orbit
+    int convergence_meshes = 1;  // mesh periods integrated to reach the periodic orbit
     // Makes the plan for a grid: integrator, layout and stiffness at the grid's stage nodes.
-    std::function<MarchPlan(PhaseGrid)> plan;
+    std::function<IntegrationPlan(PhaseGrid)> plan;
 };
 
 // Longest allowed step as a function of the phase in the mesh period.

@@ -14,21 +14,25 @@
 
 namespace gearpod::lockstep {
 
-// Kernel with this number of lanes for the active instruction set. Throws NoSuchKernel.
+// Kernel with this number of lanes for the active instruction set. Throws MissingKernel.
 template <class Lanes>
-MarchKernel<Lanes>* choose_kernel(const MarchPlan& plan, Drive drive, Moving moving, int lanes) {
-    return kernel_table().find<Lanes>({plan.integrator, plan.mesh_law, drive, plan.precision,
-                                       machine::active_instruction_set(), moving, lanes});
+IntegrationKernel<Lanes>* choose_kernel(const IntegrationPlan& plan, ExcitationKind excitation_kind,
+                                        MotionModel motion_model, int lanes) {
+    return kernel_table().find<Lanes>({plan.integrator, plan.mesh_law, excitation_kind,
+                                       plan.precision, machine::active_instruction_set(),
+                                       motion_model, lanes});
 }
 
 // Calls use(lanes, moving) with the lanes and the model for the plan's integrator. `inputs` holds W
 // gearboxes of the plan's kind.
 template <int W, class Real, class Use>
-auto with_lanes(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs, Use&& use) {
+auto with_lanes(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+                Use&& use) {
     const IntegratorFacts& integrator = facts(plan.integrator);
     if constexpr (std::is_same_v<Real, double>) {
         if (!integrator.is_explicit) {
-            return use(make_implicit_lanes<W>(plan, integrator.span, inputs), Moving::matrices);
+            return use(make_implicit_lanes<W>(plan, integrator.span, inputs),
+                       MotionModel::matrices);
         }
     }
     const auto lanes_of = [&]<class Inputs>(const auto& layout, std::vector<Inputs> own) {
@@ -38,14 +42,15 @@ auto with_lanes(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> 
         return dynamics::make_lanes<W, Real>(layout, std::span<const Inputs>(own));
     };
     if (const auto* layout = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
-        const Moving moving = layout->motion == dynamics::Motion::torsional ? Moving::torsional
-                              : layout->inertial_terms ? Moving::translational_inertial
-                                                       : Moving::translational;
-        return use(lanes_of(*layout, std::vector<dynamics::PlanetaryInputs>{}), moving);
+        const MotionModel motion_model =
+            layout->motion == dynamics::Motion::torsional ? MotionModel::torsional
+            : layout->inertial_terms                      ? MotionModel::translational_inertial
+                                                          : MotionModel::translational;
+        return use(lanes_of(*layout, std::vector<dynamics::PlanetaryInputs>{}), motion_model);
     }
     return use(lanes_of(std::get<dynamics::FixedShaftLayout>(plan.layout),
                         std::vector<dynamics::FixedShaftInputs>{}),
-               Moving::fixed_shaft);
+               MotionModel::fixed_shaft);
 }
 
 }  // namespace gearpod::lockstep

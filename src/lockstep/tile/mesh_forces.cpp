@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "dynamics/effects/mesh_law.hpp"
-#include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/integration_steps.hpp"
 
 namespace gearpod::lockstep {
 
@@ -22,7 +22,8 @@ struct MeshForces<W>::Model {
 };
 
 template <int W>
-MeshForces<W>::MeshForces(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs)
+MeshForces<W>::MeshForces(const IntegrationPlan& plan,
+                          std::span<const dynamics::GearboxInputs> inputs)
     : plan_(plan), lanes_{} {
     for (std::size_t l = 0; l < W; ++l) {
         lanes_.mesh_period[l] = dynamics::mesh_period_s(inputs[l]);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/gearbox.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::lockstep {
 
@@ -13,7 +13,7 @@ template <int W>
 class MeshForces {
   public:
     // `inputs` holds W gearboxes. The plan must outlive the object.
-    MeshForces(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
+    MeshForces(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
 
     // Sets MeshRecord::mesh_force from MeshRecord::step_states. The force of a sample is that at
     // the first stage node of the step that contains it. This is the sample itself, or the middle
@@ -37,7 +37,7 @@ class MeshForces {
     template <class Law>
     struct Model;
 
-    const MarchPlan& plan_;
+    const IntegrationPlan& plan_;
     Lanes lanes_;
     std::vector<std::vector<double>> row_;  // [pair][degree of freedom]: weights of its deflection
 };

@@ -7,12 +7,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lockstep/driven/driven_forces.hpp"
-#include "lockstep/driven/excitation_rows.hpp"
+#include "lockstep/excitation/excitation_forces.hpp"
+#include "lockstep/excitation/excitation_rows.hpp"
 #include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/static_lanes.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
-#include "machine/stop.hpp"
+#include "machine/cancellation.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -33,14 +33,14 @@ double largest_stiffness(const StiffnessNodes& nodes) {
 
 // Springs per pair under unilateral contact; a single one carries the whole load if tooth pairs are
 // not resolved.
-int contacts_of(const MarchPlan& plan) {
+int contacts_of(const IntegrationPlan& plan) {
     return plan.mesh_law == dynamics::MeshLaw::unilateral ? std::max(1, plan.nodes.contacts()) : 0;
 }
 
 template <int W>
 class QuasiStatic {
   public:
-    QuasiStatic(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+    QuasiStatic(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                 const FaultCurves& faults, const TileSettings& settings)
         : plan_(plan),
           faults_(faults),
@@ -60,7 +60,7 @@ class QuasiStatic {
             mesh_forces_.emplace(plan, inputs);
         }
         result_.status.assign(W, LaneStatus::ok);
-        drive(inputs);
+        set_up_excitation(inputs);
         if (plan.grid.stage_nodes.front() != 0.0) {
             throw std::invalid_argument(
                 "a quasi-static tile needs the stiffness at the start of every step");
@@ -72,7 +72,7 @@ class QuasiStatic {
         const bool one_by_one = faults_.tooth_errors || !repeats;
         add_record(0, {}, !one_by_one);
         if (one_by_one) {
-            for (int k = 0; k < settings_.march_meshes; ++k) {
+            for (int k = 0; k < settings_.recorded_meshes; ++k) {
                 result_.content.push_back(add_record(k, schedule_.all_overrides(k),
                                                      counts_contact(k, settings_.contact_meshes)));
             }
@@ -80,7 +80,7 @@ class QuasiStatic {
             solve_pattern();
         }
         result_.contact_loss = contact_time_.ratio();
-        retire_loose_lanes();
+        mark_unsupported_lanes();
         return std::move(result_);
     }
 
@@ -91,11 +91,11 @@ class QuasiStatic {
             const std::vector<PairOverride> passages = schedule_.overrides(k);
             result_.content.push_back(passages.empty() ? 0 : add_record(0, {passages, {}}, false));
         }
-        for (int k = length; k < settings_.march_meshes; ++k) {
+        for (int k = length; k < settings_.recorded_meshes; ++k) {
             result_.content.push_back(result_.content[static_cast<std::size_t>(k % length)]);
         }
-        if (settings_.march_meshes > 0) {
-            result_.content.resize(static_cast<std::size_t>(settings_.march_meshes));
+        if (settings_.recorded_meshes > 0) {
+            result_.content.resize(static_cast<std::size_t>(settings_.recorded_meshes));
         }
     }
 
@@ -168,14 +168,14 @@ class QuasiStatic {
     }
 
     // Sets up the time-varying forces; without inertia there is no effect of the speed.
-    void drive(std::span<const dynamics::GearboxInputs> inputs) {
+    void set_up_excitation(std::span<const dynamics::GearboxInputs> inputs) {
         if (settings_.excitation == nullptr) {
             return;
         }
         if (settings_.excitation->speed) {
             throw std::invalid_argument("a quasi-static gearbox feels no change of speed");
         }
-        forces_ = make_driven_forces<W>(plan_, *settings_.excitation, inputs, false);
+        forces_ = make_excitation_forces<W>(plan_, *settings_.excitation, inputs, false);
         rows_ = std::make_unique<ExcitationRows>(plan_, *settings_.excitation, inputs);
         forces_.rows = rows_->rows().data();
         for (std::size_t l = 0; l < W; ++l) {
@@ -196,7 +196,7 @@ class QuasiStatic {
     // Solves and records one mesh period, and returns the index of its record. `counted` adds it to
     // the contact loss.
     int add_record(int mesh, const MeshOverrides& overrides, bool counted) {
-        machine::leave_if_stopped();
+        machine::throw_if_cancelled();
         if (rows_ != nullptr) {
             rows_->fill(mesh);
         }
@@ -222,7 +222,7 @@ class QuasiStatic {
             }
         }
         result_.records.push_back(std::move(record));
-        ++result_.marched;
+        ++result_.integrated_meshes;
         return static_cast<int>(result_.records.size()) - 1;
     }
 
@@ -244,15 +244,15 @@ class QuasiStatic {
     void note_status() {
         for (std::size_t l = 0; l < W; ++l) {
             LaneStatus& status = result_.status[l];
-            if (state_.loose[l] != 0.0) {
+            if (state_.unsupported[l] != 0.0) {
                 status = LaneStatus::diverged;
-            } else if (state_.restless[l] != 0.0 && status == LaneStatus::ok) {
-                status = LaneStatus::unsettled;
+            } else if (state_.contacts_changed[l] != 0.0 && status == LaneStatus::ok) {
+                status = LaneStatus::not_converged;
             }
         }
     }
 
-    void retire_loose_lanes() {
+    void mark_unsupported_lanes() {
         for (std::size_t l = 0; l < W; ++l) {
             if (result_.status[l] != LaneStatus::diverged) {
                 continue;
@@ -270,13 +270,13 @@ class QuasiStatic {
         }
     }
 
-    const MarchPlan& plan_;
+    const IntegrationPlan& plan_;
     const FaultCurves& faults_;
     FaultSchedule schedule_;
     const TileSettings& settings_;
     StaticLanes<W> lanes_;
     const machine::AlignedVector steady_force_;
-    DrivenForces<W> forces_;                // used only with
+    ExcitationForces<W> forces_;            // used only with
     std::unique_ptr<ExcitationRows> rows_;  // an excitation
     StaticState<W> state_;
     std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
@@ -288,19 +288,23 @@ class QuasiStatic {
 }  // namespace
 
 template <int W>
-TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+TileResult run_quasi_static(const IntegrationPlan& plan,
+                            std::span<const dynamics::GearboxInputs> inputs,
                             const FaultCurves& faults, const TileSettings& settings) {
     assert(inputs.size() == W);
-    check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
-    check_excitation(settings.excitation, settings.march_meshes);
+    check_tooth_errors(plan, faults.tooth_errors, settings.recorded_meshes);
+    check_excitation(settings.excitation, settings.recorded_meshes);
     return QuasiStatic<W>(plan, inputs, faults, settings).run();
 }
 
-template TileResult run_quasi_static<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+template TileResult run_quasi_static<1>(const IntegrationPlan&,
+                                        std::span<const dynamics::GearboxInputs>,
                                         const FaultCurves&, const TileSettings&);
-template TileResult run_quasi_static<4>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+template TileResult run_quasi_static<4>(const IntegrationPlan&,
+                                        std::span<const dynamics::GearboxInputs>,
                                         const FaultCurves&, const TileSettings&);
-template TileResult run_quasi_static<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+template TileResult run_quasi_static<8>(const IntegrationPlan&,
+                                        std::span<const dynamics::GearboxInputs>,
                                         const FaultCurves&, const TileSettings&);
 
 }  // namespace gearpod::lockstep

@@ -19,12 +19,12 @@ RigidRotation::RigidRotation(const dynamics::GearboxLayout& layout,
 void RigidRotation::remove(machine::AlignedVector& motion) const {
     const std::size_t lanes = weight_.size();
     for (std::size_t l = 0; l < lanes; ++l) {
-        double turned = 0.0;
+        double rotation = 0.0;
         for (Eigen::Index d = 0; d < turn_.size(); ++d) {
-            turned += weight_[l](d) * motion[static_cast<std::size_t>(d) * lanes + l];
+            rotation += weight_[l](d) * motion[static_cast<std::size_t>(d) * lanes + l];
         }
         for (Eigen::Index d = 0; d < turn_.size(); ++d) {
-            motion[static_cast<std::size_t>(d) * lanes + l] -= turned * turn_(d);
+            motion[static_cast<std::size_t>(d) * lanes + l] -= rotation * turn_(d);
         }
     }
 }
@@ -34,7 +34,7 @@ void RigidRotation::remove(TileState& state) const {
     remove(state.v);
 }
 
-TileState still_state(std::size_t degrees, int channels, std::size_t lanes) {
+TileState zero_state(std::size_t degrees, int channels, std::size_t lanes) {
     TileState state;
     state.q.assign(degrees * lanes, 0.0);
     state.v.assign(degrees * lanes, 0.0);
@@ -42,12 +42,13 @@ TileState still_state(std::size_t degrees, int channels, std::size_t lanes) {
     return state;
 }
 
-TileState rest_state(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs) {
+TileState equilibrium_state(const IntegrationPlan& plan,
+                            std::span<const dynamics::GearboxInputs> inputs) {
     const std::size_t lanes = inputs.size();
     const auto pairs = plan.nodes.stiffness.begin();
     const std::vector<double> stiffness(pairs, pairs + plan.nodes.pairs);
     const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
-    TileState state = still_state(degrees, plan.channels(), lanes);
+    TileState state = zero_state(degrees, plan.channels(), lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
         const Eigen::VectorXd q =
             dynamics::static_equilibrium(dynamics::assemble(plan.layout, inputs[l], stiffness));

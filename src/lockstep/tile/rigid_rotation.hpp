@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/gearbox.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::lockstep {
 
@@ -29,9 +29,10 @@ class RigidRotation {
 };
 
 // State with zero displacement and velocity, and the sensor's filter at rest.
-TileState still_state(std::size_t degrees, int channels, std::size_t lanes);
+TileState zero_state(std::size_t degrees, int channels, std::size_t lanes);
 
 // Static equilibrium under the load at phase 0, with the sensor's filter at rest.
-TileState rest_state(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
+TileState equilibrium_state(const IntegrationPlan& plan,
+                            std::span<const dynamics::GearboxInputs> inputs);
 
 }  // namespace gearpod::lockstep

@@ -19,14 +19,14 @@ constexpr double kOpenMesh = 1e-9;
 // Larger than any gap, m.
 constexpr double kNoGap = 1.0;
 // Iteration limit; contacts usually change only a few times before they match the load.
-constexpr int kMostChanges = 60;
+constexpr int kMaxIterations = 60;
 
 // Starts with all meshes in contact on their front flanks, as springs on d - preload.
 template <int W>
 GEARPOD_INLINE void close_contacts(StaticState<W>& s) {
     const int size = static_cast<int>(s.k.size());
     for (int i = 0; i < size; ++i) {
-        s.held[i] = s.k[i];
+        s.active_stiffness[i] = s.k[i];
         s.preload[i] = s.e[i];
     }
 }
@@ -37,7 +37,7 @@ GEARPOD_INLINE void assemble_equations(const StaticLanes<W>& lanes, StaticState<
     std::copy(lanes.stiffness.begin(), lanes.stiffness.end(), s.factor.begin());
     std::copy(lanes.force.begin(), lanes.force.end(), s.right_hand.begin());
     for (int pair = 0; pair < lanes.pairs; ++pair) {
-        const double* __restrict k = s.held.data() + pair * W;
+        const double* __restrict k = s.active_stiffness.data() + pair * W;
         const double* __restrict preload = s.preload.data() + pair * W;
         for (int i = lanes.first[pair]; i < lanes.first[pair + 1]; ++i) {
             const int row = lanes.motion[i];
@@ -109,12 +109,12 @@ template <int W>
 GEARPOD_INLINE void substitute(const StaticLanes<W>& lanes, StaticState<W>& s) {
     const int n = lanes.degrees;
     const double* __restrict size = lanes.force_size.data();
-    double* __restrict loose = s.loose.data();
+    double* __restrict unsupported = s.unsupported.data();
     double* __restrict y = s.right_hand.data();
     double* __restrict q = s.q.data();
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        loose[l] = 0.0;
+        unsupported[l] = 0.0;
     }
     for (int i = 0; i < n; ++i) {
         const double* __restrict row = s.factor.data() + i * (i + 1) / 2 * W;
@@ -128,7 +128,7 @@ GEARPOD_INLINE void substitute(const StaticLanes<W>& lanes, StaticState<W>& s) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const bool resting = std::fabs(y[i * W + l]) <= kNoLoad * size[l];
-            loose[l] = inverse[l] != 0.0 || resting ? loose[l] : 1.0;
+            unsupported[l] = inverse[l] != 0.0 || resting ? unsupported[l] : 1.0;
             q[i * W + l] = y[i * W + l] * inverse[l];
         }
     }
@@ -148,10 +148,10 @@ template <int W>
 GEARPOD_INLINE void change_contact(const double* __restrict d, const StaticLanes<W>& lanes,
                                    int pair, StaticState<W>& s) {
     const double* __restrict backlash = lanes.backlash.data();
-    double* __restrict restless = s.restless.data();
+    double* __restrict contacts_changed = s.contacts_changed.data();
     const double* __restrict k = s.k.data() + pair * W;
     const double* __restrict e = s.e.data() + pair * W;
-    double* __restrict held = s.held.data() + pair * W;
+    double* __restrict active_stiffness = s.active_stiffness.data() + pair * W;
     double* __restrict preload = s.preload.data() + pair * W;
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
@@ -159,9 +159,9 @@ GEARPOD_INLINE void change_contact(const double* __restrict d, const StaticLanes
         const bool on_back = front + backlash[l] < 0.0;
         const double new_held = front > 0.0 || on_back ? k[l] : kOpenMesh * k[l];
         const double new_preload = on_back ? e[l] - backlash[l] : e[l];
-        const bool same = new_held == held[l] && new_preload == preload[l];
-        restless[l] = same ? restless[l] : 1.0;
-        held[l] = new_held;
+        const bool same = new_held == active_stiffness[l] && new_preload == preload[l];
+        contacts_changed[l] = same ? contacts_changed[l] : 1.0;
+        active_stiffness[l] = new_held;
         preload[l] = new_preload;
     }
 }
@@ -173,10 +173,10 @@ GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W
                                  StaticState<W>& s) {
     const int rows = static_cast<int>(s.k.size());
     const double* __restrict backlash = lanes.backlash.data();
-    double* __restrict restless = s.restless.data();
+    double* __restrict contacts_changed = s.contacts_changed.data();
     const double* __restrict k = s.k.data() + pair * W;
     const double* __restrict e = s.e.data() + pair * W;
-    double* __restrict held = s.held.data() + pair * W;
+    double* __restrict active_stiffness = s.active_stiffness.data() + pair * W;
     double* __restrict preload = s.preload.data() + pair * W;
     alignas(64) double sum[W], pull[W], gap[W];
 #pragma omp simd
@@ -191,9 +191,9 @@ GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W
         const double* __restrict tooth_e = s.tooth_e.data() + j * rows + pair * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double pushes = d[l] - e[l] > tooth_e[l] ? tooth_k[l] : 0.0;
-            sum[l] += pushes;
-            pull[l] = std::fma(pushes, tooth_e[l], pull[l]);
+            const double active_k = d[l] - e[l] > tooth_e[l] ? tooth_k[l] : 0.0;
+            sum[l] += active_k;
+            pull[l] = std::fma(active_k, tooth_e[l], pull[l]);
             gap[l] = tooth_k[l] > 0.0 && tooth_e[l] < gap[l] ? tooth_e[l] : gap[l];
         }
     }
@@ -202,9 +202,9 @@ GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W
         const double new_held = sum[l] > 0.0 ? sum[l] : kOpenMesh * k[l];
         const double rest = gap[l] < kNoGap ? gap[l] : 0.0;
         const double new_preload = e[l] + (sum[l] > 0.0 ? pull[l] / sum[l] : rest);
-        const bool same = new_held == held[l] && new_preload == preload[l];
-        restless[l] = same ? restless[l] : 1.0;
-        held[l] = new_held;
+        const bool same = new_held == active_stiffness[l] && new_preload == preload[l];
+        contacts_changed[l] = same ? contacts_changed[l] : 1.0;
+        active_stiffness[l] = new_held;
         preload[l] = new_preload;
     }
 }
@@ -212,10 +212,10 @@ GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W
 // Opens and closes contacts according to the deflections; marks the lanes that changed.
 template <int W>
 GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>& s) {
-    double* __restrict restless = s.restless.data();
+    double* __restrict contacts_changed = s.contacts_changed.data();
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        restless[l] = 0.0;
+        contacts_changed[l] = 0.0;
     }
     for (int pair = 0; pair < lanes.pairs; ++pair) {
         alignas(64) double d[W] = {};
@@ -238,7 +238,7 @@ GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>&
 template <int W>
 GEARPOD_INLINE void solve(const StaticLanes<W>& lanes, StaticState<W>& s) {
     close_contacts(s);
-    for (int change = 0; change < kMostChanges; ++change) {
+    for (int change = 0; change < kMaxIterations; ++change) {
         assemble_equations(lanes, s);
         factorise<W>(lanes.degrees, s.factor.data(), s.inverse.data());
         substitute(lanes, s);
@@ -248,7 +248,7 @@ GEARPOD_INLINE void solve(const StaticLanes<W>& lanes, StaticState<W>& s) {
         change_contacts(lanes, s);
         bool any = false;
         for (int l = 0; l < W; ++l) {
-            any = any || s.restless[l] != 0.0;
+            any = any || s.contacts_changed[l] != 0.0;
         }
         if (!any) {
             break;

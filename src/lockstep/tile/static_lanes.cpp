@@ -13,8 +13,8 @@ namespace {
 // Stiffness without the matrices' centrifugal terms, because inertia is omitted, plus a spring on
 // the rigid rotation. The centrifugal force that rotates with the carrier is part of the load and
 // remains.
-Eigen::MatrixXd held_stiffness(const dynamics::GearboxMatrices& m, const Eigen::VectorXd& turn,
-                               double mesh_stiffness_N_m) {
+Eigen::MatrixXd constrained_stiffness(const dynamics::GearboxMatrices& m,
+                                      const Eigen::VectorXd& turn, double mesh_stiffness_N_m) {
     const double size = std::max(m.stiffness.diagonal().maxCoeff(), mesh_stiffness_N_m);
     return m.stiffness + size / turn.squaredNorm() * turn * turn.transpose();
 }
@@ -49,7 +49,7 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
     lanes.force.resize(n * W);
     for (std::size_t l = 0; l < W; ++l) {
         const auto m = dynamics::assemble(layout, inputs[l], none);
-        const Eigen::MatrixXd k = held_stiffness(m, turn, mesh_stiffness_N_m);
+        const Eigen::MatrixXd k = constrained_stiffness(m, turn, mesh_stiffness_N_m);
         std::size_t at = l;
         for (int row = 0; row < lanes.degrees; ++row) {
             lanes.force[static_cast<std::size_t>(row) * W + l] = m.force(row);
@@ -77,9 +77,9 @@ StaticState<W>::StaticState(const StaticLanes<W>& lanes)
       tooth_k(static_cast<std::size_t>(lanes.contacts) * k.size()),
       tooth_e(tooth_k.size()),
       q(lanes.force.size()),
-      loose(W),
-      restless(W),
-      held(k.size()),
+      unsupported(W),
+      contacts_changed(W),
+      active_stiffness(k.size()),
       preload(k.size()),
       factor(lanes.stiffness.size()),
       inverse(q.size()),

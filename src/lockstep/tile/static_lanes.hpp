@@ -55,9 +55,9 @@ struct StaticState {
     machine::AlignedVector tooth_k, tooth_e;
     machine::AlignedVector q;  // [degree of freedom][lane], m
     // [lane], 1 or 0. loose: a load meets no stiffness. restless: the contacts did not converge.
-    machine::AlignedVector loose, restless;
+    machine::AlignedVector unsupported, contacts_changed;
 
-    machine::AlignedVector held, preload;                // [pair][lane], of the current contacts
+    machine::AlignedVector active_stiffness, preload;    // [pair][lane], of the current contacts
     machine::AlignedVector factor, inverse, right_hand;  // of the equations
 };
 
@@ -66,8 +66,8 @@ extern template struct StaticState<4>;
 extern template struct StaticState<8>;
 
 // Solves for state.q from state.k and state.e. A body without stiffness and without load stays at
-// zero. A load that meets no stiffness marks its lane `loose`, and its q is then invalid. Lanes do
-// not affect each other.
+// zero. A load that meets no stiffness marks its lane `unsupported`, and its q is then invalid.
+// Lanes do not affect each other.
 void solve_static_1(const StaticLanes<1>& lanes, StaticState<1>& state);
 void solve_static_4(const StaticLanes<4>& lanes, StaticState<4>& state);
 void solve_static_8(const StaticLanes<8>& lanes, StaticState<8>& state);

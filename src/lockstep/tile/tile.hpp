@@ -3,8 +3,8 @@
 //
 // A linear train under steady load and speed converges to an orbit that repeats every mesh period.
 // A faulty tooth perturbs it and the perturbation decays. A few recorded mesh periods, arranged by
-// `Pattern`, therefore represent all Z_p Z_r mesh periods that windowing uses. Horizon::march
-// integrates all of them.
+// `Pattern`, therefore represent all Z_p Z_r mesh periods that windowing uses.
+// Horizon::integrate_mesh integrates all of them.
 #pragma once
 
 #include <span>
@@ -19,11 +19,11 @@ namespace gearpod::lockstep {
 // single precision. Throws std::invalid_argument if the settings or the plan do not support the
 // excitation.
 template <int W>
-TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+TileResult run_tile(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings);
 
 #define GEARPOD_RUN_TILE(W)                                                          \
-    extern template TileResult run_tile<W>(const MarchPlan&,                         \
+    extern template TileResult run_tile<W>(const IntegrationPlan&,                   \
                                            std::span<const dynamics::GearboxInputs>, \
                                            const FaultCurves&, const TileSettings&);
 GEARPOD_RUN_TILE(1)

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 
 namespace gearpod::lockstep {
 

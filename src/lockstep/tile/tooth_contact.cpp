@@ -12,7 +12,7 @@ namespace {
 constexpr int kStretches = 24;  // per mesh period
 
 // Static transmission error of a pair at a stage node, m.
-double static_error(const MarchPlan& plan, int step, std::size_t node, int pair) {
+double static_error(const IntegrationPlan& plan, int step, std::size_t node, int pair) {
     const StiffnessNodes& nodes = plan.nodes;
     const std::size_t at = (static_cast<std::size_t>(step) * plan.grid.stage_nodes.size() + node) *
                                static_cast<std::size_t>(nodes.pairs) +
@@ -23,10 +23,10 @@ double static_error(const MarchPlan& plan, int step, std::size_t node, int pair)
 }  // namespace
 
 // Lane-dependent gaps of a pair, step by step.
-class ToothContact::OwnGaps {
+class ToothContact::LaneGaps {
   public:
     // `size` is the number of tooth pairs times lanes.
-    OwnGaps(std::span<const PairGaps> all, int pair, std::size_t size)
+    LaneGaps(std::span<const PairGaps> all, int pair, std::size_t size)
         : all_(all), pair_(pair), none_(size, 0.0) {}
 
     // [tooth pair][lane], m.
@@ -49,7 +49,7 @@ class ToothContact::OwnGaps {
     const PairGaps* now_ = nullptr;
 };
 
-ToothContact::ToothContact(const MarchPlan& plan, std::vector<double> mesh_period_s)
+ToothContact::ToothContact(const IntegrationPlan& plan, std::vector<double> mesh_period_s)
     : plan_(plan),
       mesh_period_s_(std::move(mesh_period_s)),
       contacts_(static_cast<std::size_t>(std::max(1, plan.nodes.contacts()))),
@@ -144,9 +144,9 @@ void ToothContact::least_deflection(const Node& node, const double* __restrict a
     }
 }
 
-machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
-                                                    std::span<const PairGaps> gaps,
-                                                    const MeshRecord* orbit) const {
+machine::AlignedVector ToothContact::least_compression(const MeshRecord& record,
+                                                       std::span<const PairGaps> gaps,
+                                                       const MeshRecord* periodic_orbit) const {
     const std::size_t width = mesh_period_s_.size(), rows = plan_.grid.steps.size() + 1;
     const std::size_t degrees = record.step_states.size() / (2 * rows * width);
     const std::size_t pairs = nodes_.size();
@@ -158,11 +158,11 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
         std::ranges::fill(rate, 0.0);
         deflect(record, p, 1.0, 0, at);
         deflect(record, p, 1.0, degrees, rate);
-        if (orbit != nullptr) {
-            deflect(*orbit, p, -1.0, 0, at);
-            deflect(*orbit, p, -1.0, degrees, rate);
+        if (periodic_orbit != nullptr) {
+            deflect(*periodic_orbit, p, -1.0, 0, at);
+            deflect(*periodic_orbit, p, -1.0, degrees, rate);
         }
-        OwnGaps own(gaps, p, contacts_ * width);
+        LaneGaps own(gaps, p, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             const std::size_t before = static_cast<std::size_t>(node.step) * width;
             least_deflection(node, at.data() + before, rate.data() + before, d.data());
@@ -172,16 +172,16 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
             for (const Tooth& tooth : node.teeth) {
                 double* __restrict row =
                     least.data() + ((stretch * pairs + pair) * contacts_ + tooth.contact) * width;
-                const double shared = orbit == nullptr ? tooth.shared + node.error : 0.0;
+                const double shared = periodic_orbit == nullptr ? tooth.shared + node.error : 0.0;
                 const double place = tooth.place;
                 const double* __restrict constant = gap + tooth.tooth * width;
                 const double* __restrict slope = growth + tooth.tooth * width;
                 const double* __restrict deflection = d.data();
 #pragma omp simd
                 for (std::size_t l = 0; l < width; ++l) {
-                    const double pressed =
+                    const double compression =
                         deflection[l] - shared - (place * slope[l] + constant[l]);
-                    row[l] = pressed < row[l] ? pressed : row[l];
+                    row[l] = compression < row[l] ? compression : row[l];
                 }
             }
         }
@@ -200,9 +200,9 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
 }
 
 // `d` holds the pair's deflection; `weight` is added in each lane without contact.
-void ToothContact::add_apart(const Node& node, std::size_t pair, const double* __restrict d,
-                             OwnGaps& own, const double* __restrict weight,
-                             machine::AlignedVector& apart) const {
+void ToothContact::add_separation(const Node& node, std::size_t pair, const double* __restrict d,
+                                  LaneGaps& own, const double* __restrict weight,
+                                  machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
     const auto [gap, growth] = own.at(node.step);
     double* __restrict sum = apart.data() + pair * width;
@@ -215,22 +215,22 @@ void ToothContact::add_apart(const Node& node, std::size_t pair, const double* _
         const double* __restrict slope = growth + tooth.tooth * width;
 #pragma omp simd
         for (std::size_t l = 0; l < width; ++l) {
-            const double pressed = d[l] - shared - (place * slope[l] + constant[l]);
-            sum[l] += pressed > 0.0 ? 0.0 : weight[l];
+            const double compression = d[l] - shared - (place * slope[l] + constant[l]);
+            sum[l] += compression > 0.0 ? 0.0 : weight[l];
         }
     }
 }
 
-void ToothContact::add_time_apart(const MeshRecord& record, std::span<const PairGaps> gaps,
-                                  std::span<const bool> lanes,
-                                  machine::AlignedVector& apart) const {
+void ToothContact::add_separation_time(const MeshRecord& record, std::span<const PairGaps> gaps,
+                                       std::span<const bool> lanes,
+                                       machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
     machine::AlignedVector at((plan_.grid.steps.size() + 1) * width), d(width), weight(width);
     for (std::size_t pair = 0; pair < nodes_.size(); ++pair) {
         const int p = static_cast<int>(pair);
         std::ranges::fill(at, 0.0);
         deflect(record, p, 1.0, 0, at);
-        OwnGaps own(gaps, p, contacts_ * width);
+        LaneGaps own(gaps, p, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             if (!node.first) {
                 continue;
@@ -242,7 +242,7 @@ void ToothContact::add_time_apart(const MeshRecord& record, std::span<const Pair
                 d[l] = left * before[l] + part * before[width + l];
                 weight[l] = lanes[l] ? node.length : 0.0;
             }
-            add_apart(node, pair, d.data(), own, weight.data(), apart);
+            add_separation(node, pair, d.data(), own, weight.data(), apart);
         }
     }
 }
@@ -264,8 +264,8 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
         for (const Tooth& tooth : node.teeth) {
             time.engaged[pair] += tooth.nominal ? weight : 0.0;
         }
-        OwnGaps own(gaps, static_cast<int>(pair), contacts_ * width);
-        add_apart(node, pair, d.data(), own, weights.data(), time.apart);
+        LaneGaps own(gaps, static_cast<int>(pair), contacts_ * width);
+        add_separation(node, pair, d.data(), own, weights.data(), time.apart);
     }
 }
 

@@ -35,21 +35,22 @@ struct ContactTime {
 class ToothContact {
   public:
     // `mesh_period_s` has one value per lane. The plan must outlive the object.
-    ToothContact(const MarchPlan& plan, std::vector<double> mesh_period_s);
+    ToothContact(const IntegrationPlan& plan, std::vector<double> mesh_period_s);
 
     // Lower bound of the compression of the tooth pairs, [stretch][pair][tooth pair][lane], m. It
     // is infinite where a tooth pair is not engaged, and minus infinite if the motion is not
     // finite. It covers all positions at which the integrator evaluates the contact forces of a
-    // step. `gaps` are those of the mesh period (tooth_gaps). With `orbit`, the record of a mesh
-    // period without errors, it bounds the difference from that record; such bounds add up to
-    // bounds of sums.
-    machine::AlignedVector least_pressing(const MeshRecord& record, std::span<const PairGaps> gaps,
-                                          const MeshRecord* orbit) const;
+    // step. `gaps` are those of the mesh period (tooth_gaps). With `periodic_orbit`, the record of
+    // a mesh period without errors, it bounds the difference from that record; such bounds add up
+    // to bounds of sums.
+    machine::AlignedVector least_compression(const MeshRecord& record,
+                                             std::span<const PairGaps> gaps,
+                                             const MeshRecord* periodic_orbit) const;
 
     // Adds the time during which tooth pairs are separated within the nominal path of contact, in
     // mesh periods, [pair][lane], for the lanes in the mask.
-    void add_time_apart(const MeshRecord& record, std::span<const PairGaps> gaps,
-                        std::span<const bool> lanes, machine::AlignedVector& apart) const;
+    void add_separation_time(const MeshRecord& record, std::span<const PairGaps> gaps,
+                             std::span<const bool> lanes, machine::AlignedVector& apart) const;
     // Time that the tooth pairs of a gear pair spend on the nominal path, mesh periods per mesh
     // period.
     double time_engaged(int pair) const { return engaged_[static_cast<std::size_t>(pair)]; }
@@ -81,17 +82,17 @@ class ToothContact {
         double error = 0.0;   // static transmission error of the gear pair, m
         std::vector<Tooth> teeth;
     };
-    class OwnGaps;
+    class LaneGaps;
 
     void add_node(int pair, int step, std::size_t node);
     void least_deflection(const Node& node, const double* at, const double* rate,
                           double* least) const;
-    void add_apart(const Node& node, std::size_t pair, const double* d, OwnGaps& own,
-                   const double* weight, machine::AlignedVector& apart) const;
+    void add_separation(const Node& node, std::size_t pair, const double* d, LaneGaps& own,
+                        const double* weight, machine::AlignedVector& apart) const;
     void deflect(const MeshRecord& record, int pair, double sign, std::size_t first_degree,
                  machine::AlignedVector& d) const;
 
-    const MarchPlan& plan_;
+    const IntegrationPlan& plan_;
     const std::vector<double> mesh_period_s_;
     const std::size_t contacts_;
     std::vector<std::vector<Node>> nodes_;  // [pair], by step and stage node

@@ -45,10 +45,10 @@ void noise_of_bin(std::span<const double> samples, double along, double across,
     }
 }
 
-NoiseDraw draw_of_samples(std::span<const double> signal, std::span<const double> noise,
-                          std::size_t bins) {
+NoiseVariates noise_variates_of_samples(std::span<const double> signal,
+                                        std::span<const double> noise, std::size_t bins) {
     const std::vector<double> squares = fold_of_squares(signal, bins);
-    NoiseDraw draw{fold_of_products(signal, noise, bins), fold_of_squares(noise, bins)};
+    NoiseVariates draw{fold_of_products(signal, noise, bins), fold_of_squares(noise, bins)};
     for (std::size_t b = 0; b < bins; ++b) {
         draw.along[b] = squares[b] > 0.0 ? draw.along[b] / std::sqrt(squares[b]) : 0.0;
         draw.across[b] = std::max(0.0, draw.across[b] - draw.along[b] * draw.along[b]);

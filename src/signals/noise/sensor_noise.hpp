@@ -22,7 +22,7 @@
 namespace gearpod::signals {
 
 // Noise variates (Z, G) of every bin of one gearbox.
-struct NoiseDraw {
+struct NoiseVariates {
     std::vector<double> along;   // Z
     std::vector<double> across;  // G
 };
@@ -34,7 +34,7 @@ class SensorNoise {
 
     // Draws all Z first, then all G. Engine: a 64-bit uniform random bit generator.
     template <typename Engine>
-    void draw(Engine& engine, std::size_t bins, NoiseDraw& out) const {
+    void draw(Engine& engine, std::size_t bins, NoiseVariates& out) const {
         out.along.resize(bins);
         out.across.resize(bins);
         draw_normals(engine, out.along);
@@ -58,15 +58,15 @@ void noise_of_bin(std::span<const double> samples, double along, double across,
 // over each bin's samples s (0 where s is 0) and G = |n|^2 - Z^2, so that F_noisy is that of the
 // noisy signal at every noise level. `signal` and `noise` have the same size, whole turns of
 // `bins`.
-NoiseDraw draw_of_samples(std::span<const double> signal, std::span<const double> noise,
-                          std::size_t bins);
+NoiseVariates noise_variates_of_samples(std::span<const double> signal,
+                                        std::span<const double> noise, std::size_t bins);
 
 // Unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples). With
 // sigma times this noise the signal folds to F_noisy. Bins are processed in order b = 0, 1, ...;
 // the engine gives the directions.
 template <typename Engine>
 std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
-                               const NoiseDraw& draw, Engine& engine) {
+                               const NoiseVariates& draw, Engine& engine) {
     if (bins == 0 || signal.size() % bins != 0 || draw.along.size() != bins ||
         draw.across.size() != bins) {
         throw std::invalid_argument("unit noise: signal, bins and draw disagree in size");

@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "signals/sensor/heard_mesh.hpp"
+#include "signals/sensor/sensor_response_kernel.hpp"
 
 namespace gearpod::signals {
 namespace {
 
-machine::AlignedVector every(const machine::AlignedVector& values, std::size_t lanes, int lane) {
+machine::AlignedVector lane_values(const machine::AlignedVector& values, std::size_t lanes,
+                                   int lane) {
     machine::AlignedVector own;
     for (auto i = static_cast<std::size_t>(lane); i < values.size(); i += lanes) {
         own.push_back(values[i]);
@@ -19,9 +20,10 @@ machine::AlignedVector every(const machine::AlignedVector& values, std::size_t l
     return own;
 }
 
-Tones of_lane(const Tones& tones, int lanes, int lane) {
-    return {every(tones.mesh_period_s, lanes, lane), every(tones.frequency_Hz, lanes, lane),
-            every(tones.amplitude_m_s2, lanes, lane), every(tones.phase_rad, lanes, lane)};
+Tones tones_of_lane(const Tones& tones, int lanes, int lane) {
+    return {
+        lane_values(tones.mesh_period_s, lanes, lane), lane_values(tones.frequency_Hz, lanes, lane),
+        lane_values(tones.amplitude_m_s2, lanes, lane), lane_values(tones.phase_rad, lanes, lane)};
 }
 
 // Number of lanes that are read together: one cache line holds their values.
@@ -56,10 +58,10 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
     std::vector<ToneTable> table;
     for (int n = 0; n < lanes; ++n) {
         weight.emplace_back(turn * tile.phases);
-        heard_weights_1(
+        sensor_path_weights_1(
             {&path, &path_exponent[n], whole_steps.data(), of_phase.data(), weight.back().data()});
         signal.emplace_back(static_cast<std::size_t>(mesh_count) * tile.phases);
-        table.emplace_back(of_lane(tones, tile.lanes, first + n), 1, first_mesh, mesh_count,
+        table.emplace_back(tones_of_lane(tones, tile.lanes, first + n), 1, first_mesh, mesh_count,
                            tile.phases);
     }
     for (int i = 0; i < mesh_count; ++i) {
@@ -67,7 +69,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
         const double* mesh = tile.accel[timeline[k % static_cast<long>(timeline.size())]];
         copy_lanes({mesh, values * tile.lanes}, tile.lanes, first, accel);
         for (int n = 0; n < lanes; ++n) {
-            HeardMesh one;
+            SensorResponseArguments one;
             one.path = &path;
             one.carrier = static_cast<int>(k % path.positions());
             one.weight = weight[n].data() +
@@ -77,7 +79,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
             one.mesh = i;
             one.meshes = mesh_count;
             one.signal = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
-            heard_mesh_1(one);
+            sensor_response_1(one);
         }
     }
     return signal;

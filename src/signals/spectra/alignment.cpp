@@ -23,7 +23,7 @@ Spectrum spectrum_of(std::span<const double> signal) {
     return spectrum;
 }
 
-void check_alike(std::span<const double> signal, std::span<const double> other) {
+void check_equal_sizes(std::span<const double> signal, std::span<const double> other) {
     if (signal.empty() || signal.size() != other.size()) {
         throw std::invalid_argument("alignment: two signals of as many samples are needed");
     }
@@ -37,11 +37,11 @@ double angle_of(std::size_t k, std::size_t n) {
 }
 
 // First and second derivative of the correlation at a shift, from the product of both spectra.
-struct Bend {
+struct CorrelationDerivatives {
     double slope = 0.0, bend = 0.0;
 };
-Bend bend_at(const Spectrum& product, double shift) {
-    Bend at;
+CorrelationDerivatives correlation_derivatives(const Spectrum& product, double shift) {
+    CorrelationDerivatives at;
     const std::size_t n = product.size();
     for (std::size_t k = 1; 2 * k < n; ++k) {
         const double angle = angle_of(k, n);
@@ -56,7 +56,7 @@ Bend bend_at(const Spectrum& product, double shift) {
 double peak_near(const Spectrum& product, double sample) {
     double shift = sample;
     for (int round = 0; round < 8; ++round) {
-        const Bend at = bend_at(product, shift);
+        const CorrelationDerivatives at = correlation_derivatives(product, shift);
         if (!(at.bend < 0.0)) {
             return sample;
         }
@@ -75,7 +75,7 @@ double peak_near(const Spectrum& product, double sample) {
 }  // namespace
 
 Alignment align(std::span<const double> signal, std::span<const double> other) {
-    check_alike(signal, other);
+    check_equal_sizes(signal, other);
     const std::size_t n = signal.size();
     Spectrum product = spectrum_of(other);
     const Spectrum own = spectrum_of(signal);
@@ -92,7 +92,7 @@ Alignment align(std::span<const double> signal, std::span<const double> other) {
         return {};
     }
     Spectrum correlations(n);
-    FourierTransform(static_cast<int>(n), FourierTransform::Way::back)
+    FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
         .transform(product, correlations);
     const auto largest =
         std::max_element(correlations.begin(), correlations.end(),
@@ -107,7 +107,7 @@ Alignment align(std::span<const double> signal, std::span<const double> other) {
 }
 
 double correlation(std::span<const double> signal, std::span<const double> other) {
-    check_alike(signal, other);
+    check_equal_sizes(signal, other);
     const auto mean = [](std::span<const double> values) {
         double sum = 0.0;
         for (const double value : values) {
@@ -133,7 +133,8 @@ std::vector<double> shifted(std::span<const double> periodic, double shift) {
         // The component at half the sampling rate is a cosine and stays real.
         spectrum[k] *= 2 * k == n ? std::cos(angle) : std::polar(1.0, angle);
     }
-    FourierTransform(static_cast<int>(n), FourierTransform::Way::back).transform(spectrum, values);
+    FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
+        .transform(spectrum, values);
     std::vector<double> result(n);
     for (std::size_t i = 0; i < n; ++i) {
         result[i] = values[i].real() / static_cast<double>(n);

@@ -25,7 +25,7 @@ int largest_prime_factor(int n) {
     return n > 1 ? n : largest;
 }
 
-int prime_worth_taking_out(int points) {
+int prime_to_split_off(int points) {
     if (points < 1) {
         throw std::invalid_argument("Fourier transform: needs a point");
     }
@@ -40,16 +40,16 @@ double angle(long i, long n) {
 
 }  // namespace
 
-FourierTransform::FourierTransform(int points, Way way)
-    : prime_(prime_worth_taking_out(points)),
+FourierTransform::FourierTransform(int points, Direction way)
+    : prime_(prime_to_split_off(points)),
       part_(points / prime_),
-      fft_(static_cast<std::size_t>(part_), way == Way::back),
+      fft_(static_cast<std::size_t>(part_), way == Direction::back),
       row_((static_cast<std::size_t>(part_) + kColumns - 1) / kColumns * kColumns),
-      of_part_(part_) {
+      part_spectrum_(part_) {
     if (prime_ == 1) {
         return;
     }
-    const double sign = way == Way::back ? 1.0 : -1.0;
+    const double sign = way == Direction::back ? 1.0 : -1.0;
     for (long r = 0; r < prime_; ++r) {
         for (long k = 0; k < part_; ++k) {
             twiddle_.emplace_back(std::cos(angle(r * k, points)),
@@ -72,11 +72,12 @@ FourierTransform::FourierTransform(int points, Way way)
 void FourierTransform::transform_parts(std::span<const Complex> in) {
     const Complex* twiddle = twiddle_.data();
     for (int r = 0; r < prime_; ++r) {
-        fft_.transform(in.data() + r, of_part_.data(), 0, 1, static_cast<std::size_t>(prime_));
+        fft_.transform(in.data() + r, part_spectrum_.data(), 0, 1,
+                       static_cast<std::size_t>(prime_));
         double* real = real_.data() + static_cast<std::size_t>(r) * row_;
         double* imaginary = imaginary_.data() + static_cast<std::size_t>(r) * row_;
         for (int k = 0; k < part_; ++k) {
-            const Complex z = of_part_[k] * *twiddle++;
+            const Complex z = part_spectrum_[k] * *twiddle++;
             real[k] = z.real();
             imaginary[k] = z.imag();
         }

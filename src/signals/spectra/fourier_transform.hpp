@@ -19,10 +19,10 @@ namespace gearpod::signals {
 // Holds scratch memory: use one object per thread.
 class FourierTransform {
   public:
-    enum class Way { forward, back };
+    enum class Direction { forward, back };
 
     // Throws std::invalid_argument unless points >= 1.
-    explicit FourierTransform(int points, Way way = Way::forward);
+    explicit FourierTransform(int points, Direction way = Direction::forward);
 
     int points() const { return prime_ * part_; }
 
@@ -36,7 +36,7 @@ class FourierTransform {
     int part_;   // n / q
     kissfft<double> fft_;
     std::size_t row_;  // part_, padded to whole registers
-    std::vector<std::complex<double>> of_part_;
+    std::vector<std::complex<double>> part_spectrum_;
     std::vector<std::complex<double>> twiddle_;  // [r][k]: w^(r k)
     std::vector<double> cosine_, sine_;          // prime_stage.hpp
     machine::AlignedVector real_, imaginary_;    // [r][k] of the parts

@@ -10,7 +10,7 @@ namespace gearpod::signals {
 namespace {
 
 constexpr int kFewestTurns = 6;
-constexpr double kAlike = 0.3;  // correlation of similar turns
+constexpr double kLeastTurnCorrelation = 0.3;  // correlation of similar turns
 
 // Number of samples by which the signal occurs earlier in `next` than in `before`, and the
 // correlation at that lag. Both turns have more samples around them, from which a lag takes its
@@ -58,22 +58,22 @@ std::optional<LostSamples> lost_samples(std::span<const double> samples, int per
     if (turn_meshes < 2 || turns < kFewestTurns) {
         return std::nullopt;
     }
-    std::vector<double> steps, alike;
+    std::vector<double> steps, correlations;
     for (std::size_t t = 1; t < turns; ++t) {
         const Lag lag = lag_between(samples, (t - 1) * length, t * length, length, farthest);
         steps.push_back(lag.samples);
-        alike.push_back(lag.correlation);
+        correlations.push_back(lag.correlation);
     }
-    if (machine::upper_median(alike) < kAlike) {
+    if (machine::upper_median(correlations) < kLeastTurnCorrelation) {
         return std::nullopt;
     }
     const double usual = machine::upper_median(steps);
-    std::vector<double> away;
+    std::vector<double> deviations;
     for (const double step : steps) {
-        away.push_back(std::abs(std::remainder(step - usual, static_cast<double>(per_mesh))));
+        deviations.push_back(std::abs(std::remainder(step - usual, static_cast<double>(per_mesh))));
     }
     constexpr double kLeast = 0.05, kStandsOut = 8.0;
-    const double scatter = std::max(kLeast, 1.4826 * machine::upper_median(away));
+    const double scatter = std::max(kLeast, 1.4826 * machine::upper_median(deviations));
     // The turn with the loss is shifted in part, so two successive steps share the loss.
     LostSamples most;
     double largest = 0.0;

@@ -18,7 +18,7 @@ int checked(int points, int teeth) {
 
 MeshSeparation::MeshSeparation(int points, int teeth)
     : forward_(checked(points, teeth)),
-      backward_(points, FourierTransform::Way::back),
+      backward_(points, FourierTransform::Direction::back),
       kind_(static_cast<std::size_t>(points) / 2 + 1, Kind::other),
       teeth_(teeth) {
     const auto n = static_cast<std::size_t>(points);

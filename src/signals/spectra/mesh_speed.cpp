@@ -11,12 +11,12 @@
 namespace gearpod::signals {
 namespace {
 
-constexpr double kFarthest = 0.06;      // largest deviation of the ratio from 1
-constexpr int kMostHarmonics = 8;       // beyond, the search bands of neighbours overlap
-constexpr double kStandsOut = 5.0;      // amplitude over the median of its band
-constexpr double kSpread = 4.0;         // of a mesh's lines, in turn frequencies
-constexpr double kFits = 0.3;           // fraction of the amplitudes
-constexpr double kNearlyAsWell = 0.85;  // fraction of the best fit
+constexpr double kFarthest = 0.06;       // largest deviation of the ratio from 1
+constexpr int kMostHarmonics = 8;        // beyond, the search bands of neighbours overlap
+constexpr double kStandsOut = 5.0;       // amplitude over the median of its band
+constexpr double kSpread = 4.0;          // of a mesh's lines, in turn frequencies
+constexpr double kFits = 0.3;            // fraction of the amplitudes
+constexpr double kComparableFit = 0.85;  // fraction of the best fit
 
 struct Line {
     double order;  // per mesh
@@ -119,19 +119,19 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mes
     MeshSpeed best{1.0, 0.0, fit_of(lines, 1.0, turn_meshes, width)};
     best.fit = best.stated;
     best.harmonics = static_cast<int>(harmonics.size());
-    const auto look = [&](const auto& use) {
+    const auto scan_ratios = [&](const auto& use) {
         for (double ratio = 1.0 - kFarthest; ratio <= 1.0 + kFarthest; ratio += step) {
             use(ratio, fit_of(lines, ratio, turn_meshes, width));
         }
     };
-    look([&](double ratio, double fit) {
+    scan_ratios([&](double ratio, double fit) {
         if (fit > best.fit) {
             best.ratio = ratio;
             best.fit = fit;
         }
     });
-    double next = kNearlyAsWell * best.fit;
-    look([&](double ratio, double fit) {
+    double next = kComparableFit * best.fit;
+    scan_ratios([&](double ratio, double fit) {
         if (fit > next && std::abs(ratio - best.ratio) * turn_meshes > 0.5) {
             best.other = ratio;
             next = fit;

@@ -41,13 +41,13 @@ std::vector<double> OrderTracking::resample(std::span<const double> signal, int 
                                   static_cast<std::size_t>(per_mesh));
     std::size_t next = 1;  // first sample at or after the grid point, or the last sample
     for (std::size_t i = 0; i < resampled.size(); ++i) {
-        const double wanted = phase_.front() + static_cast<double>(i) / per_mesh;
-        while (next + 1 < phase_.size() && phase_[next] < wanted) {
+        const double grid_phase = phase_.front() + static_cast<double>(i) / per_mesh;
+        while (next + 1 < phase_.size() && phase_[next] < grid_phase) {
             ++next;
         }
         const double step = phase_[next] - phase_[next - 1];
         const double place =
-            static_cast<double>(next - 1) + std::min((wanted - phase_[next - 1]) / step, 1.0);
+            static_cast<double>(next - 1) + std::min((grid_phase - phase_[next - 1]) / step, 1.0);
         const double nearest = std::rint(place);
         if (std::abs(place - nearest) < kOnSample) {
             resampled[i] = signal[static_cast<std::size_t>(nearest)];

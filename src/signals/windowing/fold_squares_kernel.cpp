@@ -36,7 +36,7 @@ GEARPOD_INLINE void sum_pairs(const FoldArguments& a, long s) {
 
 // Copies the sum of each tooth to its bin at phase p.
 template <int W>
-GEARPOD_INLINE void hand_out(const FoldArguments& a, long p) {
+GEARPOD_INLINE void copy_sums_to_bins(const FoldArguments& a, long p) {
     const long phases = a.path->phases();
     const int teeth = a.plan->layout().planet_teeth;
     for (int j = 0; j < teeth; ++j) {
@@ -58,14 +58,14 @@ GEARPOD_INLINE void fold_all(const FoldArguments& a) {
         for (long s = 0; s < sums; ++s) {
             sum_pairs<W>(a, s);
         }
-        hand_out<W>(a, p);
+        copy_sums_to_bins<W>(a, p);
     }
 }
 
 }  // namespace
 
-GEARPOD_SPARE_KERNEL(fold_squares_1, (const FoldArguments& a), (a), fold_all<1>(a))
-GEARPOD_SPARE_KERNEL(fold_squares_4, (const FoldArguments& a), (a), fold_all<4>(a))
+GEARPOD_OPTIONAL_KERNEL(fold_squares_1, (const FoldArguments& a), (a), fold_all<1>(a))
+GEARPOD_OPTIONAL_KERNEL(fold_squares_4, (const FoldArguments& a), (a), fold_all<4>(a))
 GEARPOD_KERNEL(fold_squares_8, (const FoldArguments& a), (a), fold_all<8>(a))
 GEARPOD_KERNEL(fold_squares_16, (const FoldArguments& a), (a), fold_all<16>(a))
 

@@ -88,8 +88,8 @@ GEARPOD_INLINE void fold_all(const FoldArguments& a) {
 
 }  // namespace
 
-GEARPOD_SPARE_KERNEL(fold_tones_1, (const FoldArguments& a), (a), fold_all<1>(a))
-GEARPOD_SPARE_KERNEL(fold_tones_4, (const FoldArguments& a), (a), fold_all<4>(a))
+GEARPOD_OPTIONAL_KERNEL(fold_tones_1, (const FoldArguments& a), (a), fold_all<1>(a))
+GEARPOD_OPTIONAL_KERNEL(fold_tones_4, (const FoldArguments& a), (a), fold_all<4>(a))
 GEARPOD_KERNEL(fold_tones_8, (const FoldArguments& a), (a), fold_all<8>(a))
 GEARPOD_KERNEL(fold_tones_16, (const FoldArguments& a), (a), fold_all<16>(a))
 

@@ -11,7 +11,7 @@
 namespace gearpod::signals {
 namespace {
 
-constexpr std::size_t kSpare = static_cast<std::size_t>(kSegments) * (kOutputsAtOnce - 1);
+constexpr std::size_t kPadding = static_cast<std::size_t>(kSegments) * (kOutputsAtOnce - 1);
 
 bool is_flat(double weight) {
     return weight == 1.0;
@@ -77,10 +77,10 @@ Windowing::Windowing(const SpanLayout& layout, int phases, double taper)
     upwards_.resize(extended);
     downwards_.resize(extended);
     for (machine::AlignedVector& bins : bins_) {
-        bins.resize(extended + kSpare);
+        bins.resize(extended + kPadding);
     }
     for (Term& term : terms_) {
-        term.energy.resize(extended - period + kSpare);
+        term.energy.resize(extended - period + kPadding);
     }
 }
 
@@ -143,7 +143,7 @@ void Windowing::load(std::span<const double> folded) {
     noisy_ = false;
 }
 
-void Windowing::load(std::span<const double> folded, const NoiseDraw& noise) {
+void Windowing::load(std::span<const double> folded, const NoiseVariates& noise) {
     load(folded);
     spread(noise.along, bins_[kCross]);
     spread(noise.across, bins_[kNoise]);
@@ -160,7 +160,7 @@ void Windowing::check(double sigma) const {
     }
 }
 
-double Windowing::of_level(double sigma, double signal, double cross, double noise) const {
+double Windowing::energy_at_level(double sigma, double signal, double cross, double noise) const {
     return sigma == 0.0 ? signal : noisy_energy(sigma, signal, cross, noise);
 }
 
@@ -194,7 +194,8 @@ int Windowing::search(double sigma, std::span<double> tooth_rms) const {
         const int t = j % periods_ * phases_ + offset;
         const std::size_t at = static_cast<std::size_t>(t) * kSegments + j / periods_;
         tooth_rms[j] = std::sqrt(
-            of_level(sigma, signal.energy[at], cross.energy[at], noise.energy[at]) / samples);
+            energy_at_level(sigma, signal.energy[at], cross.energy[at], noise.energy[at]) /
+            samples);
     }
     return offset;
 }
@@ -203,7 +204,7 @@ double Windowing::mean_square(double sigma) const {
     check(sigma);
     const auto& [signal, cross, noise] = terms_;
     const double samples = static_cast<double>(phases_) * layout_.planet_teeth * layout_.ring_teeth;
-    return of_level(sigma, signal.total, cross.total, noise.total) / samples;
+    return energy_at_level(sigma, signal.total, cross.total, noise.total) / samples;
 }
 
 }  // namespace gearpod::signals

@@ -40,7 +40,7 @@ class Windowing {
     // Takes the folded squares of a gearbox (contiguous, Z_p P bins), without noise or with noise
     // that search() and mean_square() can add. Throws std::invalid_argument if the sizes disagree.
     void load(std::span<const double> folded);
-    void load(std::span<const double> folded, const NoiseDraw& noise);
+    void load(std::span<const double> folded, const NoiseVariates& noise);
 
     // Computes the RMS of every tooth signal (Z_p values, m/s^2) with noise of rms sigma, m/s^2, at
     // the best first window. Returns that window's offset, 0..P-1 (the smallest of equals). Equal
@@ -62,7 +62,7 @@ class Windowing {
     void spread(std::span<const double> bins, machine::AlignedVector& spread) const;
     void window(const machine::AlignedVector& bins, Term& term);
     double total() const;
-    double of_level(double sigma, double signal, double cross, double noise) const;
+    double energy_at_level(double sigma, double signal, double cross, double noise) const;
     void check(double sigma) const;
 
     SpanLayout layout_;

@@ -37,7 +37,7 @@ Pairs solve_for_ones(Matrix c, int n) {
 }
 
 // Pairs in contact that may carry load, in order.
-struct Carrying {
+struct LoadedPairs {
     int count = 0;
     std::array<int, TouchingPairs::kMost> pair{};
     void remove(int index) {
@@ -46,7 +46,7 @@ struct Carrying {
     }
 };
 
-SharedLoad share_among(const Carrying& carrying, const TouchingPairs& pairs,
+SharedLoad share_among(const LoadedPairs& carrying, const TouchingPairs& pairs,
                        const HertzContact& contact, double force_N, const SharedLoad& guess) {
     Matrix c;
     for (int i = 0; i < carrying.count; ++i) {
@@ -71,8 +71,8 @@ SharedLoad share_load(const TouchingPairs& pairs, const HertzContact& contact, d
     // The contact compliance is proportional to the force to the power -0.1, so errors shrink
     // tenfold per iteration.
     constexpr int kMostRounds = 40;
-    constexpr double kSettled = 1e-15;
-    Carrying carrying;
+    constexpr double kConvergedChange = 1e-15;
+    LoadedPairs carrying;
     for (int i = 0; i < pairs.count; ++i)
         if (std::isfinite(pairs.compliance[i][i]) && pairs.width[i] > 0)
             carrying.pair[carrying.count++] = i;
@@ -93,7 +93,7 @@ SharedLoad share_load(const TouchingPairs& pairs, const HertzContact& contact, d
             continue;
         }
         load = next;
-        if (!contact.load_dependent() || change < kSettled)
+        if (!contact.load_dependent() || change < kConvergedChange)
             break;
     }
     if (carrying.count == 0)

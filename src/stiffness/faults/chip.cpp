@@ -7,9 +7,9 @@
 
 namespace gearpod::stiffness {
 
-class ChipOfOneLength : public ToothFault {
+class ChipFault : public ToothFault {
   public:
-    ChipOfOneLength(const ToothChip& family, double length_m)
+    ChipFault(const ToothChip& family, double length_m)
         : family_(family),
           length_(std::min(length_m, family.largest_size())),
           depth_(family.depth(length_)) {}
@@ -69,7 +69,7 @@ double ToothChip::position(double distance_m) const {
 }
 
 std::unique_ptr<const ToothFault> ToothChip::at(double length_m) const {
-    return std::make_unique<ChipOfOneLength>(*this, length_m);
+    return std::make_unique<ChipFault>(*this, length_m);
 }
 
 double ToothChip::largest_size() const {

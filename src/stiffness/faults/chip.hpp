@@ -49,7 +49,7 @@ class ToothChip : public ToothFaultFamily {
     double tooth_height() const { return height_; }  // d_h, m
 
   private:
-    friend class ChipOfOneLength;
+    friend class ChipFault;
     double depth(double length_m) const {
         return depth_m_ ? *depth_m_ : kDepthOverLength * length_m;
     }

@@ -31,9 +31,9 @@ double thickness_of(const ToothProfile& profile, double u) {
 
 }  // namespace
 
-class PitsOfOneWidth : public ToothFault {
+class PittingFault : public ToothFault {
   public:
-    PitsOfOneWidth(const ToothPitting& family, double width_m)
+    PittingFault(const ToothPitting& family, double width_m)
         : family_(family), width_(std::min(width_m / family.material_.face_width_m, 1.0)) {}
 
     int teeth() const override { return family_.band_.teeth; }
@@ -137,7 +137,7 @@ ToothPitting::ToothPitting(const gears::MeshGeometry& geometry, const Material& 
 }
 
 std::unique_ptr<const ToothFault> ToothPitting::at(double width_m) const {
-    return std::make_unique<PitsOfOneWidth>(*this, width_m);
+    return std::make_unique<PittingFault>(*this, width_m);
 }
 
 std::vector<std::string> ToothPitting::problems(double width_m) const {

@@ -47,7 +47,7 @@ class ToothPitting : public ToothFaultFamily {
     std::vector<double> jumps() const override { return jumps_; }
 
   private:
-    friend class PitsOfOneWidth;
+    friend class PittingFault;
     double angle_at(double tau) const { return contact_start_ + contact_rate_ * tau; }
 
     gears::Gear gear_;

@@ -26,7 +26,7 @@ struct SliceStiffness {
 };
 
 // Contact position with the quantities that all slices share.
-struct Touch {
+struct ContactPoint {
     double u = 0, cosine = 0, sine = 0;
     FoundationCompliance foundation;  // zero without one
 };
@@ -37,9 +37,9 @@ double inverse(double x) {
 
 }  // namespace
 
-class CrackOfOneStage : public ToothFault {
+class SpatialCrackFault : public ToothFault {
   public:
-    CrackOfOneStage(const SpatialCrack& family, const CrackSurface& surface)
+    SpatialCrackFault(const SpatialCrack& family, const CrackSurface& surface)
         : family_(family),
           surface_(surface),
           rule_(surface.uniform() ? 1 : family.growth_.slices),
@@ -88,7 +88,7 @@ class CrackOfOneStage : public ToothFault {
             slices_.push_back(healthy_);
             added_.emplace_back(CrackPath(family_.profile_, crack.angle_rad, crack.height_m),
                                 family_.material_, crack.depth_m);
-            longer_lever_.push_back(1);
+            lever_factor_.push_back(1);
             return;
         }
         slices_.emplace_back(family_.profile_, crack);
@@ -96,7 +96,7 @@ class CrackOfOneStage : public ToothFault {
         const double cut =
             below > 0 ? below * std::tan(crack.angle_rad) : 0;  // of the root's width
         const double root_width = 2 * family_.profile_.root_half_thickness();
-        longer_lever_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
+        lever_factor_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
     }
 
     // Height of the section at u above the section from which the cracks' heights are measured.
@@ -136,7 +136,7 @@ class CrackOfOneStage : public ToothFault {
             breaks_.push_back(tau);
     }
 
-    Touch touch_at(double tau) const {
+    ContactPoint touch_at(double tau) const {
         const double u = family_.angle_at(tau), angle = family_.profile_.involute_angle(u);
         return {u, std::cos(angle), std::sin(angle),
                 family_.foundation_ ? family_.foundation_->self(angle) : FoundationCompliance{}};
@@ -146,7 +146,7 @@ class CrackOfOneStage : public ToothFault {
     void sum_slices(std::span<const double> tau, std::span<double> stiffness) const {
         const std::size_t n = tau.size(), count = slices_.size();
         const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
-        std::vector<Touch> touches(n);                  // from the root
+        std::vector<ContactPoint> touches(n);           // from the root
         for (std::size_t i = 0; i < n; ++i)
             touches[i] = touch_at(tau[climbs ? i : n - 1 - i]);
         std::vector<SliceStiffness> at(n * count);
@@ -163,7 +163,7 @@ class CrackOfOneStage : public ToothFault {
 
     // Stiffness of a slice for a contact above the crack's start. Contacts below it give the slice
     // no weight in the sum.
-    SliceStiffness slice_stiffness(std::size_t slice, const Touch& touch,
+    SliceStiffness slice_stiffness(std::size_t slice, const ContactPoint& touch,
                                    SectionSweep& sweep) const {
         const CrackedSections& sections = slices_[slice];
         if (sections.broken() || (sections.past_centre() && touch.u <= sections.boundary()) ||
@@ -172,11 +172,11 @@ class CrackOfOneStage : public ToothFault {
         sweep.advance(touch.u);
         const double added =
             by_sections() ? 0 : added_[slice].added(family_.profile_.involute_angle(touch.u));
-        return stiffness_of(sweep.moments(), touch, longer_lever_[slice], added);
+        return stiffness_of(sweep.moments(), touch, lever_factor_[slice], added);
     }
 
-    SliceStiffness stiffness_of(const SectionMoments& moments, const Touch& touch, double lever,
-                                double added = 0) const {
+    SliceStiffness stiffness_of(const SectionMoments& moments, const ContactPoint& touch,
+                                double lever, double added = 0) const {
         return {
             inverse(bending_compliance(moments, family_.profile_, family_.material_, touch.cosine) +
                     added),
@@ -184,11 +184,11 @@ class CrackOfOneStage : public ToothFault {
             lever > 0 ? inverse(touch.foundation.total(lever)) : 0};
     }
 
-    double tooth_stiffness(const Touch& touch, SectionSweep& sweep,
+    double tooth_stiffness(const ContactPoint& touch, SectionSweep& sweep,
                            std::span<const SliceStiffness> slices) const {
         sweep.advance(touch.u);
         const SliceStiffness whole = stiffness_of(sweep.moments(), touch, 1);
-        const std::vector<double> weights = seen_weights(height_at(touch.u));
+        const std::vector<double> weights = affected_weights(height_at(touch.u));
         SliceStiffness sum;
         double cracked = 0;  // fraction of the face width
         for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -212,7 +212,7 @@ class CrackOfOneStage : public ToothFault {
     }
 
     // Weights of the slices whose crack affects a contact at that height.
-    std::vector<double> seen_weights(double height) const {
+    std::vector<double> affected_weights(double height) const {
         std::vector<double> weights(slices_.size());
         if (height >= highest_)
             rule_.whole(weights);
@@ -228,7 +228,7 @@ class CrackOfOneStage : public ToothFault {
     CrackedSections healthy_;
     std::vector<CrackedSections> slices_;
     std::vector<CrackCompliance> added_;  // added compliance of each slice, by fracture mechanics
-    std::vector<double> longer_lever_;    // S / S'; 0 where the root is cut through
+    std::vector<double> lever_factor_;    // S / S'; 0 where the root is cut through
     double lowest_ = 0, highest_ = 0;     // heights of the crack's start above the root section
     std::vector<double> breaks_;
     ToothPairCurve curve_;
@@ -254,7 +254,7 @@ SpatialCrack::SpatialCrack(const gears::MeshGeometry& geometry, const Material& 
 }
 
 std::unique_ptr<const ToothFault> SpatialCrack::at(double stage) const {
-    return std::make_unique<CrackOfOneStage>(*this, growth_.at(stage, material_.face_width_m));
+    return std::make_unique<SpatialCrackFault>(*this, growth_.at(stage, material_.face_width_m));
 }
 
 }  // namespace gearpod::stiffness

@@ -48,7 +48,7 @@ class SpatialCrack : public ToothFaultFamily {
     double largest_size() const override { return growth_.stages(); }
 
   private:
-    friend class CrackOfOneStage;
+    friend class SpatialCrackFault;
     double angle_at(double tau) const { return contact_start_ + contact_rate_ * tau; }
     double position_of(double u) const { return (u - contact_start_) / contact_rate_; }
 

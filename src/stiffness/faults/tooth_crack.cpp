@@ -50,7 +50,7 @@ class CrackBySections : public ToothFault {
 
   private:
     double touched_at(double u, SectionSweep& sweep) const {
-        if (sections_.gone(u))
+        if (sections_.unsupported(u))
             return kInfinity;
         sweep.advance(u);
         return stiffness::compliance(sweep.moments(), family_.profile_, family_.material_,

@@ -35,8 +35,8 @@ ElasticRing::ElasticRing(const ToothProfile& tooth, int teeth, const Material& m
     limit_even_ = body.limit_even();
     limit_odd_ = body.limit_odd();
     const HarmonicCompliance mean = body.harmonic(0);
-    moved_by_shear_ = mean.tt * half_angle_ / pi;
-    pressed_by_normal_ = mean.rr * half_angle_ / pi;
+    displacement_by_shear_ = mean.tt * half_angle_ / pi;
+    displacement_by_normal_ = mean.rr * half_angle_ / pi;
     for (auto& work : work_) {
         work[shear][shear] = mean.tt * 2 * half_angle_ * half_angle_ / pi;
         work[normal][normal] = mean.rr * 2 * half_angle_ * half_angle_ / pi;
@@ -54,17 +54,17 @@ ElasticRing::ElasticRing(const ToothProfile& tooth, int teeth, const Material& m
 void ElasticRing::add_self_harmonic(int n, const HarmonicCompliance& c) {
     const double constant = constant_coefficient(n, half_angle_);
     const double linear = linear_coefficient(n, half_angle_);
-    moved_by_shear_ += c.tt * constant;
-    moved_by_linear_ += c.rt * linear;
-    turned_by_shear_ += (n * c.rt - limit_odd_) * constant;
-    turned_by_linear_ += (n * c.rr - limit_even_) * linear +
-                         limit_even_ * 2 * std::sin(n * half_angle_) / (pi * n * n);
-    pressed_by_normal_ += c.rr * constant;
+    displacement_by_shear_ += c.tt * constant;
+    displacement_by_linear_ += c.rt * linear;
+    slope_by_shear_ += (n * c.rt - limit_odd_) * constant;
+    slope_by_linear_ += (n * c.rr - limit_even_) * linear +
+                        limit_even_ * 2 * std::sin(n * half_angle_) / (pi * n * n);
+    displacement_by_normal_ += c.rr * constant;
 }
 
 void ElasticRing::add_self_limits() {
-    turned_by_shear_ += limit_odd_ * (1 - half_angle_ / pi);
-    turned_by_linear_ +=
+    slope_by_shear_ += limit_odd_ * (1 - half_angle_ / pi);
+    slope_by_linear_ +=
         limit_even_ * 2 * half_angle_ / pi * std::log(2 * std::sin(half_angle_ / 2));
 }
 
@@ -106,11 +106,13 @@ FoundationCompliance ElasticRing::self(double contact_angle) const {
     // curvature.
     const double by_lever = 1 / (2 * (std::sin(half_angle_) - half_angle_ * std::cos(half_angle_)));
     const double by_curvature = at[linear_normal] - by_lever * lever;
-    const double moved = moved_by_shear_ * at[shear] + moved_by_linear_ * by_curvature;
-    const double turned = turned_by_shear_ * at[shear] + turned_by_linear_ * by_curvature;
-    return {turned_by_linear_ * by_lever * lever * lever / stretch_,
-            (base_radius_ * moved_by_linear_ * by_lever + turned) * lever / stretch_,
-            (base_radius_ * moved + radial * pressed_by_normal_ * at[normal]) / stretch_};
+    const double displacement =
+        displacement_by_shear_ * at[shear] + displacement_by_linear_ * by_curvature;
+    const double slope = slope_by_shear_ * at[shear] + slope_by_linear_ * by_curvature;
+    return {
+        slope_by_linear_ * by_lever * lever * lever / stretch_,
+        (base_radius_ * displacement_by_linear_ * by_lever + slope) * lever / stretch_,
+        (base_radius_ * displacement + radial * displacement_by_normal_ * at[normal]) / stretch_};
 }
 
 double ElasticRing::coupling(double angle_i, double angle_j, int teeth_apart) const {

@@ -54,9 +54,9 @@ class ElasticRing : public FilletFoundation {
     double limit_even_, limit_odd_;
     // Displacements at the middle of the root. Shear and linear normal stress cause a displacement
     // along the root and a slope -du_r/dphi; normal stress causes a displacement into the body.
-    double moved_by_shear_ = 0, moved_by_linear_ = 0;
-    double turned_by_shear_ = 0, turned_by_linear_ = 0;
-    double pressed_by_normal_ = 0;
+    double displacement_by_shear_ = 0, displacement_by_linear_ = 0;
+    double slope_by_shear_ = 0, slope_by_linear_ = 0;
+    double displacement_by_normal_ = 0;
     // Work of the row's stress at tooth j on the displacement by the column's stress at tooth i,
     // where j is 1, 2, ... teeth from i in the force's direction.
     std::array<std::array<Stresses, kStresses>, kFarthest> work_{};

@@ -66,13 +66,13 @@ double ParisGrowth::depth_after(double damage) const {
     }
     const auto next = std::upper_bound(damage_.begin(), damage_.end(), damage);
     const auto panel = static_cast<std::size_t>(next - damage_.begin()) - 1;
-    const double wanted = damage - damage_[panel];
+    const double remaining_damage = damage - damage_[panel];
     double low = depth_[panel], high = depth_[panel + 1];
-    double a = low + (high - low) * wanted / (damage_[panel + 1] - damage_[panel]);
+    double a = low + (high - low) * remaining_damage / (damage_[panel + 1] - damage_[panel]);
     // Newton's method, with bisection where a step leaves the bracket.
     constexpr int kSteps = 60;
     for (int step = 0; step < kSteps; ++step) {
-        const double miss = between(depth_[panel], a) - wanted;
+        const double miss = between(depth_[panel], a) - remaining_damage;
         (miss > 0.0 ? high : low) = a;
         const double newton = a - miss / rate_inverse(a);
         const double better = newton > low && newton < high ? newton : 0.5 * (low + high);

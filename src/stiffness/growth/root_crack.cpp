@@ -31,7 +31,7 @@ RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int w
         const double tau = ratio * i / kPositions;
         // Pairs in contact at the same time are a whole number of mesh periods before and after.
         const double pairs = 1.0 + std::floor(tau) + std::floor(ratio - tau);
-        Touch touch = touch_at(tau);
+        ContactPoint touch = touch_at(tau);
         touch.share = 1.0 / pairs;
         touch.stress = {touch.stress.tension / pairs, touch.stress.bending / pairs};
         engagement_.push_back(touch);
@@ -53,26 +53,26 @@ RootCrack::Stress RootCrack::stress_at(double tau) const {
     return {across / area, 6.0 * moment / (area * width_)};
 }
 
-RootCrack::Touch RootCrack::touch_at(double tau) const {
+RootCrack::ContactPoint RootCrack::touch_at(double tau) const {
     const double a = geometry_.contact_angle(which_, tau);
     return {std::cos(a), std::sin(a), 1.0, stress_at(tau)};
 }
 
-double RootCrack::largest_opening(double depth_m, std::span<const Touch> touches) const {
+double RootCrack::largest_opening(double depth_m, std::span<const ContactPoint> touches) const {
     if (!(depth_m > 0.0)) {
         return 0.0;
     }
     double largest = 0.0;
     if (law_ == CrackLaw::fracture_mechanics) {
         const CrackIntensity k = path_.intensity(depth_m);
-        for (const Touch& touch : touches) {
+        for (const ContactPoint& touch : touches) {
             largest = std::max(largest, touch.share * k.opening(touch.cosine, touch.sine));
         }
         return largest / face_width_;
     }
     const double share = depth_m / width_;
     const double tension = edge_crack_tension(share), bending = edge_crack_bending(share);
-    for (const Touch& touch : touches) {
+    for (const ContactPoint& touch : touches) {
         largest =
             std::max(largest, touch.stress.tension * tension + touch.stress.bending * bending);
     }
@@ -80,7 +80,7 @@ double RootCrack::largest_opening(double depth_m, std::span<const Touch> touches
 }
 
 double RootCrack::intensity(double depth_m, double force_N, double tau) const {
-    const Touch touch = touch_at(tau);
+    const ContactPoint touch = touch_at(tau);
     return force_N * largest_opening(depth_m, {&touch, 1});
 }
 

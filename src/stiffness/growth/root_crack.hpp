@@ -45,14 +45,14 @@ class RootCrack {
         double tension = 0.0, bending = 0.0;
     };
     // Position in the engagement, with the tooth's share of the mesh force.
-    struct Touch {
+    struct ContactPoint {
         double cosine = 0.0, sine = 0.0, share = 0.0;
         Stress stress;
     };
     Stress stress_at(double tau) const;
-    Touch touch_at(double tau) const;
+    ContactPoint touch_at(double tau) const;
     // Largest K_I at these positions for 1 N on the mesh.
-    double largest_opening(double depth_m, std::span<const Touch> touches) const;
+    double largest_opening(double depth_m, std::span<const ContactPoint> touches) const;
 
     gears::MeshGeometry geometry_;
     ToothProfile profile_;
@@ -61,7 +61,7 @@ class RootCrack {
     CrackLaw law_;
     CrackPath path_;
     double width_;
-    std::vector<Touch> engagement_;  // from its start to its end
+    std::vector<ContactPoint> engagement_;  // from its start to its end
 };
 
 }  // namespace gearpod::stiffness

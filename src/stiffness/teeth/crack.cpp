@@ -50,10 +50,10 @@ CrackedSections::CrackedSections(const ToothProfile& profile, const Crack& crack
         above_root > 0 ? profile.angle_of_axial(axial_at(profile, above_root)) : profile.root();
     // The tooth may be thinner below the start than at it. The crack then leaves through the other
     // flank before its depth reaches the start's chord; rounding may hide this.
-    constexpr double kNothing = 1e-12;
+    constexpr double kRelativeTolerance = 1e-12;
     const auto cut_through = [&](double u) {
         return cracked_thickness(profile.half_thickness(u)) <=
-               kNothing * profile.root_half_thickness();
+               kRelativeTolerance * profile.root_half_thickness();
     };
     const bool passes_waist = lower_end_ >= profile.waist();
     broken_ = broken_ || cut_through(start_) || cut_through(lower_end_) ||

@@ -67,9 +67,11 @@ class CrackedSections {
     // less the start's height. 0 where the profile is not lengthened.
     double lengthening() const { return lengthening_; }
     // True if a contact at u lies above the crack's start and is therefore affected by it.
-    bool sees(double u) const { return cracked_ && u < start_; }
+    bool affects(double u) const { return cracked_ && u < start_; }
     // True if a contact at u has lost its support.
-    bool gone(double u) const { return sees(u) && (broken_ || (past_centre() && u <= boundary_)); }
+    bool unsupported(double u) const {
+        return affects(u) && (broken_ || (past_centre() && u <= boundary_));
+    }
     // Full thickness, m, of a section between the crack's lower end and the boundary, from its
     // healthy half thickness.
     double cracked_thickness(double half_thickness) const { return half_thickness + tip_height_; }

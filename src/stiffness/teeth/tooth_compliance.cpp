@@ -74,11 +74,11 @@ ToothCompliance tooth_compliance(const ToothProfile& profile, const Material& ma
                                  double contact_angle, const Crack& crack) {
     const double contact = profile.involute_angle(contact_angle);
     CrackedSections sections(profile, crack);
-    if (sections.gone(contact)) {
+    if (sections.unsupported(contact)) {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {kInfinity, kInfinity, kInfinity};
     }
-    if (!sections.sees(contact))
+    if (!sections.affects(contact))
         sections = CrackedSections(profile, {});
 
     BeamIntegrals beam(profile, material, contact_angle);

@@ -139,9 +139,9 @@ double ToothProfile::angle_of_half_thickness(double h) const {
         (excess > 0 ? high : low) = u;
         const double newton = u + excess / (base_radius_ * (half_base_angle_ - u) * std::sin(u));
         const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        const bool settled = std::abs(next - u) < 1e-15;
+        const bool converged = std::abs(next - u) < 1e-15;
         u = next;
-        if (settled)
+        if (converged)
             break;
     }
     return u;

@@ -28,19 +28,19 @@ std::vector<double> summaries_at(double mean, std::mt19937& engine) {
     return {sum / kValues, std::log(squares / kValues - sum * sum / kValues / kValues)};
 }
 
-AbcDraws draws_of(std::size_t count, unsigned seed) {
+AbcSamples simulate(std::size_t count, unsigned seed) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> prior;
-    AbcDraws draws;
-    draws.parameters = draws.summaries = 2;
+    AbcSamples samples;
+    samples.parameters = samples.summaries = 2;
     for (std::size_t i = 0; i < count; ++i) {
         const double mean = prior(engine);
-        draws.unit.insert(draws.unit.end(), {mean, prior(engine)});
+        samples.unit.insert(samples.unit.end(), {mean, prior(engine)});
         const auto summary = summaries_at(mean, engine);
-        draws.summary.insert(draws.summary.end(), summary.begin(), summary.end());
-        draws.group.push_back(i);
+        samples.summary.insert(samples.summary.end(), summary.begin(), summary.end());
+        samples.group.push_back(i);
     }
-    return draws;
+    return samples;
 }
 
 std::vector<double> parameter(const AbcPosterior& posterior, std::size_t which) {
@@ -56,12 +56,12 @@ double normal_cdf(double x) {
 }
 
 TEST_CASE("The posterior of a mean is the normal one, cut off where the prior ends") {
-    const AbcDraws draws = draws_of(20000, 1);
+    const AbcSamples samples = simulate(20000, 1);
     const double sd = kSd / std::sqrt(static_cast<double>(kValues));
     for (const double seen : {0.5, 0.1}) {
         INFO(seen);
         const std::vector<double> observed{seen, std::log(kSd * kSd)};
-        const AbcPosterior posterior = regression_abc(draws, observed, 0.2);
+        const AbcPosterior posterior = regression_abc(samples, observed, 0.2);
         const auto values = parameter(posterior, 0);
         const double below = normal_cdf(-seen / sd), above = normal_cdf((1.0 - seen) / sd);
         for (const double p : {0.05, 0.5, 0.95}) {
@@ -74,7 +74,7 @@ TEST_CASE("The posterior of a mean is the normal one, cut off where the prior en
 
 TEST_CASE("A parameter without effect keeps its prior; the mean is determined by the mean") {
     const AbcPosterior posterior =
-        regression_abc(draws_of(20000, 2), std::vector<double>{0.4, std::log(kSd * kSd)}, 0.2);
+        regression_abc(simulate(20000, 2), std::vector<double>{0.4, std::log(kSd * kSd)}, 0.2);
     const auto idle = parameter(posterior, 1);
     for (const double p : {0.05, 0.5, 0.95}) {
         CHECK(weighted_quantile(idle, posterior.weight, p) == Approx(p).margin(0.03));
@@ -85,14 +85,14 @@ TEST_CASE("A parameter without effect keeps its prior; the mean is determined by
 }
 
 TEST_CASE("Intervals have their nominal coverage, also with few simulations") {
-    const AbcDraws draws = draws_of(600, 3);
+    const AbcSamples samples = simulate(600, 3);
     std::mt19937 engine(4);
     std::uniform_real_distribution<double> prior;
     int held = 0;
     constexpr int kSets = 1000;
     for (int set = 0; set < kSets; ++set) {
         const double truth = prior(engine);
-        const AbcPosterior posterior = regression_abc(draws, summaries_at(truth, engine), 0.2);
+        const AbcPosterior posterior = regression_abc(samples, summaries_at(truth, engine), 0.2);
         const auto values = parameter(posterior, 0);
         held += weighted_quantile(values, posterior.weight, 0.05) <= truth &&
                 truth <= weighted_quantile(values, posterior.weight, 0.95);
@@ -110,9 +110,9 @@ TEST_CASE("Quantiles of weighted values are those of the values repeated") {
 }
 
 TEST_CASE("Simulations and observations of different shapes are refused") {
-    const AbcDraws draws = draws_of(100, 5);
-    CHECK_THROWS_AS(regression_abc(draws, std::vector<double>{0.5}, 0.2), std::invalid_argument);
-    CHECK_THROWS_AS(regression_abc(draws_of(15, 5), std::vector<double>{0.5, 0.0}, 0.2),
+    const AbcSamples samples = simulate(100, 5);
+    CHECK_THROWS_AS(regression_abc(samples, std::vector<double>{0.5}, 0.2), std::invalid_argument);
+    CHECK_THROWS_AS(regression_abc(simulate(15, 5), std::vector<double>{0.5, 0.0}, 0.2),
                     std::invalid_argument);
 }
 

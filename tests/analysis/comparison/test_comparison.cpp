@@ -19,12 +19,12 @@ constexpr double kNoiseA = 0.7, kNoiseB = 0.35;
 struct Synthetic {
     std::vector<double> healthy_a, healthy_b, size, a, b;
 
-    Synthetic(std::mt19937_64& engine, bool same_boxes, int healthy = 600, int graded = 600) {
+    Synthetic(std::mt19937_64& engine, bool same_gearboxes, int healthy = 600, int graded = 600) {
         std::normal_distribution<double> draw;
         const auto add = [&](std::vector<double>& to_a, std::vector<double>& to_b, double fault) {
-            const double box = 0.5 * draw(engine);
-            to_a.push_back(fault + box + kNoiseA * draw(engine));
-            to_b.push_back(fault + (same_boxes ? box : 0.5 * draw(engine)) +
+            const double gearbox_part = 0.5 * draw(engine);
+            to_a.push_back(fault + gearbox_part + kNoiseA * draw(engine));
+            to_b.push_back(fault + (same_gearboxes ? gearbox_part : 0.5 * draw(engine)) +
                            kNoiseB * draw(engine));
         };
         for (int i = 0; i < healthy; ++i) {
@@ -152,11 +152,12 @@ TEST_CASE(
 }
 
 // Checks that the nominal 95 % interval holds the true difference in so many of `studies`.
-void check_coverage(bool same_boxes, int studies, int resamples) {
+void check_coverage(bool same_gearboxes, int studies, int resamples) {
     std::mt19937_64 engine(7);
     int pd = 0, rates = 0, a90 = 0, auc = 0;
     for (int s = 0; s < studies; ++s) {
-        const Comparison result = Synthetic(engine, same_boxes).compare(same_boxes, resamples);
+        const Comparison result =
+            Synthetic(engine, same_gearboxes).compare(same_gearboxes, resamples);
         for (std::size_t g = 1; g < 5; ++g) {
             const double size = 0.5 * static_cast<double>(g);
             pd += holds(result.rates[g].bounds, true_pd(size, kNoiseB) - true_pd(size, kNoiseA));
@@ -165,7 +166,7 @@ void check_coverage(bool same_boxes, int studies, int resamples) {
         a90 += holds(result.a90.bounds, true_a90(kNoiseB) - true_a90(kNoiseA));
         auc += holds(result.auc.bounds, true_auc(kNoiseB) - true_auc(kNoiseA));
     }
-    CAPTURE(same_boxes, pd, rates, a90, auc, studies);
+    CAPTURE(same_gearboxes, pd, rates, a90, auc, studies);
     if (studies > 1000) {
         WARN("of " << studies << " studies the intervals hold Pd in " << 100.0 * pd / rates
                    << " %, a90 in " << 100.0 * a90 / studies << " %, AUC in "

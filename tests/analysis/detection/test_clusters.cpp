@@ -184,7 +184,7 @@ TEST_CASE("Equal records of one gearbox do not make a feature constant") {
     DetectionRequest request;
     request.noise_levels = {0.0};
     request.groups = {{1.0, 1.0}};
-    const auto said = [&](std::span<const double> healthy) {
+    const auto warning_of = [&](std::span<const double> healthy) {
         std::string text;
         for (const std::string& warning :
              detect_clustered("f", Alarm::high, {zeros, healthy}, gearbox, {sizes, graded}, request)
@@ -193,8 +193,8 @@ TEST_CASE("Equal records of one gearbox do not make a feature constant") {
         }
         return text;
     };
-    CHECK_THAT(said(values), !Catch::Contains("constant") && Catch::Contains("50 gearboxes"));
-    CHECK_THAT(said(zeros), Catch::Contains("the feature is constant"));
+    CHECK_THAT(warning_of(values), !Catch::Contains("constant") && Catch::Contains("50 gearboxes"));
+    CHECK_THAT(warning_of(zeros), Catch::Contains("the feature is constant"));
 }
 
 }  // namespace

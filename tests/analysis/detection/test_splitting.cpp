@@ -13,7 +13,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-constexpr int kDraws = 20;
+constexpr int kInputs = 20;
 const boost::math::normal kNormal;
 
 std::uint64_t mixed(std::uint64_t word) {
@@ -36,7 +36,7 @@ struct Gearboxes {
     }
     // Input after an exchange step: every second input is mixed in part, the others are exchanged
     // as a whole or kept.
-    double exchanged(double own, const DrawExchange& with, int draw) const {
+    double exchanged(double own, const InputExchange& with, int draw) const {
         if (draw % 2 == 0) {
             const double kept = 1.0 - with.share;
             return kept * own + std::sqrt(1.0 - kept * kept) * normal(with.index, draw);
@@ -46,14 +46,14 @@ struct Gearboxes {
     // Sum of the inputs, scaled to the standard normal law.
     double value(const SplitMember& member) const {
         double sum = 0.0;
-        for (int draw = 0; draw < kDraws; ++draw) {
+        for (int draw = 0; draw < kInputs; ++draw) {
             double number = normal(member.index, draw);
-            for (const DrawExchange& with : member.exchanged) {
+            for (const InputExchange& with : member.exchanged) {
                 number = exchanged(number, with, draw);
             }
             sum += number;
         }
-        return sign * sum / std::sqrt(kDraws);
+        return sign * sum / std::sqrt(kInputs);
     }
     SplitValues values() const {
         return [*this](std::span<const SplitMember> members) {

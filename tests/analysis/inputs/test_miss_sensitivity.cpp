@@ -71,7 +71,7 @@ TEST_CASE("With one size the influence is the area between two shifted normal la
 }
 
 TEST_CASE("Intervals of an irrelevant input cover 1/2 over 1,000 studies") {
-    int covered = 0, judged = 0;
+    int covered = 0, checked = 0;
     for (unsigned seed = 0; seed < 1000; ++seed) {
         const Study drawn = study(true, 100 + seed, 0.0);
         const auto inputs = drawn.inputs();
@@ -81,12 +81,12 @@ TEST_CASE("Intervals of an irrelevant input cover 1/2 over 1,000 studies") {
             continue;
         }
         REQUIRE(result.inputs.size() == 1);
-        ++judged;
+        ++checked;
         covered += result.inputs[0].bounds.lower <= 0.5 && result.inputs[0].bounds.upper >= 0.5;
     }
-    CHECK(judged > 700);
+    CHECK(checked > 700);
     // The margin is three standard deviations.
-    CHECK(covered / static_cast<double>(judged) == Approx(0.95).margin(0.025));
+    CHECK(covered / static_cast<double>(checked) == Approx(0.95).margin(0.025));
 }
 
 TEST_CASE("Without misses or hits there is no influence to estimate") {

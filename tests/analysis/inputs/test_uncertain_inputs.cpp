@@ -34,8 +34,8 @@ struct Campaign {
         pod.largest = 5.0;
         pod.band = {{1.0, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0}};
     }
-    UncertainBand band() const {
-        return uncertain_band(size, hit, {{"first", "1", first}, {"second", "N", second}}, pod);
+    EpistemicBand band() const {
+        return epistemic_band(size, hit, {{"first", "1", first}, {"second", "N", second}}, pod);
     }
 };
 
@@ -46,7 +46,7 @@ const double kMiddle = (std::log(9.0) + 6.0) / 3.0;
 
 TEST_CASE("The band of two uncertain inputs has their combined width") {
     const Campaign campaign(40000, 1.5, 2.0);
-    const UncertainBand found = campaign.band();
+    const EpistemicBand found = campaign.band();
     REQUIRE(found.refusal.empty());
     CHECK(found.inputs == std::vector<std::string>{"first", "second"});
     const double half = kQuantile * 2.5 / 3.0;
@@ -62,9 +62,9 @@ TEST_CASE("The band of two uncertain inputs has their combined width") {
 TEST_CASE(
     "Inputs without effect leave no uncertainty, and there is no extrapolation beyond the tested "
     "sizes") {
-    const UncertainBand none = Campaign(40000, 0.0, 0.0).band();
+    const EpistemicBand none = Campaign(40000, 0.0, 0.0).band();
     CHECK(none.a90_high.size - none.a90_low.size < 0.1);
-    const UncertainBand wide = Campaign(40000, 8.0, 0.0).band();
+    const EpistemicBand wide = Campaign(40000, 8.0, 0.0).band();
     CHECK(wide.a90_low.where == SizeEstimate::Where::below_tested);
     CHECK(wide.a90_high.where == SizeEstimate::Where::not_reached);
 }

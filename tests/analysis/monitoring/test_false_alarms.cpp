@@ -5,8 +5,8 @@
 #include <random>
 
 #include "analysis/detection/threshold.hpp"
+#include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/monitoring/false_alarms.hpp"
-#include "analysis/monitoring/own_baseline.hpp"
 
 using namespace gearpod;
 using namespace gearpod::analysis;
@@ -27,7 +27,7 @@ std::vector<HealthyLife> draw_lives(int gearboxes, std::size_t baseline, int rec
             value = normal(engine);
         }
         lives.push_back(
-            {own_deviations(values, {}, baseline, Alarm::high), static_cast<double>(records)});
+            {baseline_deviations(values, {}, baseline, Alarm::high), static_cast<double>(records)});
     }
     return lives;
 }

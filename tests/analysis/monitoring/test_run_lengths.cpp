@@ -242,10 +242,10 @@ TEST_CASE("Detectors are formatted as they are parsed, and malformed ones are re
 TEST_CASE("A missing value leaves a detector unchanged, and an alarm resets it") {
     const double nan = std::nan("");
     const Detector cusum = *parse_detector("cusum 0");
-    const auto seen = watch(cusum, std::vector<double>{2, nan, 2, nan, 3, 2, 2}, 3.5);
+    const auto seen = detector_alarms(cusum, std::vector<double>{2, nan, 2, nan, 3, 2, 2}, 3.5);
     CHECK(seen.alarms == std::vector<std::size_t>{2, 5});
     CHECK(seen.largest_quiet == 3.0);
-    CHECK(watch(cusum, std::vector<double>{1, 1}, nan).alarms.empty());
+    CHECK(detector_alarms(cusum, std::vector<double>{1, 1}, nan).alarms.empty());
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_CASE("Example 1, a-hat against a with censored values", "[handbook]") {
     request.limits = {50.0, 1375.0};
     request.log_sizes = {true};
     request.powers = {1.0};
-    request.insist = true;
+    request.accept_failed_checks = true;
     const SignalResponsePod pod = inspect(data, request).signal_response;
     REQUIRE(pod.refusal == "");
     CHECK(pod.a50.estimate.size == Approx(8.8).margin(0.05));
@@ -73,7 +73,7 @@ TEST_CASE("Example 2, repeated measurements, against statsmodels' mixed model", 
     request.threshold = 200.0;
     request.log_sizes = {true};
     request.powers = {1.0};
-    request.insist = true;
+    request.accept_failed_checks = true;
     const SignalResponsePod pod = inspect(data, request).signal_response;
     REQUIRE(pod.refusal == "");
     // Reference: mixedlm("y ~ log(size)", groups = target).fit(reml=False), uncensored.

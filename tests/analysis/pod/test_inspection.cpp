@@ -50,7 +50,7 @@ InspectionRequest of_responses() {
     request.threshold = 6.0;
     request.log_sizes = {true};
     request.powers = {0.0};
-    request.insist = true;
+    request.accept_failed_checks = true;
     return request;
 }
 
@@ -209,17 +209,17 @@ TEST_CASE("Box and Cox's power and the noise laws agree with scipy") {
     const auto power = box_cox_power({data.size, data.value, {}}, true, {}, false);
     CHECK(*power == Approx(-0.18186023).epsilon(1e-4));
     const std::vector<double> noise{1.1, 0.4, 2.3, 0.9, 1.7, 0.6, 3.1, 1.3, 0.8, 2.0, 1.5, 0.5};
-    const auto laws = noise_laws(noise);
+    const auto laws = fit_noise_distributions(noise);
     REQUIRE(laws.size() == 4);
-    CHECK(laws.front().kind == NoiseLaw::Kind::lognormal);
+    CHECK(laws.front().kind == NoiseDistribution::Kind::lognormal);
     CHECK(laws.front().aic == Approx(4.0 + 2.0 * 12.553268).epsilon(1e-6));
-    const auto weibull = std::find_if(laws.begin(), laws.end(), [](const NoiseLaw& law) {
-        return law.kind == NoiseLaw::Kind::weibull;
+    const auto weibull = std::find_if(laws.begin(), laws.end(), [](const NoiseDistribution& law) {
+        return law.kind == NoiseDistribution::Kind::weibull;
     });
     CHECK(weibull->first == Approx(1.5280063).epsilon(1e-4));
     CHECK(weibull->second == Approx(1.845346).epsilon(1e-4));
     CHECK(weibull->aic == Approx(4.0 + 2.0 * 12.766475).epsilon(1e-6));
-    for (const NoiseLaw& law : laws) {
+    for (const NoiseDistribution& law : laws) {
         CHECK(law.above(law.exceeded_by(0.03)) == Approx(0.03));
         CHECK(law.below(1.3) + law.above(1.3) == Approx(1.0));
     }

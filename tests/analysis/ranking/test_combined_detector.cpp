@@ -115,8 +115,8 @@ TEST_CASE("A combination of features without a fault in them gains nothing") {
 TEST_CASE("Halves have equal sizes, and interleaved levels fall into both") {
     long all = 0, of_level[4] = {};
     for (std::size_t i = 0; i < 4000; ++i) {
-        all += trains(i);
-        of_level[i % 4] += trains(i);
+        all += in_training_half(i);
+        of_level[i % 4] += in_training_half(i);
     }
     CHECK(all == Approx(2000).margin(100));
     for (const long count : of_level) {
@@ -148,7 +148,7 @@ TEST_CASE("Constant or missing features and single classes are reported") {
         failed += cell.failed;
     }
     for (std::size_t i = 0; i < 600; i += 20) {
-        missing += !trains(i);
+        missing += !in_training_half(i);
     }
     CHECK(failed == missing);
 

@@ -136,12 +136,12 @@ say("censored a90 likelihood-ratio upper", np.exp(a90), np.exp(optimize.brentq(
 value, design = wide["A"].to_numpy(), sm.add_constant(x)
 
 
-def box_cox(power):
+def negative_log_likelihood(power):
     y = np.log(value) if power == 0 else (value**power - 1) / power
     return 0.5 * len(y) * np.log(sm.OLS(y, design).fit().ssr) - (power - 1) * np.log(value).sum()
 
 
-say("box-cox power", optimize.minimize_scalar(box_cox, bounds=(-2, 2), method="bounded",
+say("box-cox power", optimize.minimize_scalar(negative_log_likelihood, bounds=(-2, 2), method="bounded",
                                               options={"xatol": 1e-10}).x)
 # Noise laws.
 noise = np.array([1.1, 0.4, 2.3, 0.9, 1.7, 0.6, 3.1, 1.3, 0.8, 2.0, 1.5, 0.5])

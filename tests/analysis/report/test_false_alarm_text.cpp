@@ -83,14 +83,14 @@ TEST_CASE("A report counts the exponentially tilted thresholds and the gearboxes
     request.false_alarm_rate = 1e-4;
     request.noise_levels = {0.0, 1.0};
     request.threshold_records = 32;
-    request.threshold_tilt = true;
+    request.importance_sampling = true;
     std::vector<FeatureDetection> features{with_samples(request, {640, 640})};
     features[0].feature = "window_ratio";
     CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
                Catch::StartsWith("Too few gearboxes have alarms") &&
                    Catch::Contains("640 give no threshold"));
     features[0].levels[1].threshold_sample = 640 * 32;
-    features[0].levels[1].tilted = {640, 100.0, 15.6};
+    features[0].levels[1].importance_sampled = {640, 100.0, 15.6};
     CHECK_THAT(
         sample_shortage(features, request, Subject::gearboxes),
         Catch::StartsWith(
@@ -114,7 +114,7 @@ TEST_CASE(
     request.false_alarm_rate = 1e-3;
     request.noise_levels = {1.0, 5.0};
     request.threshold_records = 32;
-    request.threshold_tilt = true;
+    request.importance_sampling = true;
     std::vector<FeatureDetection> features{with_samples(request, {6400, 6400}),
                                            with_samples(request, {6400, 6400})};
     features[1].feature = "window_ratio";
@@ -122,7 +122,7 @@ TEST_CASE(
         level.threshold_rate = {0.0, 0.018};
     }
     for (LevelDetection& level : features[1].levels) {
-        level.tilted = {200, 70.0, 5.0};
+        level.importance_sampled = {200, 70.0, 5.0};
     }
     // All accelerometer thresholds exist; the rates of the te_rms thresholds are undetermined.
     CHECK(sample_shortage(features, request, Subject::gearboxes) ==

@@ -24,21 +24,23 @@ Sample feature(std::size_t column) {
     return sample;
 }
 
-AucShares shares_of(const Sample& sample) {
-    return auc_shares(sample.healthy, sample.faulty);
+AucComponents interpolation_weights(const Sample& sample) {
+    return auc_components(sample.healthy, sample.faulty);
 }
 
 TEST_CASE("Areas, their variances and paired differences agree with pROC, ties included") {
     // Reference: reference/reference_R.txt, method "delong".
     const double area[] = {0.62625, 0.6125, 0.715};
     const double variance[] = {0.008141282895, 0.008259868421, 0.007759210526};
-    const AucShares a = shares_of(feature(1)), b = shares_of(feature(2)), c = shares_of(feature(3));
-    const AucShares* all[] = {&a, &b, &c};
+    const AucComponents a = interpolation_weights(feature(1)),
+                        b = interpolation_weights(feature(2)),
+                        c = interpolation_weights(feature(3));
+    const AucComponents* all[] = {&a, &b, &c};
     for (int f = 0; f < 3; ++f) {
         CHECK(all[f]->auc == Approx(area[f]).epsilon(1e-12));
         CHECK(auc_covariance(*all[f], *all[f]) == Approx(variance[f]).epsilon(1e-9));
     }
-    const auto z = [](const AucShares& x, const AucShares& y) {
+    const auto z = [](const AucComponents& x, const AucComponents& y) {
         return (x.auc - y.auc) /
                std::sqrt(auc_covariance(x, x) + auc_covariance(y, y) - 2.0 * auc_covariance(x, y));
     };
@@ -57,7 +59,7 @@ TEST_CASE("Midranks give the same shares as a comparison of all pairs") {
     for (int i = 0; i < 83; ++i) {
         sample.faulty.push_back(draw(engine) + 2);
     }
-    const AucShares fast = shares_of(sample);
+    const AucComponents fast = interpolation_weights(sample);
     const auto beyond = [](double x, double y) { return x > y ? 1.0 : x == y ? 0.5 : 0.0; };
     for (std::size_t i = 0; i < sample.healthy.size(); ++i) {
         double sum = 0.0;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
 namespace gearpod::test {
@@ -24,18 +24,19 @@ inline std::vector<lockstep::Integrator> integrators(bool explicit_ones) {
     return chosen;
 }
 
-struct Marched {
+struct Integrated {
     lockstep::TileState state;
     lockstep::MeshRecord record;  // of the last mesh period
 };
 
 // Integrates `meshes` mesh periods from `start`.
-inline Marched march(const lockstep::MarchPlan& plan, const dynamics::GearboxInputs& in,
-                     lockstep::TileState start, int meshes) {
-    const auto marching = lockstep::make_mesh_march<1>(plan, std::span(&in, 1));
-    Marched m{std::move(start), lockstep::make_record(plan, 1, false)};
+inline Integrated integrate_meshes(const lockstep::IntegrationPlan& plan,
+                                   const dynamics::GearboxInputs& in, lockstep::TileState start,
+                                   int meshes) {
+    const auto mesh_integrator = lockstep::make_mesh_integrator<1>(plan, std::span(&in, 1));
+    Integrated m{std::move(start), lockstep::make_record(plan, 1, false)};
     for (int mesh = 0; mesh < meshes; ++mesh) {
-        (*marching)({}, m.state, m.record);
+        (*mesh_integrator)({}, m.state, m.record);
     }
     return m;
 }
@@ -59,8 +60,8 @@ inline dynamics::FixedShaftInputs soft_tian() {
 }
 
 // The pair's stiffness varies as a sine about 8e8 N/m, without transitions.
-inline lockstep::MarchPlan smooth_plan(int steps, lockstep::Integrator integrator) {
-    lockstep::MarchPlan plan = TianGearbox::instance().plan(20, steps, integrator);
+inline lockstep::IntegrationPlan smooth_plan(int steps, lockstep::Integrator integrator) {
+    lockstep::IntegrationPlan plan = TianGearbox::instance().plan(20, steps, integrator);
     plan.grid = lockstep::make_phase_grid(20, steps, {});
     plan.grid.stage_nodes = lockstep::stage_nodes(integrator);
     plan.nodes.stiffness.clear();

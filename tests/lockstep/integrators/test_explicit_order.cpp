@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
@@ -13,10 +13,10 @@
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
+using test::integrate_meshes;
+using test::Integrated;
 using test::largest_difference;
 using test::LiangTrain;
-using test::march;
-using test::Marched;
 
 namespace {
 
@@ -44,9 +44,9 @@ double slope(const std::vector<double>& steps, const std::vector<double>& errors
 
 // Liang's train at twenty times its speed with 24 samples; optionally with no node on the
 // transitions.
-MarchPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions) {
+IntegrationPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions) {
     const auto& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(24, steps, dynamics::Motion::translational_torsional);
+    IntegrationPlan plan = train.plan(24, steps, dynamics::Motion::translational_torsional);
     plan.integrator = integrator;
     if (!nodes_on_transitions) {
         plan.grid = make_phase_grid(24, steps, {});
@@ -60,11 +60,11 @@ MarchPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions
 
 TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
     const dynamics::FixedShaftInputs in = test::soft_tian();
-    const MarchPlan fine = test::smooth_plan(12800, Integrator::rk4);
+    const IntegrationPlan fine = test::smooth_plan(12800, Integrator::rk4);
     const dynamics::GearboxInputs inputs = in;
-    TileState away = rest_state(fine, std::span(&inputs, 1));
+    TileState away = equilibrium_state(fine, std::span(&inputs, 1));
     away.q[dynamics::u_1] += 2e-6;
-    const Marched exact = march(fine, in, away, 2);
+    const Integrated exact = integrate_meshes(fine, in, away, 2);
     for (const Integrator integrator : kExplicit) {
         const int order = facts(integrator).order;
         // The order is one higher, and fewer steps reach the last digits of the state.
@@ -72,8 +72,8 @@ TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
             order > 4 ? std::vector{100.0, 200.0, 400.0} : std::vector{400.0, 800.0, 1600.0};
         std::vector<double> motions, sensors;
         for (const double steps : counts) {
-            const Marched m =
-                march(test::smooth_plan(static_cast<int>(steps), integrator), in, away, 2);
+            const Integrated m = integrate_meshes(
+                test::smooth_plan(static_cast<int>(steps), integrator), in, away, 2);
             motions.push_back(largest_difference(m.state.q, exact.state.q));
             sensors.push_back(largest_difference(m.record.acceleration, exact.record.acceleration));
         }
@@ -88,16 +88,17 @@ TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
 TEST_CASE(
     "Explicit integrators keep their order across transitions with nodes, else have order 1") {
     const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
-    const MarchPlan fine = liang_plan(19200, Integrator::rk4, true);
-    const TileState rest = rest_state(fine, std::span(&in, 1));
-    const Marched exact = march(fine, in, rest, 2);
+    const IntegrationPlan fine = liang_plan(19200, Integrator::rk4, true);
+    const TileState rest = equilibrium_state(fine, std::span(&in, 1));
+    const Integrated exact = integrate_meshes(fine, in, rest, 2);
     for (const Integrator integrator : kExplicit) {
         for (const bool nodes : {true, false}) {
             // Several numbers of steps: without nodes the error depends on the position of a
             // transition within its step.
             std::vector<double> counts, motions, sensors;
             for (const int steps : {960, 1080, 1320, 1560, 1920, 2280, 2760, 3240, 3840}) {
-                const Marched m = march(liang_plan(steps, integrator, nodes), in, rest, 2);
+                const Integrated m =
+                    integrate_meshes(liang_plan(steps, integrator, nodes), in, rest, 2);
                 counts.push_back(steps);
                 motions.push_back(largest_difference(m.state.q, exact.state.q));
                 sensors.push_back(
@@ -118,10 +119,11 @@ TEST_CASE(
 
 TEST_CASE("A step of nearly zero length leaves an explicit integration unchanged") {
     const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
-    const TileState rest = rest_state(liang_plan(1200, Integrator::rk4, true), std::span(&in, 1));
+    const TileState rest =
+        equilibrium_state(liang_plan(1200, Integrator::rk4, true), std::span(&in, 1));
     for (const Integrator integrator : kExplicit) {
-        const MarchPlan plan = liang_plan(1200, integrator, true);
-        MarchPlan cut = plan;
+        const IntegrationPlan plan = liang_plan(1200, integrator, true);
+        IntegrationPlan cut = plan;
         std::vector<double> transitions = contact_transitions(LiangTrain::instance().pairs);
         transitions.push_back(0.3 + 1e-11);  // just after a node
         cut.grid = make_phase_grid(24, 1200, transitions);
@@ -130,12 +132,13 @@ TEST_CASE("A step of nearly zero length leaves an explicit integration unchanged
         REQUIRE(cut.grid.steps.size() == plan.grid.steps.size() + 1);
         for (const Precision precision :
              {Precision::double_precision, Precision::single_precision}) {
-            if (precision == Precision::single_precision && !marches_singles(integrator)) {
+            if (precision == Precision::single_precision && !has_single_precision(integrator)) {
                 continue;
             }
-            MarchPlan whole = plan;
+            IntegrationPlan whole = plan;
             whole.precision = cut.precision = precision;
-            const Marched a = march(whole, in, rest, 2), b = march(cut, in, rest, 2);
+            const Integrated a = integrate_meshes(whole, in, rest, 2),
+                             b = integrate_meshes(cut, in, rest, 2);
             INFO(name(integrator) << (precision == Precision::single_precision ? " single" : ""));
             CHECK(largest_difference(a.state.q, b.state.q) < 1e-5 * largest(a.state.q));
             CHECK(largest_difference(a.record.acceleration, b.record.acceleration) <
@@ -165,7 +168,7 @@ TEST_CASE("The error estimate of bs3 is the difference of its two solutions") {
     const dynamics::GearboxInputs inputs = pair.in;
     MeshRecord record = make_record(pair.plan, 1, false);
     record.estimate.resize(4 * kEstimateRows);
-    (*make_mesh_march<1>(pair.plan, std::span(&inputs, 1)))({}, pair.state, record);
+    (*make_mesh_integrator<1>(pair.plan, std::span(&inputs, 1)))({}, pair.state, record);
 
     const double w = pair.natural_rad_s(), h = 1e-5;
     Complex z = 1e-6;

@@ -6,33 +6,33 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
+using test::integrate_meshes;
+using test::Integrated;
 using test::largest_difference;
 using test::LiangTrain;
-using test::march;
-using test::Marched;
 using test::TianGearbox;
 
 namespace {
 
 const std::vector<Integrator> kImplicitOnes = test::integrators(false);
 
-MarchPlan liang_plan(int steps, dynamics::Motion motion, Integrator integrator) {
+IntegrationPlan liang_plan(int steps, dynamics::Motion motion, Integrator integrator) {
     const auto& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(24, steps, motion);
+    IntegrationPlan plan = train.plan(24, steps, motion);
     plan.integrator = integrator;
     plan.grid.stage_nodes = stage_nodes(integrator);
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     return plan;
 }
 
-TileState state_at(const MarchPlan& plan, const Eigen::VectorXd& q) {
+TileState state_at(const IntegrationPlan& plan, const Eigen::VectorXd& q) {
     TileState state;
     state.q.assign(q.begin(), q.end());
     state.v.assign(state.q.size(), 0.0);
@@ -52,7 +52,7 @@ std::vector<double> column(const machine::AlignedVector& values, std::size_t lan
 
 // The record of a tile of eight, recomputed from tiles of W.
 template <int W, class Faults>
-void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const Faults& faults, const TileSettings& settings, std::size_t record,
                  const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
@@ -73,16 +73,16 @@ TEST_CASE("The implicit integrators keep their order across contact transitions"
     const auto in = train.inputs(20.0);
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
-        const MarchPlan fine = liang_plan(9600, motion, Integrator::rk4);
+        const IntegrationPlan fine = liang_plan(9600, motion, Integrator::rk4);
         const std::vector<double> k(fine.nodes.stiffness.begin(), fine.nodes.stiffness.begin() + 8);
         const Eigen::VectorXd rest =
             dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, k));
-        const Marched exact = march(fine, in, state_at(fine, rest), 2);
+        const Integrated exact = integrate_meshes(fine, in, state_at(fine, rest), 2);
         for (const Integrator integrator : kImplicitOnes) {
             std::vector<double> motions, sensors;
             for (const int steps : {2400, 4800}) {
-                const MarchPlan plan = liang_plan(steps, motion, integrator);
-                const Marched m = march(plan, in, state_at(plan, rest), 2);
+                const IntegrationPlan plan = liang_plan(steps, motion, integrator);
+                const Integrated m = integrate_meshes(plan, in, state_at(plan, rest), 2);
                 motions.push_back(largest_difference(m.state.q, exact.state.q));
                 sensors.push_back(
                     largest_difference(m.record.acceleration, exact.record.acceleration));
@@ -98,19 +98,19 @@ TEST_CASE("Without nodes on the contact transitions the order of every integrato
     const auto& train = LiangTrain::instance();
     const auto in = train.inputs(20.0);
     const auto motion = dynamics::Motion::torsional;
-    const MarchPlan fine = liang_plan(9600, motion, Integrator::rk4);
+    const IntegrationPlan fine = liang_plan(9600, motion, Integrator::rk4);
     const std::vector<double> k(fine.nodes.stiffness.begin(), fine.nodes.stiffness.begin() + 8);
     const TileState start =
         state_at(fine, dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, k)));
-    const Marched exact = march(fine, in, start, 2);
+    const Integrated exact = integrate_meshes(fine, in, start, 2);
     const auto error = [&](Integrator integrator, int steps, bool nodes) {
-        MarchPlan plan = liang_plan(steps, motion, integrator);
+        IntegrationPlan plan = liang_plan(steps, motion, integrator);
         if (!nodes) {
             plan.grid = make_phase_grid(24, steps, {});
             plan.grid.stage_nodes = stage_nodes(integrator);
             plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
         }
-        return largest_difference(march(plan, in, start, 2).state.q, exact.state.q);
+        return largest_difference(integrate_meshes(plan, in, start, 2).state.q, exact.state.q);
     };
     for (const Integrator integrator : {Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                         Integrator::generalized_alpha}) {
@@ -129,16 +129,16 @@ TEST_CASE("Without nodes on the contact transitions the order of every integrato
 
 TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
     const dynamics::FixedShaftInputs in = test::soft_tian();
-    const MarchPlan fine = test::smooth_plan(3200, Integrator::rk4);
+    const IntegrationPlan fine = test::smooth_plan(3200, Integrator::rk4);
     Eigen::VectorXd away = dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, {8e8}));
     away(dynamics::u_1) += 2e-6;
-    const Marched exact = march(fine, in, state_at(fine, away), 3);
+    const Integrated exact = integrate_meshes(fine, in, state_at(fine, away), 3);
     for (const Integrator integrator : kImplicitOnes) {
         std::vector<double> errors;
         for (const int steps : {200, 400, 800}) {
-            const MarchPlan plan = test::smooth_plan(steps, integrator);
-            errors.push_back(largest_difference(march(plan, in, state_at(plan, away), 3).state.q,
-                                                exact.state.q));
+            const IntegrationPlan plan = test::smooth_plan(steps, integrator);
+            errors.push_back(largest_difference(
+                integrate_meshes(plan, in, state_at(plan, away), 3).state.q, exact.state.q));
         }
         const double order = facts(integrator).order;
         CHECK(std::log2(errors[0] / errors[1]) == Approx(order).margin(0.25));
@@ -162,12 +162,13 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
     }
     stage.mesh_damping = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
 
-    MarchPlan planetary =
+    IntegrationPlan planetary =
         liang_plan(1200, dynamics::Motion::translational_torsional, Integrator::newmark);
     std::get<dynamics::PlanetaryLayout>(planetary.layout).inertial_terms = false;
-    const MarchPlan torsional = liang_plan(1200, dynamics::Motion::torsional, Integrator::newmark);
-    const MarchPlan fixed_shaft = TianGearbox::instance().plan(20, 200, Integrator::newmark);
-    const std::vector<std::pair<MarchPlan, dynamics::GearboxInputs>> scenes{
+    const IntegrationPlan torsional =
+        liang_plan(1200, dynamics::Motion::torsional, Integrator::newmark);
+    const IntegrationPlan fixed_shaft = TianGearbox::instance().plan(20, 200, Integrator::newmark);
+    const std::vector<std::pair<IntegrationPlan, dynamics::GearboxInputs>> scenes{
         {planetary, train}, {torsional, train}, {fixed_shaft, stage}};
     for (auto [plan, in] : scenes) {
         std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 6e8);
@@ -175,7 +176,7 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
         const auto matrices = dynamics::assemble(plan.layout, in, k);
         Eigen::VectorXd away = 1e-6 * Eigen::VectorXd::LinSpaced(matrices.mass.rows(), -1.0, 2.0);
         const TileState start = state_at(plan, away);
-        const Marched m = march(plan, in, start, 20);
+        const Integrated m = integrate_meshes(plan, in, start, 20);
         CHECK(energy(matrices, m.state) == Approx(energy(matrices, start)).epsilon(1e-10));
         CHECK(largest_difference(m.state.q, start.q) > 1e-7);  // the state did change
     }
@@ -194,7 +195,7 @@ TEST_CASE("Generalized-alpha damps modes that its steps cannot resolve") {
     }
     in.mesh_damping = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
     for (const auto integrator : {Integrator::generalized_alpha, Integrator::newmark}) {
-        MarchPlan plan = gearbox.plan(20, 60, integrator);
+        IntegrationPlan plan = gearbox.plan(20, 60, integrator);
         plan.grid = make_phase_grid(20, 60, {});
         plan.grid.stage_nodes = stage_nodes(integrator);
         plan.nodes.stiffness.assign(180, 8e14);
@@ -206,7 +207,7 @@ TEST_CASE("Generalized-alpha damps modes that its steps cannot resolve") {
             return 0.5 * v.dot(m.mass * v) + 0.5 * q.dot(m.stiffness * q);
         };
         const TileState start = state_at(plan, 1e-6 * Eigen::VectorXd::LinSpaced(8, -1.0, 2.0));
-        const double left = energy(march(plan, in, start, 1).state) / energy(start);
+        const double left = energy(integrate_meshes(plan, in, start, 1).state) / energy(start);
         if (integrator == Integrator::newmark) {
             CHECK(left == Approx(1.0).epsilon(1e-6));
         } else {
@@ -246,9 +247,9 @@ TEST_CASE(
     TileSettings settings;
     settings.max_meshes = 4;
     for (const Integrator integrator : kImplicitOnes) {
-        const MarchPlan plan =
+        const IntegrationPlan plan =
             liang_plan(240, dynamics::Motion::translational_torsional, integrator);
-        settings.march_meshes = 6;
+        settings.recorded_meshes = 6;
         const auto cracks = [&](std::size_t first, std::ptrdiff_t count) {
             const auto depth = depths.begin() + static_cast<std::ptrdiff_t>(first);
             return train.ring_side_cracks({depth, depth + count});
@@ -286,7 +287,7 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
     in.load_torque_N_m = 48.0 / 19.0;
     const auto plan_of = [&](int steps, Integrator integrator, double error_m,
                              dynamics::MeshLaw law) {
-        MarchPlan plan = gearbox.plan(40, steps, integrator);
+        IntegrationPlan plan = gearbox.plan(40, steps, integrator);
         plan.mesh_law = law;
         for (const Step& step : plan.grid.steps) {
             for (const double node : plan.grid.stage_nodes) {
@@ -297,11 +298,11 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
         }
         return plan;
     };
-    const auto run = [&](const MarchPlan& plan, double backlash_m, int meshes) {
+    const auto run = [&](const IntegrationPlan& plan, double backlash_m, int meshes) {
         in.backlash_m = backlash_m;
         const Eigen::VectorXd rest = dynamics::static_equilibrium(
             dynamics::assemble(plan.layout, in, {plan.nodes.stiffness[0]}));
-        return march(plan, in, state_at(plan, rest), meshes).state.q;
+        return integrate_meshes(plan, in, state_at(plan, rest), meshes).state.q;
     };
     using dynamics::MeshLaw;
     for (const double backlash_m : {dynamics::kNoBackContact, 3e-6}) {
@@ -343,10 +344,10 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
         lanes.push_back(in);
     }
     for (const Integrator integrator : kImplicitOnes) {
-        const MarchPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
+        const IntegrationPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
         TileSettings settings;
         settings.max_meshes = 1;
-        settings.march_meshes = 3;
+        settings.recorded_meshes = 3;
         const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), settings);
         const auto healthy = [&](std::size_t, int count) { return gearbox.no_fault(count); };
         check_lanes<4>(plan, lanes, healthy, settings, 2, wide);

@@ -38,10 +38,11 @@ double gain(Integrator integrator, double frequency, double steps_per_cutoff_per
     double z[kFilterStates] = {};
     double sine = 0.0, cosine = 0.0;
     const auto input = [&](double t) { return std::sin(w * frequency * t); };
-    const int settle = static_cast<int>(20 / h), measure = static_cast<int>(10 / frequency / h);
-    for (int i = 0; i < settle + measure; ++i) {
+    const int run_in_steps = static_cast<int>(20 / h),
+              measure = static_cast<int>(10 / frequency / h);
+    for (int i = 0; i < run_in_steps + measure; ++i) {
         const double t = i * h;
-        if (i >= settle) {
+        if (i >= run_in_steps) {
             sine += z[kFilterOutput] * std::sin(w * frequency * t);
             cosine += z[kFilterOutput] * std::cos(w * frequency * t);
         }

@@ -14,17 +14,17 @@ cat > "$work/plain.cpp" <<'END'
 #include "lockstep/integrators/sdirk3.hpp"
 namespace gearpod::lockstep {
 __attribute__((target("arch=x86-64-v3"))) void explicit_4(
-    const MarchPlan& plan, const dynamics::PlanetaryLanes<4>& lanes,
+    const IntegrationPlan& plan, const dynamics::PlanetaryLanes<4>& lanes,
     const machine::AlignedVector& filter, const MeshOverrides& overrides,
     TileState& state, MeshRecord& record) {
-    march<RungeKutta4, dynamics::TorsionalMotion<dynamics::LinearMesh, 4>>(plan, lanes, filter,
-                                                                           overrides, state, record);
+    integrate_mesh<RungeKutta4, dynamics::TorsionalMotion<dynamics::LinearMesh, 4>>(
+        plan, lanes, filter, overrides, state, record);
 }
 __attribute__((target("arch=x86-64-v3"))) void implicit_4(
-    const MarchPlan& plan, const ImplicitLanes<4>& lanes, const machine::AlignedVector& filter,
+    const IntegrationPlan& plan, const ImplicitLanes<4>& lanes, const machine::AlignedVector& filter,
     const MeshOverrides& overrides, TileState& state, MeshRecord& record) {
-    march<Sdirk3, MatrixMotion<dynamics::LinearMesh, 4>>(plan, lanes, filter, overrides, state,
-                                                         record);
+    integrate_mesh<Sdirk3, MatrixMotion<dynamics::LinearMesh, 4>>(plan, lanes, filter, overrides,
+                                                                  state, record);
 }
 }  // namespace gearpod::lockstep
 END
@@ -48,8 +48,8 @@ cut=$(awk '
         next }
     rest && /^ *}/ { match($0, /^ */); if (RLENGTH == depth) { rest = 0; next } }
     { print > FILENAME ".cut" }
-    END { print blocks }' "$work/src/lockstep/integrators/march_steps.hpp" "$work/src/lockstep/integrators/implicit_stage.hpp")
-for header in march_steps implicit_stage; do
+    END { print blocks }' "$work/src/lockstep/integrators/integration_steps.hpp" "$work/src/lockstep/integrators/implicit_stage.hpp")
+for header in integration_steps implicit_stage; do
     mv "$work/src/lockstep/integrators/$header.hpp.cut" "$work/src/lockstep/integrators/$header.hpp"
 done
 if [ "$cut" -lt 11 ]; then

@@ -17,11 +17,11 @@ bool has(const KernelKey& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-std::vector<Moving> movings(Integrator integrator) {
+std::vector<MotionModel> motion_models(Integrator integrator) {
     return is_explicit(integrator)
-               ? std::vector{Moving::translational_inertial, Moving::translational,
-                             Moving::torsional, Moving::fixed_shaft}
-               : std::vector{Moving::matrices};
+               ? std::vector{MotionModel::translational_inertial, MotionModel::translational,
+                             MotionModel::torsional, MotionModel::fixed_shaft}
+               : std::vector{MotionModel::matrices};
 }
 
 }  // namespace
@@ -32,19 +32,20 @@ TEST_CASE("Every integrator has its declared kernels for every mesh law") {
         const IntegratorFacts& f = facts(integrator);
         for (const auto law : {dynamics::MeshLaw::linear, dynamics::MeshLaw::with_error,
                                dynamics::MeshLaw::separating}) {
-            for (const Moving moving : movings(integrator)) {
+            for (const MotionModel motion_model : motion_models(integrator)) {
                 INFO(f.name << ", law " << static_cast<int>(law) << ", moving "
-                            << static_cast<int>(moving));
-                KernelKey key{integrator, law, Drive::steady, Precision::double_precision, set,
-                              moving,     8};
+                            << static_cast<int>(motion_model));
+                KernelKey key{
+                    integrator,   law, ExcitationKind::steady, Precision::double_precision, set,
+                    motion_model, 8};
                 CHECK(has(key));
-                key.drive = Drive::forced;
-                CHECK(has(key) == f.marches_forced);
-                key.drive = Drive::paced;
-                CHECK(has(key) == f.marches_paced);
-                key = {integrator, law, Drive::steady, Precision::single_precision, set,
-                       moving,     16};
-                CHECK(has(key) == f.marches_singles);
+                key.excitation = ExcitationKind::forced;
+                CHECK(has(key) == f.supports_varying_forces);
+                key.excitation = ExcitationKind::variable_speed;
+                CHECK(has(key) == f.supports_variable_speed);
+                key = {integrator,   law, ExcitationKind::steady, Precision::single_precision, set,
+                       motion_model, 16};
+                CHECK(has(key) == f.has_single_precision);
             }
         }
     }
@@ -66,16 +67,16 @@ TEST_CASE("Stage nodes ascend from 0 to 1, and integrator names are unique") {
 TEST_CASE("A missing kernel is refused by name and not replaced by one of other lanes") {
     KernelKey key{Integrator::rk4,
                   dynamics::MeshLaw::linear,
-                  Drive::steady,
+                  ExcitationKind::steady,
                   Precision::double_precision,
                   built_instruction_sets().back(),
-                  Moving::torsional,
+                  MotionModel::torsional,
                   8};
     CHECK(kernel_table().find<dynamics::PlanetaryLanes<8>>(key) != nullptr);
     CHECK_THROWS_WITH(kernel_table().find<dynamics::FixedShaftLanes<8>>(key),
                       Catch::Contains("lanes that it does not take"));
     key.lanes = 2;
-    CHECK_THROWS_AS(kernel_table().find<dynamics::PlanetaryLanes<2>>(key), NoSuchKernel);
+    CHECK_THROWS_AS(kernel_table().find<dynamics::PlanetaryLanes<2>>(key), MissingKernel);
     CHECK_THROWS_WITH(kernel_table().find<dynamics::PlanetaryLanes<2>>(key),
                       Catch::Contains("not 2 doubles by rk4"));
 }

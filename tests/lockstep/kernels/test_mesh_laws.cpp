@@ -89,12 +89,12 @@ TEST_CASE("No force acts in the gap, and a collision conserves momentum and ener
     masses.state.q[2] = -3e-6;
     masses.state.v = {0.0, 0.0, 0.2, -0.05};
     const double momentum = masses.momentum(), energy = std::pow(masses.rate(), 2);
-    const auto flight = masses.state.v;
+    const auto free_velocity = masses.state.v;
     PairOfMasses in_gap = masses;
     in_gap.in.mesh_period_s = 1.9e-5;  // the gap closes after 2e-5 s
-    in_gap.march();
-    CHECK(in_gap.state.v == flight);  // equal to the bit
-    masses.march();
+    in_gap.integrate_mesh();
+    CHECK(in_gap.state.v == free_velocity);  // equal to the bit
+    masses.integrate_mesh();
     CHECK(masses.deflection() < 0.0);  // it has returned
     CHECK(masses.rate() == Approx(-std::sqrt(energy)).epsilon(1e-6));
     CHECK(masses.momentum() == Approx(momentum).epsilon(1e-12));
@@ -128,7 +128,7 @@ TEST_CASE("Undamped tooth pairs that touch one after another conserve energy") {
                 return sum;
             };
             const double before = energy(), momentum = masses.momentum();
-            const auto d = masses.march();
+            const auto d = masses.integrate_mesh();
             CHECK(*std::ranges::max_element(d) > gap[2]);  // all three have touched
             CHECK(masses.momentum() == Approx(momentum).epsilon(1e-12));
             errors.push_back(std::abs(energy() / before - 1.0));
@@ -153,16 +153,16 @@ TEST_CASE("A loaded pair bounces as the event-driven solution does") {
             PairOfMasses masses(MeshLaw::separating, steps, 1e-3, c, integrator);
             masses.in.force_N[dynamics::sun] = gravity * PairOfMasses::kSun;
             masses.state.q[2] = start;
-            const auto d = masses.march();
+            const auto d = masses.integrate_mesh();
             double error = 0.0, size = 0.0;
-            int flights = 0;
+            int solver_families = 0;
             for (int i = 0; i < steps; i += steps / 400) {
                 const double expected = ball.after(1e-3 * i / steps).first;
                 error = std::max(error, std::abs(d[static_cast<std::size_t>(i)] - expected));
                 size = std::max(size, std::abs(expected));
-                flights += expected < 0.0 ? 1 : 0;
+                solver_families += expected < 0.0 ? 1 : 0;
             }
-            CHECK(flights > 10);
+            CHECK(solver_families > 10);
             errors.push_back(error / size);
         }
         INFO("integrator " << static_cast<int>(integrator) << ", damping ratio " << damping_ratio
@@ -183,7 +183,7 @@ TEST_CASE(
     const double period = 2.0 * backlash / speed + 2.0 * std::numbers::pi / masses.natural_rad_s();
     masses.in.mesh_period_s = 6.0 * period;
     masses.state.v = {0.0, 0.0, speed, 0.0};
-    const auto d = masses.march();
+    const auto d = masses.integrate_mesh();
     CHECK(masses.deflection() == Approx(0.0).margin(1e-4 * backlash));
     CHECK(masses.rate() == Approx(speed).epsilon(1e-4));
     const double depth = speed / masses.natural_rad_s();
@@ -196,7 +196,7 @@ TEST_CASE("A loaded train that never separates keeps the linear integration's bi
     const auto& train = LiangTrain::instance();
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
-        MarchPlan plan = train.plan(24, 1200, motion);
+        IntegrationPlan plan = train.plan(24, 1200, motion);
         plan.integrator = integrator;
         plan.grid.stage_nodes = stage_nodes(integrator);
         plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
@@ -259,7 +259,7 @@ TEST_CASE(
         masses.state.q[2] = gravity / (w * w);
         machine::AlignedVector d;
         for (int mesh = 0; mesh < 60; ++mesh) {
-            d = masses.march();
+            d = masses.integrate_mesh();
         }
         double worst = 0.0;
         for (int i = 0; i < 2000; i += 20) {
@@ -324,7 +324,7 @@ TEST_CASE("Planets in phase have equal motions under errors and separation") {
     const auto& train = LiangTrain::instance();
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
-        MarchPlan plan = train.plan(24, 1200, motion, false);
+        IntegrationPlan plan = train.plan(24, 1200, motion, false);
         plan.mesh_law = MeshLaw::separating;
         plan.nodes.error.resize(plan.nodes.stiffness.size());
         plan.nodes.error_rate.resize(plan.nodes.stiffness.size());
@@ -354,10 +354,10 @@ TEST_CASE("Planets in phase have equal motions under errors and separation") {
         state.v = state.q;
         state.filter.assign(8 * kFilterStates, 0.0);
         MeshRecord record = make_record(plan, 1, true);
-        const auto march = make_mesh_march<1>(plan, std::span(&inputs, 1));
+        const auto mesh_integrator = make_mesh_integrator<1>(plan, std::span(&inputs, 1));
         bool parted = false;
         for (int mesh = 0; mesh < 40; ++mesh) {
-            (*march)({}, state, record);
+            (*mesh_integrator)({}, state, record);
             for (int sample = 0; sample < 24; ++sample) {
                 const double* q = record.motion.data() + sample * degrees;
                 for (int n = 1; n < 4; ++n) {
@@ -377,21 +377,22 @@ TEST_CASE("Planets in phase have equal motions under errors and separation") {
 
 TEST_CASE("From a far start a loaded train converges to the periodic orbit reached from rest") {
     const auto& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(24, 1200, dynamics::Motion::torsional);
+    IntegrationPlan plan = train.plan(24, 1200, dynamics::Motion::torsional);
     plan.mesh_law = MeshLaw::separating;
     const dynamics::GearboxInputs inputs = train.inputs(10.0);
-    const TileResult orbit = run_tile<1>(plan, std::span(&inputs, 1), train.no_fault(1), {});
+    const TileResult periodic_orbit =
+        run_tile<1>(plan, std::span(&inputs, 1), train.no_fault(1), {});
     TileState state;
     state.q.assign(7, 0.0);
     state.v.assign(7, 0.0);
     state.filter.assign(8 * kFilterStates, 0.0);
     state.q[2] = -1e-3;  // the sun rotated back by a millimetre
     MeshRecord record = make_record(plan, 1, false);
-    const auto march = make_mesh_march<1>(plan, std::span(&inputs, 1));
+    const auto mesh_integrator = make_mesh_integrator<1>(plan, std::span(&inputs, 1));
     for (int mesh = 0; mesh < 400; ++mesh) {
-        (*march)({}, state, record);
+        (*mesh_integrator)({}, state, record);
     }
     for (std::size_t i = 0; i < 24; ++i) {
-        CHECK(record.te[i] == Approx(orbit.records[0].te[i]).epsilon(1e-6));
+        CHECK(record.te[i] == Approx(periodic_orbit.records[0].te[i]).epsilon(1e-6));
     }
 }

@@ -5,7 +5,7 @@
 #include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
@@ -20,7 +20,7 @@ constexpr auto kFull = dynamics::Motion::translational_torsional;
 const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3,
                                   0.0, 1.5e-3, 2e-3, 4e-3, 3e-3, 4.28e-3, 5e-3, 7e-3};
 
-MarchPlan by(Integrator integrator, MarchPlan plan) {
+IntegrationPlan by(Integrator integrator, IntegrationPlan plan) {
     plan.integrator = integrator;
     plan.grid.stage_nodes = stage_nodes(integrator);
     plan.nodes =
@@ -28,7 +28,7 @@ MarchPlan by(Integrator integrator, MarchPlan plan) {
     return plan;
 }
 
-MarchPlan single(MarchPlan plan) {
+IntegrationPlan single(IntegrationPlan plan) {
     plan.precision = Precision::single_precision;
     return plan;
 }
@@ -48,7 +48,7 @@ TileSettings settings() {
 }
 
 template <int W>
-TileResult tile(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+TileResult tile(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                 std::size_t first, const TileSettings& how = settings()) {
     const auto depth = kDepths.begin() + static_cast<std::ptrdiff_t>(first);
     return run_tile<W>(plan, std::span(inputs).subspan(first, W),
@@ -69,7 +69,7 @@ std::vector<double> unrolled(const TileResult& tile, machine::AlignedVector Mesh
 }
 
 template <int W>
-void check_width(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+void check_width(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const TileResult& wide) {
     for (std::size_t first = 0; first < 16; first += W) {
         const TileResult narrow = tile<W>(plan, inputs, first);
@@ -98,7 +98,8 @@ double relative_rms(const std::vector<double>& a, const std::vector<double>& b) 
 
 TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every instruction set") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
-    const MarchPlan plan = single(by(integrator, LiangTrain::instance().plan(24, 1200, kFull)));
+    const IntegrationPlan plan =
+        single(by(integrator, LiangTrain::instance().plan(24, 1200, kFull)));
     const auto inputs = sixteen(10.0);
     const TileResult wide = tile<16>(plan, inputs, 0);
     CHECK(wide.status == std::vector(16, LaneStatus::ok));
@@ -129,7 +130,7 @@ TEST_CASE("Single precision keeps sensor signal and transmission error close to 
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
     const int steps = integrator == Integrator::rk4 ? 5200 : 10400;
     for (const auto& [speedup, allowed] : {std::pair{1.0, 1e-4}, std::pair{10.0, 5e-4}}) {
-        const MarchPlan plan =
+        const IntegrationPlan plan =
             by(integrator, LiangTrain::instance().plan(48, speedup > 1.0 ? 1200 : steps, kFull));
         const auto inputs = sixteen(speedup);
         const TileResult exact = tile<8>(plan, inputs, 0, {});
@@ -155,17 +156,17 @@ TEST_CASE(
     in.support_damping_N_s_m = in.mesh_damping = 0.0;
     in.mesh_period_s = 2e-3;
     const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
-    MarchPlan plan = single(by(integrator, train.plan(10, 40000, kFull, false)));
+    IntegrationPlan plan = single(by(integrator, train.plan(10, 40000, kFull, false)));
     std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 1.5e9);
     const auto matrices = dynamics::assemble(plan.layout, in, std::vector<double>(8, 1.5e9));
     const dynamics::Modes modes = dynamics::modes(matrices.stiffness, matrices.mass);
     const dynamics::GearboxInputs inputs = in;
     for (const Eigen::Index mode : {1, 5}) {
         const Eigen::VectorXd shape = 1e-6 * modes.shapes.col(mode);
-        TileState state = rest_state(plan, std::span(&inputs, 1));
+        TileState state = equilibrium_state(plan, std::span(&inputs, 1));
         std::copy(shape.begin(), shape.end(), state.q.begin());
         MeshRecord record = make_record(plan, 1, false);
-        (*make_mesh_march<1>(plan, std::span(&inputs, 1)))({}, state, record);
+        (*make_mesh_integrator<1>(plan, std::span(&inputs, 1)))({}, state, record);
         const double w = std::sqrt(modes.squares(mode));
         for (std::size_t d = 0; d < state.q.size(); ++d) {
             const double expected =
@@ -178,10 +179,10 @@ TEST_CASE(
 TEST_CASE("Two methods alone support single precision, and doubles have at most eight lanes") {
     const auto& train = LiangTrain::instance();
     const auto inputs = sixteen(10.0);
-    MarchPlan plan = train.plan(24, 1200, kFull);
-    CHECK_THROWS_AS(make_mesh_march<16>(plan, inputs), std::invalid_argument);
+    IntegrationPlan plan = train.plan(24, 1200, kFull);
+    CHECK_THROWS_AS(make_mesh_integrator<16>(plan, inputs), std::invalid_argument);
     for (const Integrator other : {Integrator::newmark, Integrator::sdirk3, Integrator::bs3}) {
         plan.integrator = other;
-        CHECK_THROWS_AS(make_mesh_march<16>(single(plan), inputs), std::invalid_argument);
+        CHECK_THROWS_AS(make_mesh_integrator<16>(single(plan), inputs), std::invalid_argument);
     }
 }

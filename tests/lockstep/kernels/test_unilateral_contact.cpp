@@ -9,8 +9,8 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/plan/transmission_error.hpp"
-#include "lockstep/tile/driven_march.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/excited_integrator.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
@@ -24,9 +24,9 @@ namespace {
 const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3};
 
-MarchPlan plan_for(Integrator integrator, MeshLaw law, int steps, dynamics::Motion motion) {
+IntegrationPlan plan_for(Integrator integrator, MeshLaw law, int steps, dynamics::Motion motion) {
     const auto& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(24, steps, motion);
+    IntegrationPlan plan = train.plan(24, steps, motion);
     plan.integrator = integrator;
     plan.grid.stage_nodes = stage_nodes(integrator);
     plan.mesh_law = law;
@@ -91,7 +91,7 @@ ToothErrors random_errors(const PairSet& pairs, double rms_m, bool with_slopes) 
 // One lane of the train with separate teeth: M q'' = f - (C + G) q' - (K + K_c) q - sum of R_p F_p.
 class ToothByTooth {
   public:
-    ToothByTooth(const MarchPlan& plan, const dynamics::PlanetaryInputs& in,
+    ToothByTooth(const IntegrationPlan& plan, const dynamics::PlanetaryInputs& in,
                  const ToothErrors& errors, std::size_t lane, double crack_m)
         : plan_(plan), in_(in), errors_(errors), lane_(lane) {
         auto bare = in;
@@ -112,7 +112,7 @@ class ToothByTooth {
 
     // Integrates mesh k by the classical Runge-Kutta method, with two of its steps in one of the
     // grid's.
-    void march(int k) {
+    void integrate_mesh(int k) {
         for (const Step& step : plan_.grid.steps) {
             const double inside = k + step.phase + 0.5 * step.length;
             for (const double part : {0.0, 0.5}) {
@@ -182,14 +182,14 @@ class ToothByTooth {
             const std::size_t at = static_cast<std::size_t>(tooth) * 8 + lane_;
             sum += gear.error_m[at];
             if (!gear.slope_m.empty()) {
-                const bool drives = pair < 4 ? side == 0 : side == 1;
-                sum += (drives ? place : -place) * gear.slope_m[at];
+                const bool is_input_side = pair < 4 ? side == 0 : side == 1;
+                sum += (is_input_side ? place : -place) * gear.slope_m[at];
             }
         }
         return sum;
     }
 
-    const MarchPlan& plan_;
+    const IntegrationPlan& plan_;
     const dynamics::PlanetaryInputs& in_;
     const ToothErrors& errors_;
     std::size_t lane_;
@@ -220,14 +220,14 @@ TEST_CASE("Tooth pairs without errors act as one mesh that separates") {
         const auto trains = light_trains(0.05, 60.0);
         std::vector<TileState> ends;
         for (const auto law : {MeshLaw::separating, MeshLaw::unilateral, MeshLaw::with_error}) {
-            MarchPlan plan = plan_for(integrator, law, 600, motion);
+            IntegrationPlan plan = plan_for(integrator, law, 600, motion);
             const std::vector<MeshError> errors(8, MeshError{{6e-6}, {}});
             add_errors(train.pairs, plan.grid, errors, plan.nodes);
-            TileState state = rest_state(plan, trains);
+            TileState state = equilibrium_state(plan, trains);
             MeshRecord record = make_record(plan, 8, false);
-            const auto march = make_mesh_march<8>(plan, trains);
+            const auto integrate_mesh = make_mesh_integrator<8>(plan, trains);
             for (int k = 0; k < 2; ++k) {
-                (*march)(FaultSchedule(plan, faults).all_overrides(k), state, record);
+                (*integrate_mesh)(FaultSchedule(plan, faults).all_overrides(k), state, record);
             }
             ends.push_back(std::move(state));
         }
@@ -253,16 +253,16 @@ TEST_CASE("Teeth with errors move as in an independent integration, in and out o
              {std::pair{Integrator::rk4, 1e-6}, std::pair{Integrator::sdirk3, 1e-5},
               std::pair{Integrator::newmark, 1e-3}, std::pair{Integrator::generalized_alpha, 1e-3},
               std::pair{Integrator::central_difference, 1e-3}}) {
-            const MarchPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400,
-                                            dynamics::Motion::translational_torsional);
+            const IntegrationPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400,
+                                                  dynamics::Motion::translational_torsional);
             FaultSchedule schedule(plan, faults);
-            TileState state = rest_state(plan, trains);
+            TileState state = equilibrium_state(plan, trains);
             const TileState start = state;
             MeshRecord record = make_record(plan, 8, false);
-            const auto march = make_mesh_march<8>(plan, trains);
+            const auto integrate_mesh = make_mesh_integrator<8>(plan, trains);
             constexpr int kMeshes = 3;
             for (int k = 0; k < kMeshes; ++k) {
-                (*march)(schedule.all_overrides(k), state, record);
+                (*integrate_mesh)(schedule.all_overrides(k), state, record);
             }
             for (const std::size_t lane : {0U, 7U}) {
                 ToothByTooth expected(plan, std::get<dynamics::PlanetaryInputs>(trains[lane]),
@@ -270,7 +270,7 @@ TEST_CASE("Teeth with errors move as in an independent integration, in and out o
                 expected.q = lane_of(start.q, lane);
                 expected.v = lane_of(start.v, lane);
                 for (int k = 0; k < kMeshes; ++k) {
-                    expected.march(k);
+                    expected.integrate_mesh(k);
                 }
                 const Eigen::VectorXd q = lane_of(state.q, lane);
                 INFO("load " << load << ", integrator " << static_cast<int>(integrator) << ", lane "
@@ -292,10 +292,10 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
     faults.tooth_errors = &errors;
     const auto trains = light_trains(1.0, 10.0);
     const auto full = dynamics::Motion::translational_torsional;
-    const auto end_of = [&](const MarchPlan& plan, auto& march) {
-        TileState state = rest_state(plan, trains);
+    const auto end_of = [&](const IntegrationPlan& plan, auto& integrate_mesh) {
+        TileState state = equilibrium_state(plan, trains);
         MeshRecord record = make_record(plan, 8, false);
-        march(FaultSchedule(plan, faults).all_overrides(0), state, record);
+        integrate_mesh(FaultSchedule(plan, faults).all_overrides(0), state, record);
         return state.q;
     };
     // The excitation is constant, but kernels for varying excitation run.
@@ -306,21 +306,22 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
     for (const auto& [integrator, excitation] :
          {std::pair{Integrator::rk4, &torque}, std::pair{Integrator::sdirk3, &torque},
           std::pair{Integrator::rk4, &speed}}) {
-        const MarchPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400, full);
-        excitation->driving =
+        const IntegrationPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400, full);
+        excitation->input_degree =
             std::get<dynamics::PlanetaryLayout>(plan.layout).rotation_index(dynamics::sun);
-        excitation->turning_m_s = one;
-        const auto steady = make_mesh_march<8>(plan, trains);
-        const auto driven = make_driven_march<8>(plan, *excitation, trains);
+        excitation->rotation_m_s = one;
+        const auto steady = make_mesh_integrator<8>(plan, trains);
+        const auto variable_excitation_integrator =
+            make_excited_integrator<8>(plan, *excitation, trains);
         const auto expected = end_of(plan, *steady);
         const auto varied = [&](const auto& overrides, TileState& state, MeshRecord& record) {
-            (*driven)(0, overrides, state, record);
+            (*variable_excitation_integrator)(0, overrides, state, record);
         };
         CHECK(largest_difference(end_of(plan, varied), expected) < 1e-9 * largest(expected));
     }
     // Sixteen singles: the eight realizations twice.
-    MarchPlan plan = plan_for(Integrator::rk4, MeshLaw::unilateral, 2400, full);
-    const auto expected = end_of(plan, *make_mesh_march<8>(plan, trains));
+    IntegrationPlan plan = plan_for(Integrator::rk4, MeshLaw::unilateral, 2400, full);
+    const auto expected = end_of(plan, *make_mesh_integrator<8>(plan, trains));
     plan.precision = Precision::single_precision;
     ToothErrors twice = errors;
     for (GearErrors& gear : twice.gears) {
@@ -338,10 +339,10 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
     depths.insert(depths.end(), kDepths.begin(), kDepths.end());
     FaultCurves both = train.ring_side_cracks(depths);
     both.tooth_errors = &twice;
-    TileState state = rest_state(plan, sixteen);
+    TileState state = equilibrium_state(plan, sixteen);
     MeshRecord record = make_record(plan, 16, false);
-    (*make_mesh_march<16>(plan, sixteen))(FaultSchedule(plan, both).all_overrides(0), state,
-                                          record);
+    (*make_mesh_integrator<16>(plan, sixteen))(FaultSchedule(plan, both).all_overrides(0), state,
+                                               record);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
         const double own = expected[i / 16 * 8 + i % 8];
         CHECK(state.q[i] == Approx(own).margin(1e-4 * largest(expected)));

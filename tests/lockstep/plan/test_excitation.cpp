@@ -5,8 +5,8 @@
 #include <random>
 
 #include "dynamics/varying_forces.hpp"
-#include "lockstep/driven/excitation_rows.hpp"
-#include "lockstep/tile/driven_march.hpp"
+#include "lockstep/excitation/excitation_rows.hpp"
+#include "lockstep/tile/excited_integrator.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
@@ -22,13 +22,13 @@ Fluctuation sine(double amplitude, double per_mesh, double per_s, double turns) 
 }
 
 // Integrates mesh periods first <= k < last and returns the transmission errors of the last one.
-machine::AlignedVector march_pair(test::PairOfMasses& pair, const Excitation& excitation, int first,
-                                  int last) {
+machine::AlignedVector integrate_pair(test::PairOfMasses& pair, const Excitation& excitation,
+                                      int first, int last) {
     const std::vector<dynamics::GearboxInputs> inputs{pair.in};
-    const auto march = make_driven_march<1>(pair.plan, excitation, inputs);
+    const auto mesh_integrator = make_excited_integrator<1>(pair.plan, excitation, inputs);
     MeshRecord record = make_record(pair.plan, 1, false);
     for (int k = first; k < last; ++k) {
-        (*march)(k, {}, pair.state, record);
+        (*mesh_integrator)(k, {}, pair.state, record);
     }
     return record.te;
 }
@@ -49,7 +49,7 @@ TEST_CASE("a sine of the torque gives the frequency response of a mass on a spri
     // Half of the frequency is specified per mesh period, half per second: here they are the same.
     excitation.torque = sine(kAmplitude, 0.5 * frequency * kPeriod, 0.5 * frequency, kTurns);
     constexpr int kMeshes = 20;
-    const auto te = march_pair(pair, excitation, 0, kMeshes);
+    const auto te = integrate_pair(pair, excitation, 0, kMeshes);
 
     const double w = 2.0 * pi * frequency, m = test::PairOfMasses::kMass;
     const double g = kTorque / test::PairOfMasses::kSun;
@@ -79,7 +79,7 @@ TEST_CASE("the damper dissipates the power that a fluctuating torque supplies",
     Excitation excitation;
     excitation.torque = sine(kAmplitude, kFrequency * kPeriod, 0.0, 0.0);
     // The torque has six periods per mesh period.
-    const auto d = march_pair(pair, excitation, 0, 20);
+    const auto d = integrate_pair(pair, excitation, 0, 20);
     // Over whole periods the sum of (F A / m_s) m sin(w t) d' equals that of c d'^2.
     double in = 0.0, out = 0.0;
     const std::size_t n = d.size();
@@ -143,12 +143,12 @@ TEST_CASE("random torque shakes a mass on a spring as the spectra say", "[excita
     }
     excitation.torque = noise;
     const std::vector<dynamics::GearboxInputs> inputs(kLanes, pair.in);
-    const auto march = make_driven_march<8>(pair.plan, excitation, inputs);
+    const auto mesh_integrator = make_excited_integrator<8>(pair.plan, excitation, inputs);
     MeshRecord record = make_record(pair.plan, kLanes, false);
     double sum = 0.0, count = 0.0;
     const double mean = kForce / test::PairOfMasses::kSun * m / k;
     for (int mesh = -kRunIn; mesh < kMeshes; ++mesh) {
-        (*march)(mesh, {}, state, record);
+        (*mesh_integrator)(mesh, {}, state, record);
         for (const double te : record.te) {
             sum += mesh < 0 ? 0.0 : (te - mean) * (te - mean);
             count += mesh < 0 ? 0.0 : 1.0;

@@ -15,7 +15,7 @@ const stiffness::SquareWaveMesh kSunMesh(1e9, 2e9, 1.6, 0.7), kRingMesh(2e9, 3e9
 
 // Pairs of a train with planets at these parts of a turn; phases from Parker and Lin's formulas.
 struct Train {
-    Train(int sun_teeth, int planet_teeth, int ring_teeth, PlanetTurns planets, bool reversed)
+    Train(int sun_teeth, int planet_teeth, int ring_teeth, PlanetPositions planets, bool reversed)
         : sun(sun_teeth), planet(planet_teeth), ring(ring_teeth), turns(std::move(planets)) {
         pairs.reversed = reversed;
         const double sense = reversed ? -1 : 1;
@@ -34,7 +34,7 @@ struct Train {
     }
 
     int sun, planet, ring;
-    PlanetTurns turns;
+    PlanetPositions turns;
     PairSet pairs;
 };
 
@@ -45,7 +45,7 @@ std::vector<Train> trains() {
     for (const bool reversed : {false, true}) {
         all.emplace_back(19, 31, 81, equal_planets(4), reversed);
         all.emplace_back(16, 26, 68, equal_planets(3), reversed);
-        all.emplace_back(19, 31, 81, PlanetTurns{{0, 0.26, 0.49, 0.77}}, reversed);
+        all.emplace_back(19, 31, 81, PlanetPositions{{0, 0.26, 0.49, 0.77}}, reversed);
     }
     return all;
 }

@@ -20,8 +20,8 @@ PairSet ring_pair(const stiffness::MeshStiffness& mesh, double start, bool rever
 }
 
 // A plan with the pairs' stiffness and without dynamics.
-MarchPlan stiffness_plan(const PairSet& pairs, std::vector<double> cuts, int steps) {
-    MarchPlan plan;
+IntegrationPlan stiffness_plan(const PairSet& pairs, std::vector<double> cuts, int steps) {
+    IntegrationPlan plan;
     for (const double cut : contact_transitions(pairs)) {
         cuts.push_back(cut);
     }
@@ -76,7 +76,7 @@ TEST_CASE("Two broken teeth pass within a contact ratio and a mesh period, in bo
     };
     for (const bool reversed : {false, true}) {
         const PairSet pairs = ring_pair(mesh, start, reversed);
-        const MarchPlan plan = stiffness_plan(pairs, {}, 50);
+        const IntegrationPlan plan = stiffness_plan(pairs, {}, 50);
         FaultCurves faults{&pairs, shaft_fault_pattern(pairs, 31), {{nullptr}}};
         faults.curve[0].push_back(faulty_mesh(mesh, std::make_unique<TwoBroken>()));
         const FaultSchedule schedule(plan, faults);
@@ -119,7 +119,7 @@ TEST_CASE("A pit's edges are jumps at the ends of steps") {
         for (const double jump : family.jumps()) {
             cuts.push_back(phase_in_period(start + (reversed ? c - jump : jump)));
         }
-        const MarchPlan plan = stiffness_plan(pairs, cuts, 50);
+        const IntegrationPlan plan = stiffness_plan(pairs, cuts, 50);
         const FaultCurves faults{&pairs,
                                  shaft_fault_pattern(pairs, 31),
                                  {{faulty_mesh(train.ring_planet, family.at(20e-3))}}};

@@ -28,8 +28,8 @@ ToothErrors no_errors(const PairSet& pairs, std::size_t lanes) {
     return errors;
 }
 
-MarchPlan error_plan(int samples, int steps, dynamics::Motion motion) {
-    MarchPlan plan = LiangTrain::instance().plan(samples, steps, motion);
+IntegrationPlan error_plan(int samples, int steps, dynamics::Motion motion) {
+    IntegrationPlan plan = LiangTrain::instance().plan(samples, steps, motion);
     plan.mesh_law = dynamics::MeshLaw::unilateral;
     add_tooth_pairs(LiangTrain::instance().pairs, plan.grid, plan.nodes);
     return plan;
@@ -40,7 +40,7 @@ MarchPlan error_plan(int samples, int steps, dynamics::Motion motion) {
 TEST_CASE(
     "Equal errors of all teeth act as one error while a tooth pair is in contact, for both gears") {
     const auto& pairs = LiangTrain::instance().pairs;
-    const MarchPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
+    const IntegrationPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
     ToothErrors errors = no_errors(pairs, 1);
     for (auto& gear : errors.gears) {
         std::fill(gear.error_m.begin(), gear.error_m.end(), 2e-6);
@@ -56,7 +56,7 @@ TEST_CASE(
 TEST_CASE("A tooth's error acts while it is in contact, and follows its slope along the flank") {
     const auto& train = LiangTrain::instance();
     const auto& pairs = train.pairs;
-    const MarchPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
+    const IntegrationPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
     const double ratio = train.sun_planet.contact_ratio();
     const int tooth = 7;
     for (const bool on_sun : {false, true}) {
@@ -92,7 +92,7 @@ TEST_CASE("A tooth's error acts while it is in contact, and follows its slope al
 TEST_CASE(
     "A sun tooth's error acts at one planet after the other, a ring tooth's in reverse order") {
     const auto& pairs = LiangTrain::instance().pairs;
-    const MarchPlan plan = error_plan(24, 24, dynamics::Motion::torsional);
+    const IntegrationPlan plan = error_plan(24, 24, dynamics::Motion::torsional);
     for (const bool on_sun : {true, false}) {
         ToothErrors errors = no_errors(pairs, 1);
         errors.gears[on_sun ? 0 : 1].error_m[0] = 1e-6;
@@ -131,7 +131,7 @@ TEST_CASE(
     for (std::size_t pair = 0; pair < 8; ++pair) {
         pairs.mesh[pair] = pair < 4 ? &sun_mesh : &ring_mesh;
     }
-    MarchPlan plan = error_plan(12, 12, dynamics::Motion::torsional);
+    IntegrationPlan plan = error_plan(12, 12, dynamics::Motion::torsional);
     plan.grid = make_phase_grid(12, 12, contact_transitions(pairs));
     plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::ratio);
     add_tooth_pairs(pairs, plan.grid, plan.nodes);
@@ -142,7 +142,7 @@ TEST_CASE(
     faults.tooth_errors = &errors;
     const dynamics::GearboxInputs in = train.inputs();
     TileSettings settings;
-    settings.march_meshes = 31;
+    settings.recorded_meshes = 31;
     const TileResult tile = run_quasi_static<1>(plan, std::span(&in, 1), faults, settings);
     const double rise = 4e-6 / 4.0 / train.sun.base_radius();  // one path of four equal ones
     for (int k = 0; k < 31; ++k) {
@@ -155,20 +155,20 @@ TEST_CASE(
                   Approx(touches ? rise : 0.0).margin(1e-9 * rise));
         }
     }
-    settings.march_meshes = 0;
+    settings.recorded_meshes = 0;
     CHECK_THROWS_AS(run_quasi_static<1>(plan, std::span(&in, 1), faults, settings),
                     std::invalid_argument);
 }
 
 TEST_CASE("Integrated with tooth errors, lanes keep their bits; without errors nothing changes") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = error_plan(12, 1200, dynamics::Motion::torsional);
+    const IntegrationPlan plan = error_plan(12, 1200, dynamics::Motion::torsional);
     ToothErrors errors = no_errors(train.pairs, 8);
     FaultCurves faults =
         train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3});
     const std::vector<dynamics::GearboxInputs> inputs(8, train.inputs(10.0));
     TileSettings settings;
-    settings.march_meshes = 4;
+    settings.recorded_meshes = 4;
     const TileResult plain = run_tile<8>(plan, inputs, faults, settings);
     faults.tooth_errors = &errors;
     const TileResult none = run_tile<8>(plan, inputs, faults, settings);
@@ -211,7 +211,7 @@ TEST_CASE(
     constexpr double k = 3e8, kRatio = 1.5;
     const stiffness::SquareWaveMesh mesh(k, 2.0 * k, kRatio);
     const PairSet pairs{{&mesh}, {0.0}, false};
-    MarchPlan plan = gearbox.plan(16, 16, Integrator::rk4);
+    IntegrationPlan plan = gearbox.plan(16, 16, Integrator::rk4);
     plan.mesh_law = dynamics::MeshLaw::unilateral;
     plan.grid = make_phase_grid(16, 16, contact_transitions(pairs));
     plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::proportional);
@@ -242,7 +242,7 @@ TEST_CASE(
     }
     faults.tooth_errors = &errors;
     TileSettings settings;
-    settings.march_meshes = 7;
+    settings.recorded_meshes = 7;
     const TileResult tile = run_quasi_static<8>(plan, inputs, faults, settings);
     int alone = 0;
     for (int mesh_period = 2; mesh_period < 6; ++mesh_period) {

@@ -28,7 +28,7 @@ void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
     double least = 1e300, most = 0.0;
     for (int k = 0; k < 4; ++k) {
         const double start = pairs.start[0];
-        const StepPositions steps = steps_under_way(grid, k, start, faulty.duration());
+        const StepPositions steps = overlapping_steps(grid, k, start, faulty.duration());
         if (steps.middle.empty()) {
             continue;
         }

@@ -5,7 +5,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/graded_grid.hpp"
 #include "lockstep/steps/step_pilot.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
@@ -21,9 +21,9 @@ std::vector<double> liang_transitions() {
     return contact_transitions(LiangTrain::instance().pairs);
 }
 
-MarchPlan plan_of(PhaseGrid grid, Integrator integrator) {
+IntegrationPlan plan_of(PhaseGrid grid, Integrator integrator) {
     const auto& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(24, 24, kFull);
+    IntegrationPlan plan = train.plan(24, 24, kFull);
     plan.integrator = integrator;
     plan.grid = std::move(grid);
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
@@ -75,7 +75,7 @@ Pilot liang_pilot(Integrator integrator) {
         pilot.inputs.push_back(train.inputs(2.0, 1e8 * (0.8 + 0.05 * l)));
     }
     pilot.faults = train.ring_side_cracks(std::vector<double>(kPilotLanes, 4.28e-3));
-    pilot.settle_meshes = 4;
+    pilot.convergence_meshes = 4;
     pilot.plan = [integrator](PhaseGrid grid) { return plan_of(std::move(grid), integrator); };
     return pilot;
 }
@@ -124,14 +124,15 @@ TEST_CASE("A divided grid keeps a node on every sample and no step longer than a
 TEST_CASE("Samples inside steps are interpolated at the integrator's order") {
     const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
     const auto record_of = [&](PhaseGrid grid, Integrator integrator) {
-        const MarchPlan plan = plan_of(for_integrator(std::move(grid), integrator), integrator);
-        TileState state =
-            rest_state(plan_of(make_phase_grid(480, 480, liang_transitions()), Integrator::rk4),
-                       std::span(&in, 1));
+        const IntegrationPlan plan =
+            plan_of(for_integrator(std::move(grid), integrator), integrator);
+        TileState state = equilibrium_state(
+            plan_of(make_phase_grid(480, 480, liang_transitions()), Integrator::rk4),
+            std::span(&in, 1));
         MeshRecord record = make_record(plan, 1, true);
-        const auto march = make_mesh_march<1>(plan, std::span(&in, 1));
+        const auto mesh_integrator = make_mesh_integrator<1>(plan, std::span(&in, 1));
         for (int mesh = 0; mesh < 2; ++mesh) {
-            (*march)({}, state, record);
+            (*mesh_integrator)({}, state, record);
         }
         return record;
     };

@@ -153,19 +153,19 @@ TEST_CASE(
     const auto stage_matrices =
         dynamics::assemble(dynamics::GearboxLayout(gearbox.layout()), stage[0], {1.1e9});
     for (const double low_pass_Hz : {2e3, 10e3}) {
-        const auto orbit = [&](Integrator integrator, double steps) {
-            MarchPlan plan = gearbox.plan(50, static_cast<int>(std::ceil(steps)), integrator);
+        const auto periodic_orbit = [&](Integrator integrator, double steps) {
+            IntegrationPlan plan = gearbox.plan(50, static_cast<int>(std::ceil(steps)), integrator);
             plan.low_pass_rad_s = 2 * std::numbers::pi * low_pass_Hz;
             return run_tile<1>(plan, stage, gearbox.no_fault(1), {}).records[0];
         };
-        const auto exact = orbit(Integrator::sdirk3, 10000);
+        const auto exact = periodic_orbit(Integrator::sdirk3, 10000);
         for (const auto integrator :
              {Integrator::newmark, Integrator::sdirk3, Integrator::generalized_alpha}) {
             const double steps =
                 implicit_steps(integrator, stage_matrices, gearbox.inputs().mesh_period_s,
                                2 * std::numbers::pi * low_pass_Hz);
             CHECK(steps < 2000);  // rk4 would need 870,000
-            const auto [acceleration, te] = errors(orbit(integrator, steps), exact);
+            const auto [acceleration, te] = errors(periodic_orbit(integrator, steps), exact);
             INFO("low-pass " << low_pass_Hz << " Hz, steps " << steps);
             CHECK(acceleration < 1e-3);
             CHECK(te < 1e-3);
@@ -175,7 +175,7 @@ TEST_CASE(
     const auto& train = test::LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> planetary{train.inputs(10.0)};
     const auto full = dynamics::Motion::translational_torsional;
-    const MarchPlan fine = train.plan(24, 2400, full);
+    const IntegrationPlan fine = train.plan(24, 2400, full);
     const auto exact = run_tile<1>(fine, planetary, train.no_fault(1), {}).records[0];
     const auto matrices =
         dynamics::assemble(fine.layout, planetary[0], std::vector<double>(8, 1e9));
@@ -183,7 +183,7 @@ TEST_CASE(
          {Integrator::newmark, Integrator::sdirk3, Integrator::generalized_alpha}) {
         const double steps = implicit_steps(integrator, matrices, train.inputs(10.0).mesh_period_s,
                                             fine.low_pass_rad_s);
-        MarchPlan plan = train.plan(24, static_cast<int>(std::ceil(steps)), full);
+        IntegrationPlan plan = train.plan(24, static_cast<int>(std::ceil(steps)), full);
         plan.integrator = integrator;
         plan.grid.stage_nodes = stage_nodes(integrator);
         plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));

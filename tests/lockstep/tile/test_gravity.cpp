@@ -35,14 +35,15 @@ double weight(const dynamics::PlanetaryInputs& in) {
 TEST_CASE("the bearings of a rotating train carry its weight, which rotates backwards",
           "[gravity][lockstep]") {
     const auto& train = test::LiangTrain::instance();
-    const MarchPlan plan = train.plan(10, 10, dynamics::Motion::translational_torsional, false);
+    const IntegrationPlan plan =
+        train.plan(10, 10, dynamics::Motion::translational_torsional, false);
     const auto in = train.inputs();
     const std::vector<dynamics::GearboxInputs> inputs{in};
     Excitation excitation;
     excitation.gravity = Gravity{kGravity, -pi / 2, 1.0 / 81.0};
     const FaultCurves healthy = train.no_fault(1);
     TileSettings settings;
-    settings.march_meshes = 81;
+    settings.recorded_meshes = 81;
     settings.with_motion = true;
     settings.excitation = &excitation;
     const TileResult tile = run_quasi_static<1>(plan, inputs, healthy, settings);
@@ -69,7 +70,7 @@ TEST_CASE("in time integration, too, the bearings of a train carry its weight",
     const auto& train = test::LiangTrain::instance();
     const auto [integrator, steps] =
         GENERATE(std::pair(Integrator::rk4, 450), std::pair(Integrator::sdirk3, 200));
-    MarchPlan plan = train.plan(50, steps, dynamics::Motion::translational_torsional, false);
+    IntegrationPlan plan = train.plan(50, steps, dynamics::Motion::translational_torsional, false);
     plan.integrator = integrator;
     plan.grid.stage_nodes = stage_nodes(integrator);
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
@@ -85,7 +86,7 @@ TEST_CASE("in time integration, too, the bearings of a train carry its weight",
     settings.tolerance = 1e-6;
     settings.max_meshes = 400;
     settings.run_in_meshes = 100;
-    settings.march_meshes = 81;
+    settings.recorded_meshes = 81;
     settings.with_motion = true;
     settings.excitation = &excitation;
     const TileResult tile = run_tile<1>(plan, inputs, healthy, settings);
@@ -109,7 +110,8 @@ TEST_CASE("in time integration, too, the bearings of a train carry its weight",
 TEST_CASE("constant weight keeps the periodic orbit and the passage of a fault",
           "[gravity][lockstep]") {
     const auto& train = test::LiangTrain::instance();
-    const MarchPlan plan = train.plan(50, 450, dynamics::Motion::translational_torsional, false);
+    const IntegrationPlan plan =
+        train.plan(50, 450, dynamics::Motion::translational_torsional, false);
     auto in = train.inputs(12.0);
     for (double& damping : in.bearing_damping_N_s_m) {
         damping = 5e3;
@@ -123,15 +125,15 @@ TEST_CASE("constant weight keeps the periodic orbit and the passage of a fault",
     reuse.max_meshes = 400;
     reuse.with_motion = true;
     reuse.excitation = &excitation;
-    TileSettings march = reuse;
-    march.march_meshes = 62;
-    const TileResult orbit = run_tile<1>(plan, inputs, cracked, reuse);
-    const TileResult all = run_tile<1>(plan, inputs, cracked, march);
-    REQUIRE(orbit.status[0] == LaneStatus::ok);
-    REQUIRE(orbit.records.size() < all.records.size());
+    TileSettings full_integration = reuse;
+    full_integration.recorded_meshes = 62;
+    const TileResult reused = run_tile<1>(plan, inputs, cracked, reuse);
+    const TileResult all = run_tile<1>(plan, inputs, cracked, full_integration);
+    REQUIRE(reused.status[0] == LaneStatus::ok);
+    REQUIRE(reused.records.size() < all.records.size());
     for (std::size_t k = 31; k < 62; ++k) {
         const auto& a =
-            orbit.records[static_cast<std::size_t>(orbit.content[k % orbit.content.size()])];
+            reused.records[static_cast<std::size_t>(reused.content[k % reused.content.size()])];
         const auto& b = all.records[static_cast<std::size_t>(all.content[k])];
         for (std::size_t i = 0; i < a.motion.size(); i += 21) {
             // The carrier is displaced and the transmission error is unchanged.
@@ -141,7 +143,7 @@ TEST_CASE("constant weight keeps the periodic orbit and the passage of a fault",
     }
     double sag = 0.0;
     for (std::size_t s = 0; s < 50; ++s) {
-        sag += bearing_force(orbit.records[0], in, 21, s, 1) / 50.0;
+        sag += bearing_force(reused.records[0], in, 21, s, 1) / 50.0;
     }
     CHECK(sag == Approx(-weight(in)).epsilon(1e-4));
 }
@@ -151,7 +153,7 @@ TEST_CASE("the displacement of a shaft's gear is its weight over its bearing's s
     dynamics::FixedShaftLayout layout;
     layout.base_radius_m[dynamics::pinion] = 0.03;
     layout.base_radius_m[dynamics::gear] = 0.06;
-    MarchPlan plan;
+    IntegrationPlan plan;
     plan.layout = layout;
     plan.grid = make_phase_grid(4, 4, {});
     plan.nodes.pairs = 1;

@@ -28,7 +28,7 @@ std::vector<dynamics::GearboxInputs> spread_inputs() {
 
 // The realizations of a tile of eight, recomputed W at a time.
 template <int W>
-void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const std::vector<double>& depths, const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
         const auto depth = depths.begin() + static_cast<std::ptrdiff_t>(first);
@@ -46,7 +46,7 @@ void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInput
 }
 
 // Stiffness of all pairs at a sample.
-std::vector<double> at_sample(const MarchPlan& plan, int sample) {
+std::vector<double> at_sample(const IntegrationPlan& plan, int sample) {
     for (std::size_t i = 0; i < plan.grid.steps.size(); ++i) {
         if (plan.grid.steps[i].sample == sample) {
             const auto from =
@@ -74,14 +74,14 @@ double transmission_error(const std::vector<double>& k, double support_N_m) {
     return (force / paths + force / support_N_m) / train.sun.base_radius();
 }
 
-void set_pair(MarchPlan& plan, int pair, double stiffness) {
+void set_pair(IntegrationPlan& plan, int pair, double stiffness) {
     for (std::size_t i = static_cast<std::size_t>(pair); i < plan.nodes.stiffness.size();
          i += static_cast<std::size_t>(plan.nodes.pairs)) {
         plan.nodes.stiffness[i] = stiffness;
     }
 }
 
-void set_error(MarchPlan& plan, int pair, double error) {
+void set_error(IntegrationPlan& plan, int pair, double error) {
     plan.nodes.error.resize(plan.nodes.stiffness.size());
     plan.nodes.error_rate.resize(plan.nodes.stiffness.size());
     for (std::size_t i = static_cast<std::size_t>(pair); i < plan.nodes.error.size();
@@ -94,7 +94,7 @@ void set_error(MarchPlan& plan, int pair, double error) {
 
 TEST_CASE("The torsional TE is that of springs in series and parallel at every phase") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 24, kTorsional);
+    const IntegrationPlan plan = train.plan(24, 24, kTorsional);
     const TileResult tile =
         run_quasi_static<1>(plan, lanes_of(train.inputs(), 1), train.no_fault(1), {});
     REQUIRE(tile.records.size() == 1);
@@ -108,7 +108,7 @@ TEST_CASE("The torsional TE is that of springs in series and parallel at every p
 
 TEST_CASE("The full model's equilibrium matches a dense orthogonal decomposition") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(12, 12, kFull, false);
+    const IntegrationPlan plan = train.plan(12, 12, kFull, false);
     const auto inputs = spread_inputs();
     TileSettings settings;
     settings.with_motion = true;
@@ -142,7 +142,7 @@ TEST_CASE(
     in.motor_torque_N_m = 11.9;
     in.load_torque_N_m = 11.9 * 0.0716 / 0.0283;
     in.mesh_period_s = 1e-3;
-    MarchPlan plan;
+    IntegrationPlan plan;
     plan.layout = layout;
     plan.grid = make_phase_grid(4, 4, {});
     plan.nodes.pairs = 1;
@@ -165,7 +165,7 @@ TEST_CASE(
 TEST_CASE(
     "A planet whose mesh is broken carries no load; a train without teeth has no equilibrium") {
     const auto& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(6, 6, kTorsional);
+    IntegrationPlan plan = train.plan(6, 6, kTorsional);
     set_pair(plan, 1, 0.0);  // one side of planet 2: its other side supports it
     set_pair(plan, 2, 0.0);  // both sides of planet 3: without support and without load
     set_pair(plan, 6, 0.0);
@@ -189,7 +189,7 @@ TEST_CASE(
     const auto& train = LiangTrain::instance();
     const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
     for (const auto motion : {kTorsional, kFull}) {
-        const MarchPlan plan = train.plan(24, 24, motion, false);
+        const IntegrationPlan plan = train.plan(24, 24, motion, false);
         auto inputs = spread_inputs();
         const auto faults = train.ring_side_cracks(depths);
         const TileResult wide = run_quasi_static<8>(plan, inputs, faults, {});
@@ -198,23 +198,23 @@ TEST_CASE(
         check_lanes<4>(plan, inputs, depths, wide);
         check_lanes<1>(plan, inputs, depths, wide);
         std::get<dynamics::PlanetaryInputs>(inputs[3]).support_stiffness_N_m = 0.0;
-        const TileResult loose = run_quasi_static<8>(plan, inputs, faults, {});
+        const TileResult unsupported = run_quasi_static<8>(plan, inputs, faults, {});
         for (std::size_t r = 0; r < wide.records.size(); ++r) {
             for (std::size_t i = 0; i < wide.records[r].te.size(); ++i) {
                 if (i % 8 == 3) {
-                    CHECK(std::isnan(loose.records[r].te[i]));
+                    CHECK(std::isnan(unsupported.records[r].te[i]));
                 } else {
-                    CHECK(loose.records[r].te[i] == wide.records[r].te[i]);
+                    CHECK(unsupported.records[r].te[i] == wide.records[r].te[i]);
                 }
             }
         }
-        CHECK(loose.status[3] == LaneStatus::diverged);
+        CHECK(unsupported.status[3] == LaneStatus::diverged);
     }
 }
 
 TEST_CASE("A crack increases the twist of the train while its tooth carries load, and only then") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 24, kTorsional);
+    const IntegrationPlan plan = train.plan(24, 24, kTorsional);
     const TileResult tile = run_quasi_static<8>(
         plan, lanes_of(train.inputs(), 8),
         train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3}), {});
@@ -254,7 +254,7 @@ TEST_CASE("Static errors redistribute the load, separate meshes and load back fl
     const double backlash = 20e-6;
     for (const double size : {0.5e-6, 30e-6, 200e-6}) {
         for (const bool two_sided : {false, true}) {
-            MarchPlan plan = train.plan(6, 6, kTorsional);
+            IntegrationPlan plan = train.plan(6, 6, kTorsional);
             plan.mesh_law = dynamics::MeshLaw::separating;
             set_error(plan, 1, size);
             set_error(plan, 5, 0.5 * size);

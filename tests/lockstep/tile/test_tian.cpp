@@ -7,7 +7,7 @@
 #include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "stiffness/faults/broken.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
@@ -24,8 +24,8 @@ constexpr int kSamples = 600;
 constexpr double kLowPass_rad_s = 2 * pi * 100e3;  // above all relevant frequencies
 
 // Healthy periodic orbit with the sensor on the pinion's bearing.
-TileResult orbit(const TianGearbox& gearbox, int steps, Integrator integrator) {
-    MarchPlan plan = gearbox.plan(kSamples, steps, integrator);
+TileResult periodic_orbit(const TianGearbox& gearbox, int steps, Integrator integrator) {
+    IntegrationPlan plan = gearbox.plan(kSamples, steps, integrator);
     plan.low_pass_rad_s = kLowPass_rad_s;
     TileSettings settings;
     settings.with_motion = true;
@@ -179,7 +179,7 @@ TEST_CASE("Tian's gearbox as printed agrees with a dense solution of his equatio
     const auto expected = harmonics(dense.acceleration, 12);
     for (const auto& [integrator, steps] :
          {std::pair{Integrator::sdirk3, 1200}, std::pair{Integrator::newmark, 3600}}) {
-        const TileResult tile = orbit(gearbox, steps, integrator);
+        const TileResult tile = periodic_orbit(gearbox, steps, integrator);
         REQUIRE(tile.status[0] == LaneStatus::ok);
         const auto ours = harmonics(along_y(tile.records[0]), 12);
         for (std::size_t order = 1; order <= 12; ++order) {
@@ -204,10 +204,10 @@ TEST_CASE(
     // The thesis reads the 6th and the 8th from its plots; see tests/peers/tian-loose-tolerances.
     const TianGearbox shearless(false);
     CHECK(dominant(harmonics(
-              along_y(orbit(TianGearbox::instance(), 1200, Integrator::sdirk3).records[0]), 15)) ==
-          7);
-    CHECK(dominant(harmonics(along_y(orbit(shearless, 1200, Integrator::sdirk3).records[0]), 15)) ==
-          10);
+              along_y(periodic_orbit(TianGearbox::instance(), 1200, Integrator::sdirk3).records[0]),
+              15)) == 7);
+    CHECK(dominant(harmonics(
+              along_y(periodic_orbit(shearless, 1200, Integrator::sdirk3).records[0]), 15)) == 10);
 }
 
 TEST_CASE("With constant stiffness the gearbox oscillates at the closed form's frequency") {
@@ -220,7 +220,7 @@ TEST_CASE("With constant stiffness the gearbox oscillates at the closed form's f
         const double expected = closed_form_Hz(gearbox, k);
         CHECK(expected == Approx(published[zone]).epsilon(0.08));
 
-        MarchPlan plan = gearbox.plan(kSamples, 1200, Integrator::sdirk3);
+        IntegrationPlan plan = gearbox.plan(kSamples, 1200, Integrator::sdirk3);
         plan.low_pass_rad_s = kLowPass_rad_s;
         std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), k);
         plan.nodes.damping_shape = plan.nodes.stiffness;
@@ -233,7 +233,7 @@ TEST_CASE("With constant stiffness the gearbox oscillates at the closed form's f
         state.v.assign(state.q.size(), 0.0);
         state.filter.assign(2 * kFilterStates, 0.0);
         MeshRecord record = make_record(plan, 1, false);
-        (*make_mesh_march<1>(plan, std::span(&in, 1)))({}, state, record);
+        (*make_mesh_integrator<1>(plan, std::span(&in, 1)))({}, state, record);
         // Extremes of the acceleration after the initial transient.
         CHECK(oscillation_Hz(extremes(along_y(record)), 0.1e-3, 0.9e-3) ==
               Approx(expected).epsilon(0.01));
@@ -243,7 +243,8 @@ TEST_CASE("With constant stiffness the gearbox oscillates at the closed form's f
 TEST_CASE(
     "After each transition of the periodic orbit the published oscillations occur and decay") {
     const TianGearbox& gearbox = TianGearbox::instance();
-    const auto times = extremes(along_y(orbit(gearbox, 1200, Integrator::sdirk3).records[0]));
+    const auto times =
+        extremes(along_y(periodic_orbit(gearbox, 1200, Integrator::sdirk3).records[0]));
     const double leaves = (gearbox.pair.contact_ratio() - 1.0) * kPeriod_s;
     constexpr double kAfter = 0.1e-3;  // end of the initial transient
     CHECK(oscillation_Hz(times, kAfter, leaves - kAfter) == Approx(3788.0).epsilon(0.08));
@@ -258,7 +259,7 @@ TEST_CASE(
     faults.pattern.length = 19;
     faults.pattern.passages = {{0, 0.0}};
     faults.curve[0][0] = stiffness::faulty_mesh(gearbox.pair, family.at(1.0));
-    MarchPlan plan = gearbox.plan(kSamples, 1200, Integrator::sdirk3);
+    IntegrationPlan plan = gearbox.plan(kSamples, 1200, Integrator::sdirk3);
     plan.low_pass_rad_s = kLowPass_rad_s;
 
     const auto overrides = FaultSchedule(plan, faults).overrides(0);

@@ -51,7 +51,7 @@ const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 
 
 // The realizations of a tile of eight, recomputed W at a time.
 template <int W>
-void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
                  const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
         const auto depth = kDepths.begin() + static_cast<std::ptrdiff_t>(first);
@@ -68,7 +68,7 @@ void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInput
 
 TEST_CASE("Eight lanes, four and one give the same bits, on every instruction set") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 1200, kFull);
+    const IntegrationPlan plan = train.plan(24, 1200, kFull);
     const auto inputs = spread_inputs();
     const TileResult wide = run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), {});
     CHECK(wide.status == std::vector(8, LaneStatus::ok));
@@ -91,7 +91,7 @@ TEST_CASE("Eight lanes, four and one give the same bits, on every instruction se
 
 TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 1200, kFull);
+    const IntegrationPlan plan = train.plan(24, 1200, kFull);
     auto inputs = spread_inputs();
     const auto faults = train.ring_side_cracks(kDepths);
     const TileResult before = run_tile<8>(plan, inputs, faults, {});
@@ -114,15 +114,15 @@ TEST_CASE("Reused periodic orbits and passages agree with integration of every m
     const auto inputs = spread_inputs();
     // One disturbance decays within a few periods, the other outlasts the pattern.
     for (const double speedup : {kSpeedup, 60.0}) {
-        const MarchPlan plan = train.plan(24, 1200, kFull);
+        const IntegrationPlan plan = train.plan(24, 1200, kFull);
         const std::vector<dynamics::GearboxInputs> one{train.inputs(speedup)};
         const auto faults = train.ring_side_cracks({4.28e-3});
         TileSettings reuse;
         reuse.max_meshes = 2000;
-        TileSettings march = reuse;
-        march.march_meshes = 31 * 12;
+        TileSettings full_integration = reuse;
+        full_integration.recorded_meshes = 31 * 12;
         const TileResult a = run_tile<1>(plan, one, faults, reuse);
-        const TileResult b = run_tile<1>(plan, one, faults, march);
+        const TileResult b = run_tile<1>(plan, one, faults, full_integration);
         REQUIRE(a.status[0] == LaneStatus::ok);
         double difference = 0.0, scale = 0.0;
         // Compares after full integration has converged as well.
@@ -142,7 +142,7 @@ TEST_CASE("Reused periodic orbits and passages agree with integration of every m
 
 TEST_CASE("A gearbox without a fault has one mesh period, with zero mean displacement") {
     const auto& train = LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 1200, kFull);
+    const IntegrationPlan plan = train.plan(24, 1200, kFull);
     const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
     const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), {});
     CHECK(tile.records.size() == 1);
@@ -164,7 +164,7 @@ TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
     const auto& train = LiangTrain::instance();
     for (const auto law : {dynamics::MeshLaw::linear, dynamics::MeshLaw::unilateral}) {
         for (const auto integrator : {Integrator::rk4, Integrator::central_difference}) {
-            MarchPlan plan = train.plan(400, 6000, kFull);
+            IntegrationPlan plan = train.plan(400, 6000, kFull);
             plan.mesh_law = law;
             plan.integrator = integrator;
             plan.grid.stage_nodes = facts(integrator).stage_nodes;

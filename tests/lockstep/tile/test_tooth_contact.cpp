@@ -7,7 +7,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
-#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/quasi_static.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
@@ -23,9 +23,9 @@ namespace {
 
 constexpr double kSpeedup = 10.0;
 
-MarchPlan pushing_plan(Integrator integrator, int samples, int steps) {
+IntegrationPlan unilateral_plan(Integrator integrator, int samples, int steps) {
     const LiangTrain& train = LiangTrain::instance();
-    MarchPlan plan = train.plan(samples, steps, dynamics::Motion::translational_torsional);
+    IntegrationPlan plan = train.plan(samples, steps, dynamics::Motion::translational_torsional);
     plan.integrator = integrator;
     plan.mesh_law = dynamics::MeshLaw::unilateral;
     plan.grid.stage_nodes = stage_nodes(integrator);
@@ -50,22 +50,23 @@ ToothErrors wavy_errors(std::size_t lanes) {
     return errors;
 }
 
-struct Marched {
+struct IntegratedMesh {
     MeshRecord record;
     std::vector<PairGaps> gaps;
 };
 
 // Integrates `meshes` mesh periods and keeps their step states.
-std::vector<Marched> march(const MarchPlan& plan, const ToothErrors& errors,
-                           const std::vector<dynamics::GearboxInputs>& inputs, int meshes) {
-    const auto march_mesh = make_mesh_march<8>(plan, inputs);
+std::vector<IntegratedMesh> integrate_meshes(const IntegrationPlan& plan, const ToothErrors& errors,
+                                             const std::vector<dynamics::GearboxInputs>& inputs,
+                                             int meshes) {
+    const auto mesh_integrator = make_mesh_integrator<8>(plan, inputs);
     const RigidRotation rotation(plan.layout, inputs);
-    TileState state = rest_state(plan, inputs);
-    std::vector<Marched> all;
+    TileState state = equilibrium_state(plan, inputs);
+    std::vector<IntegratedMesh> all;
     for (int k = 0; k < meshes; ++k) {
-        Marched one{make_record(plan, 8, true), tooth_gaps(plan, errors, k)};
+        IntegratedMesh one{make_record(plan, 8, true), tooth_gaps(plan, errors, k)};
         size_step_states(plan, 8, one.record);
-        (*march_mesh)({{}, one.gaps}, state, one.record);
+        (*mesh_integrator)({{}, one.gaps}, state, one.record);
         rotation.remove(state);
         all.push_back(std::move(one));
     }
@@ -95,8 +96,8 @@ TEST_CASE(
     "Step states hold the state at the samples and continue from one mesh period to the next") {
     for (const Integrator integrator : {Integrator::rk4, Integrator::central_difference}) {
         INFO(name(integrator));
-        const MarchPlan plan = pushing_plan(integrator, 24, 1200);
-        const auto all = march(plan, wavy_errors(8), eight_trains(), 2);
+        const IntegrationPlan plan = unilateral_plan(integrator, 24, 1200);
+        const auto all = integrate_meshes(plan, wavy_errors(8), eight_trains(), 2);
         const std::size_t size =
             8U * static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
         const MeshRecord& record = all[1].record;
@@ -129,15 +130,16 @@ TEST_CASE("A contact bound from long steps holds for the state that short steps 
     const auto inputs = eight_trains();
     for (const Integrator integrator : {Integrator::rk4, Integrator::central_difference}) {
         INFO(name(integrator));
-        const MarchPlan coarse = pushing_plan(integrator, 24, 1200),
-                        fine = pushing_plan(integrator, 4800, 4800);
+        const IntegrationPlan coarse = unilateral_plan(integrator, 24, 1200),
+                              fine = unilateral_plan(integrator, 4800, 4800);
         const ToothContact coarse_contact(coarse, dynamics::mesh_periods_s(inputs)),
             fine_contact(fine, dynamics::mesh_periods_s(inputs));
-        const auto rough = march(coarse, errors, inputs, 6), exact = march(fine, errors, inputs, 6);
-        const auto bound =
-            least_of_lanes(coarse_contact.least_pressing(rough[5].record, rough[5].gaps, nullptr));
+        const auto rough = integrate_meshes(coarse, errors, inputs, 6),
+                   exact = integrate_meshes(fine, errors, inputs, 6);
+        const auto bound = least_of_lanes(
+            coarse_contact.least_compression(rough[5].record, rough[5].gaps, nullptr));
         const auto found =
-            least_of_lanes(fine_contact.least_pressing(exact[5].record, exact[5].gaps, nullptr));
+            least_of_lanes(fine_contact.least_compression(exact[5].record, exact[5].gaps, nullptr));
         for (std::size_t l = 0; l < 8; ++l) {
             INFO("lane " << l);
             // Contact deflection is 1 um; long steps of order 2 have an error of up to 3 % of it.
@@ -148,20 +150,20 @@ TEST_CASE("A contact bound from long steps holds for the state that short steps 
 }
 
 TEST_CASE("Bounds of parts add up to a bound of their sum") {
-    const MarchPlan plan = pushing_plan(Integrator::rk4, 24, 1200);
+    const IntegrationPlan plan = unilateral_plan(Integrator::rk4, 24, 1200);
     const auto inputs = eight_trains();
     const ToothContact contact(plan, dynamics::mesh_periods_s(inputs));
-    const auto none = march(plan, wavy_errors(8), inputs, 1);
-    const auto all = march(plan, wavy_errors(8), inputs, 4);
-    const MeshRecord &orbit = none[0].record, &whole = all[3].record;
-    const auto of_orbit = contact.least_pressing(orbit, {}, nullptr);
-    const auto of_rest = contact.least_pressing(whole, all[3].gaps, &orbit);
-    const auto of_whole = contact.least_pressing(whole, all[3].gaps, nullptr);
+    const auto none = integrate_meshes(plan, wavy_errors(8), inputs, 1);
+    const auto all = integrate_meshes(plan, wavy_errors(8), inputs, 4);
+    const MeshRecord &periodic_record = none[0].record, &whole = all[3].record;
+    const auto of_periodic_record = contact.least_compression(periodic_record, {}, nullptr);
+    const auto of_rest = contact.least_compression(whole, all[3].gaps, &periodic_record);
+    const auto of_whole = contact.least_compression(whole, all[3].gaps, nullptr);
     double tightest = INFINITY;
     for (std::size_t i = 0; i < of_whole.size(); ++i) {
         if (std::isfinite(of_whole[i])) {
-            CHECK(of_orbit[i] + of_rest[i] <= of_whole[i] + 1e-15);
-            tightest = std::min(tightest, of_whole[i] - of_orbit[i] - of_rest[i]);
+            CHECK(of_periodic_record[i] + of_rest[i] <= of_whole[i] + 1e-15);
+            tightest = std::min(tightest, of_whole[i] - of_periodic_record[i] - of_rest[i]);
         }
     }
     CHECK(tightest < 1e-6);
@@ -176,7 +178,7 @@ TEST_CASE("The share of time out of contact of large gaps is that of the double-
         INFO("contact ratio " << ratio);
         const stiffness::SquareWaveMesh mesh(3e8, 6e8, ratio);
         const PairSet pairs{{&mesh}, {0.0}, false};
-        MarchPlan plan = gearbox.plan(32, 32, Integrator::rk4);
+        IntegrationPlan plan = gearbox.plan(32, 32, Integrator::rk4);
         plan.mesh_law = dynamics::MeshLaw::unilateral;
         plan.grid = make_phase_grid(32, 32, contact_transitions(pairs));
         plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::proportional);
@@ -193,7 +195,7 @@ TEST_CASE("The share of time out of contact of large gaps is that of the double-
         FaultCurves faults{&pairs, {}, {}};
         faults.tooth_errors = &errors;
         TileSettings settings;
-        settings.march_meshes = 960;
+        settings.recorded_meshes = 960;
         const TileResult tile = run_quasi_static<4>(plan, inputs, faults, settings);
         REQUIRE(tile.contact_loss.size() == 4);
         CHECK(tile.contact_loss[0] == 0.0);
@@ -220,7 +222,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The share of time out of contact keeps its bits for any lanes and is zero under load") {
-    const MarchPlan plan = pushing_plan(Integrator::rk4, 24, 1200);
+    const IntegrationPlan plan = unilateral_plan(Integrator::rk4, 24, 1200);
     auto inputs = eight_trains();
     for (dynamics::GearboxInputs& in : inputs) {
         auto& train = std::get<dynamics::PlanetaryInputs>(in);
@@ -232,7 +234,7 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
     FaultCurves faults = LiangTrain::instance().no_fault(8);
     faults.tooth_errors = &errors;
     TileSettings settings;
-    settings.march_meshes = 30;
+    settings.recorded_meshes = 30;
     settings.run_in_meshes = 3;
     const TileResult wide = run_tile<8>(plan, inputs, faults, settings);
     REQUIRE(wide.contact_loss.size() == 8 * 8);
@@ -253,7 +255,7 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
             CHECK(narrow.contact_loss[pair] == wide.contact_loss[8 * pair + lane]);
         }
     }
-    const MarchPlan linear =
+    const IntegrationPlan linear =
         LiangTrain::instance().plan(24, 1200, dynamics::Motion::translational_torsional);
     CHECK(run_tile<8>(linear, inputs, LiangTrain::instance().no_fault(8), {}).contact_loss.empty());
 }

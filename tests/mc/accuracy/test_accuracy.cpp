@@ -9,9 +9,9 @@
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
-#include "mc/numerics/ladder.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/reference.hpp"
+#include "mc/numerics/solver_families.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -118,7 +118,7 @@ TEST_CASE("a tolerance leads to the same choice on any lanes and instruction set
     for (const char* other : {"numerics.lanes=1", "numerics.instruction_set=baseline"}) {
         const NumericsChoice again =
             *resolve_numerics(tian({"numerics.tolerance=1e-3", other})).choice;
-        CHECK(again.rung.text() == choice.rung.text());
+        CHECK(again.setting.text() == choice.setting.text());
         CHECK(again.error == choice.error);
     }
 }
@@ -189,7 +189,7 @@ TEST_CASE("the share of verdicts that the numerical error could change is counte
     r.detection = {{"te_rms", analysis::Alarm::high, {level}, {}}};
     // Verdicts within 2 x 0.01 of 0.955: 0.94, 0.95, 0.96 and 0.97.
     r.numerical = NumericalError{"here", "finer", 8, {0.004}, {0.01}};
-    const auto shares = numerical_shares(r, ColumnRows(r), std::nullopt);
+    const auto shares = numerical_contributions(r, ColumnRows(r), std::nullopt);
     REQUIRE(shares.size() == 1);
     CHECK(shares[0].pd == Approx(0.04));
     CHECK(shares[0].pd_half_width == Approx(0.1));
@@ -199,13 +199,13 @@ TEST_CASE("the share of verdicts that the numerical error could change is counte
     CHECK(std::isnan(shares[0].a90));
 
     r.numerical->largest = {0.1};
-    CHECK(numerical_shares(r, ColumnRows(r), std::nullopt)[0].numerical_dominates);
+    CHECK(numerical_contributions(r, ColumnRows(r), std::nullopt)[0].numerical_dominates);
 
     const test::Folder folder;
     write_results(folder.file("r.h5"), r);
     const Results back = read_results(folder.file("r.h5"));
     REQUIRE(back.numerical.has_value());
-    CHECK(back.numerical->rung == "here");
+    CHECK(back.numerical->setting == "here");
     CHECK(back.numerical->gearboxes == 8);
     CHECK(back.numerical->rms == r.numerical->rms);
     CHECK(back.numerical->largest == r.numerical->largest);
@@ -244,15 +244,17 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     CHECK(json["peers"][0]["worst_feature"].get<double>() == 0.3);
     std::vector<std::pair<double, double>> frontier;
     double fastest = 1e9, closest = 1e9;
-    for (const auto& rung : json["rungs"]) {
+    for (const auto& solver_setting : json["rungs"]) {
         // A solver setting may be unstable: then it has no error.
-        if (rung.contains("refused") || rung["error"]["worst_feature"].is_null()) {
+        if (solver_setting.contains("refused") ||
+            solver_setting["error"]["worst_feature"].is_null()) {
             continue;
         }
-        const double error = rung["error"]["worst_feature"], time = rung["gearbox_s"];
+        const double error = solver_setting["error"]["worst_feature"],
+                     time = solver_setting["gearbox_s"];
         fastest = std::min(fastest, time);
         closest = std::min(closest, error);
-        if (rung["frontier"].get<bool>()) {
+        if (solver_setting["frontier"].get<bool>()) {
             frontier.emplace_back(time, error);
         }
     }
@@ -277,23 +279,23 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
     const AccuracyReport report = measure_accuracy(tian(), request);
     CHECK(!report.reference.reached);
     CHECK(report.reference.agreement.sensor < 0.1);
-    CHECK(report.rungs[0].refusal.empty());
-    CHECK(report.rungs[0].march_s > 0.0);
+    CHECK(report.settings[0].refusal.empty());
+    CHECK(report.settings[0].integration_s > 0.0);
     std::size_t untried = 0;
-    for (std::size_t i = 1; i < report.rungs.size(); ++i) {
-        CHECK(!report.rungs[i].refusal.empty());
-        untried += report.rungs[i].refusal == kNotTried ? 1 : 0;
+    for (std::size_t i = 1; i < report.settings.size(); ++i) {
+        CHECK(!report.settings[i].refusal.empty());
+        untried += report.settings[i].refusal == kNotTried ? 1 : 0;
     }
     CHECK(untried > 5);
     for (const ChoiceCheck& check : report.choices) {
         CHECK(check.chosen < 0);
     }
     const std::string text = accuracy_text(report);
-    const std::vector<std::string> said{
+    const std::vector<std::string> expected_text{
         "omitted because the time had run out", std::to_string(untried) + " solver settings",
         "the choice for numerics.tolerance = 0.001", "settings with a looser settle_tolerance",
         "detection rates"};
-    for (const std::string& what : said) {
+    for (const std::string& what : expected_text) {
         INFO(what);
         CHECK(text.find(what) != std::string::npos);
     }

@@ -41,7 +41,7 @@ struct Synthetic {
     std::unique_ptr<const Scene> scene;
     std::unique_ptr<const SetSummary> summary;
 
-    explicit Synthetic(std::size_t marched) {
+    explicit Synthetic(std::size_t integrated) {
         Problems problems;
         task.inputs = read_priors(kPriors, problems);
         REQUIRE(problems.empty());
@@ -61,7 +61,7 @@ struct Synthetic {
         // Scales for the features, all of which are positive.
         const RecordValues ones(3, {std::vector<double>(used.size(), 1.0)});
         summary = std::make_unique<SetSummary>(used, ones);
-        task.marched = marched;
+        task.integrated = integrated;
         task.threads = 2;
     }
 
@@ -77,7 +77,7 @@ struct Synthetic {
 
 // Share of sets in which each input's 90 % interval holds the truth.
 struct Coverage {
-    std::vector<double> held, left;
+    std::vector<double> held, width_ratio;
 };
 Coverage coverage_of(Synthetic& synthetic, std::size_t sets) {
     std::mt19937 engine(11);
@@ -94,7 +94,7 @@ Coverage coverage_of(Synthetic& synthetic, std::size_t sets) {
             const double value = result.found[p].input.at(truth[p]);
             const bool inside = result.found[p].low <= value && value <= result.found[p].high;
             coverage.held[p] += (inside ? 1.0 : 0.0) / static_cast<double>(sets);
-            coverage.left[p] += result.found[p].left / static_cast<double>(sets);
+            coverage.width_ratio[p] += result.found[p].width_ratio / static_cast<double>(sets);
         }
     }
     return coverage;
@@ -104,9 +104,9 @@ TEST_CASE("Intervals hold the tooth errors, background and gain of synthetic set
     Synthetic synthetic(60);
     const Coverage coverage = coverage_of(synthetic, 10);
     for (std::size_t p = 0; p < kPriors.size(); ++p) {
-        INFO(kPriors[p] << ": " << coverage.held[p] << ", left " << coverage.left[p]);
-        CHECK(coverage.held[p] >= 0.6);  // fewer than in ten sets at 90 %: once in 600
-        CHECK(coverage.left[p] < 0.75);  // and the records are informative about each input
+        INFO(kPriors[p] << ": " << coverage.held[p] << ", left " << coverage.width_ratio[p]);
+        CHECK(coverage.held[p] >= 0.6);         // fewer than in ten sets at 90 %: once in 600
+        CHECK(coverage.width_ratio[p] < 0.75);  // and the records are informative about each input
     }
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("90 % intervals hold the truth of 200 synthetic sets nine times in ten
     const Coverage coverage = coverage_of(synthetic, 200);
     for (std::size_t p = 0; p < kPriors.size(); ++p) {
         fmt::print("{}: {:.1f} % of 200 intervals hold the truth, {:.0f} % of the prior is left\n",
-                   kPriors[p], 100.0 * coverage.held[p], 100.0 * coverage.left[p]);
+                   kPriors[p], 100.0 * coverage.held[p], 100.0 * coverage.width_ratio[p]);
         CHECK(coverage.held[p] == Approx(0.9).margin(0.04));
     }
 }

@@ -54,9 +54,10 @@ TEST_CASE("A sweep begins with what its healthy samples cannot determine, also o
     // Finished points are not computed again; the warning appears again, once.
     const Outcome again = program(sweep + " --html " + folder.file("s.html"));
     REQUIRE(again.code == 0);
-    const std::size_t said = again.output.find("Too few healthy gearboxes");
-    CHECK(said < again.output.find("smallest fault found"));
-    CHECK(again.output.find("Too few healthy gearboxes", said + 1) == std::string::npos);
+    const std::size_t warning_position = again.output.find("Too few healthy gearboxes");
+    CHECK(warning_position < again.output.find("smallest fault found"));
+    CHECK(again.output.find("Too few healthy gearboxes", warning_position + 1) ==
+          std::string::npos);
     const std::string page = test::bytes_of(folder.file("s.html"));
     CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
     CHECK(page.find("no threshold in 2 of 2 studies") != std::string::npos);

@@ -84,14 +84,14 @@ ask gearpod com
 ask gearpod compare --h
 ask gearpod pod t.csv --alarm h
 )");
-    const auto said = test::shell("bash " + script);
-    CHECK(said.output == "compare\n--help --html\nhigh\n");
+    const auto completed = test::shell("bash " + script);
+    CHECK(completed.output == "compare\n--help --html\nhigh\n");
 }
 
 TEST_CASE("The version states source revision and build") {
-    const auto said = program("--version");
-    CHECK(said.code == 0);
+    const auto completed = program("--version");
+    CHECK(completed.code == 0);
     for (const char* word : {"gearpod ", "git ", "compiler: ", "kernels: ", "HDF5: "}) {
-        CHECK_THAT(said.output, Catch::Contains(word));
+        CHECK_THAT(completed.output, Catch::Contains(word));
     }
 }

@@ -22,22 +22,22 @@ std::string run_small(const test::Folder& folder, const std::string& more = "") 
     return results;
 }
 
-const std::string kAsked = " --feature window_ratio --size 1 --quiet --json -";
+const std::string kRequest = " --feature window_ratio --size 1 --quiet --json -";
 
 }  // namespace
 
 TEST_CASE("Rates of misses agree with counted ones") {
     const test::Folder folder;
     const std::string results = run_small(folder);
-    const test::Outcome tilted =
-        program("misses " + results + " --gearboxes 60 --records 32" + kAsked);
-    INFO(tilted.output);
-    REQUIRE(tilted.code == 0);
-    const auto answer = nlohmann::json::parse(tilted.output);
-    CHECK(answer["noise_level"] == 2.0);
-    REQUIRE(answer["miss_rate"].is_number());
+    const test::Outcome importance_sampled =
+        program("misses " + results + " --gearboxes 60 --records 32" + kRequest);
+    INFO(importance_sampled.output);
+    REQUIRE(importance_sampled.code == 0);
+    const auto result = nlohmann::json::parse(importance_sampled.output);
+    CHECK(result["noise_level"] == 2.0);
+    REQUIRE(result["miss_rate"].is_number());
     // Other gearboxes of the same study, with one plain record each, against the same threshold.
-    const double threshold = answer["threshold"];
+    const double threshold = result["threshold"];
     const std::string counted = folder.file("counted.h5");
     REQUIRE(program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + counted +
                     " --instances 500 --seed 77 --set ensemble.threshold_instances=8 --set "
@@ -54,44 +54,44 @@ TEST_CASE("Rates of misses agree with counted ones") {
     }
     const double rate = misses / all, error = std::sqrt(rate * (1.0 - rate) / all);
     INFO(rate << " counted");
-    CHECK(answer["lower"].get<double>() < rate + 3.0 * error);
-    CHECK(answer["upper"].get<double>() > rate - 3.0 * error);
+    CHECK(result["lower"].get<double>() < rate + 3.0 * error);
+    CHECK(result["upper"].get<double>() > rate - 3.0 * error);
 }
 
 TEST_CASE("The miss rate of faults that are nearly always missed is at most 1") {
     const test::Folder folder;
-    const std::string asked = "misses " + run_small(folder) +
-                              " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
-                              "--quiet";
-    const test::Outcome text = program(asked);
+    const std::string request = "misses " + run_small(folder) +
+                                " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
+                                "--quiet";
+    const test::Outcome text = program(request);
     INFO(text.output);
     REQUIRE(text.code == 0);
     CHECK(text.mentions("misses are not rare enough for this method"));
-    const auto answer = nlohmann::json::parse(program(asked + " --json -").output);
-    CHECK(answer["miss_rate"] <= 1.0);
-    CHECK(answer["miss_rate"] > 0.9);
-    CHECK(answer["upper"] <= 1.0);
-    CHECK((answer["counted_records"].is_null() || answer["counted_records"] > 0.0));
+    const auto result = nlohmann::json::parse(program(request + " --json -").output);
+    CHECK(result["miss_rate"] <= 1.0);
+    CHECK(result["miss_rate"] > 0.9);
+    CHECK(result["upper"] <= 1.0);
+    CHECK((result["counted_records"].is_null() || result["counted_records"] > 0.0));
 }
 
 TEST_CASE("Rates of misses have the same bits for any number of threads") {
     const test::Folder folder;
-    const std::string asked =
-        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kAsked;
+    const std::string request =
+        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kRequest;
     const test::Outcome one =
-        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + asked);
+        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + request);
     REQUIRE(one.code == 0);
-    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + asked).output ==
+    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + request).output ==
           one.output);
 }
 
 TEST_CASE("Rates of misses have the same bits for any number of ranks", "[mpi]") {
     const test::Folder folder;
-    const std::string asked =
-        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kAsked;
-    const test::Outcome one = program(asked);
+    const std::string request =
+        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kRequest;
+    const test::Outcome one = program(request);
     REQUIRE(one.code == 0);
-    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + asked).output == one.output);
+    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + request).output == one.output);
 }
 
 TEST_CASE("Invalid requests to misses are refused, every problem at once") {

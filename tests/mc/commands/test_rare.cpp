@@ -50,26 +50,26 @@ std::pair<double, double> count_above(const std::string& results, int group, dou
 
 TEST_CASE("Thresholds of rare false alarms agree with counted ones") {
     const test::Folder folder;
-    const test::Outcome asked =
+    const test::Outcome rare_outcome =
         program("rare " + run_few(folder) +
                 " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
-    INFO(asked.output);
-    REQUIRE(asked.code == 0);
-    const auto answer = nlohmann::json::parse(asked.output);
-    CHECK(answer["kind"] == "rare-false-alarms");
-    CHECK(answer["gearboxes"] == 160 * (1 + 2 * 3));
-    REQUIRE(answer["rate"].is_number());
-    CHECK(answer["rate"] <= 0.01);
-    CHECK(answer["threshold_lower"] < answer["threshold"]);
-    CHECK(answer["threshold_upper"] > answer["threshold"]);
-    CHECK(answer["least_kept"] > 0.05);
+    INFO(rare_outcome.output);
+    REQUIRE(rare_outcome.code == 0);
+    const auto result = nlohmann::json::parse(rare_outcome.output);
+    CHECK(result["kind"] == "rare-false-alarms");
+    CHECK(result["gearboxes"] == 160 * (1 + 2 * 3));
+    REQUIRE(result["rate"].is_number());
+    CHECK(result["rate"] <= 0.01);
+    CHECK(result["threshold_lower"] < result["threshold"]);
+    CHECK(result["threshold_upper"] > result["threshold"]);
+    CHECK(result["least_kept"] > 0.05);
     // Results of other healthy gearboxes.
     const std::string counted = run_some(
         folder, "counted.h5", "--instances 16 --seed 77 --set ensemble.threshold_instances=1000");
-    const auto [above, all] = count_above(counted, 0, answer["threshold"], "window_ratio");
+    const auto [above, all] = count_above(counted, 0, result["threshold"], "window_ratio");
     INFO(above << " of " << all << " counted");
-    CHECK(answer["lower"].get<double>() * all < above + 3.0 * std::sqrt(above + 1.0));
-    CHECK(answer["upper"].get<double>() * all > above - 3.0 * std::sqrt(above));
+    CHECK(result["lower"].get<double>() * all < above + 3.0 * std::sqrt(above + 1.0));
+    CHECK(result["upper"].get<double>() * all > above - 3.0 * std::sqrt(above));
 }
 
 TEST_CASE("Misses due to gearbox variation agree with counted ones") {
@@ -79,40 +79,42 @@ TEST_CASE("Misses due to gearbox variation agree with counted ones") {
                  "--instances 600 --set ensemble.threshold_instances=100 --set "
                  "'random.fault.depth_mm={distribution=\"levels\",values=[4]}' --set "
                  "detection.false_alarm_rate=0.3");
-    const test::Outcome asked = program(
+    const test::Outcome rare_outcome = program(
         "rare " + results + " --feature te_kurtosis --size 4 --gearboxes 100 --quiet --json -");
-    INFO(asked.output);
-    REQUIRE(asked.code == 0);
-    const auto answer = nlohmann::json::parse(asked.output);
-    CHECK(answer["kind"] == "rare-misses");
-    CHECK(answer["size_unit"] == "mm");
-    REQUIRE(answer["rate"].is_number());
-    const auto [found, all] = count_above(results, 1, answer["threshold"], "te_kurtosis");
+    INFO(rare_outcome.output);
+    REQUIRE(rare_outcome.code == 0);
+    const auto result = nlohmann::json::parse(rare_outcome.output);
+    CHECK(result["kind"] == "rare-misses");
+    CHECK(result["size_unit"] == "mm");
+    REQUIRE(result["rate"].is_number());
+    const auto [found, all] = count_above(results, 1, result["threshold"], "te_kurtosis");
     const double misses = all - found;
     INFO(misses << " of " << all << " counted");
     CHECK(misses > 5.0);
-    CHECK(answer["lower"].get<double>() * all < misses + 3.0 * std::sqrt(misses));
-    CHECK(answer["upper"].get<double>() * all > misses - 3.0 * std::sqrt(misses));
+    CHECK(result["lower"].get<double>() * all < misses + 3.0 * std::sqrt(misses));
+    CHECK(result["upper"].get<double>() * all > misses - 3.0 * std::sqrt(misses));
 }
 
 TEST_CASE("Rare false alarms have the same bits for any number of threads") {
     const test::Folder folder;
-    const std::string asked = "rare " + run_few(folder) +
-                              " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
+    const std::string rare_outcome =
+        "rare " + run_few(folder) +
+        " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
     const test::Outcome one =
-        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + asked);
+        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome);
     REQUIRE(one.code == 0);
-    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + asked).output ==
+    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + rare_outcome).output ==
           one.output);
 }
 
 TEST_CASE("Rare false alarms have the same bits for any number of ranks", "[mpi]") {
     const test::Folder folder;
-    const std::string asked = "rare " + run_few(folder) +
-                              " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
-    const test::Outcome one = program(asked);
+    const std::string rare_outcome =
+        "rare " + run_few(folder) +
+        " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
+    const test::Outcome one = program(rare_outcome);
     REQUIRE(one.code == 0);
-    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + asked).output == one.output);
+    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + rare_outcome).output == one.output);
 }
 
 TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown") {

@@ -11,9 +11,9 @@ const std::string kFew = " --set ensemble.instances=8 --set ensemble.threshold_i
 }  // namespace
 
 TEST_CASE("describe shows no share of time out of contact where teeth cannot separate") {
-    const auto said = program("describe " + test::study("planet-crack-ideal.toml") + kFew);
-    INFO(said.output);
-    REQUIRE(said.code == 0);
-    CHECK(!said.mentions("out of contact"));
-    CHECK(!said.mentions("time step error"));
+    const auto description = program("describe " + test::study("planet-crack-ideal.toml") + kFew);
+    INFO(description.output);
+    REQUIRE(description.code == 0);
+    CHECK(!description.mentions("out of contact"));
+    CHECK(!description.mentions("time step error"));
 }

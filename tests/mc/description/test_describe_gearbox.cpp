@@ -16,29 +16,29 @@ const std::string kDescribe =
 // 13/11/35 teeth of 4 mm, 200 N m on the sun, carrier at 60 rpm. Expected: 60 (1 + 35/13) and 60 (1
 // - 35/11) rpm (Willis), 200 times 35/13 and 48/13 (balance of torques), three pins at 48 mm.
 TEST_CASE("describe shows torque and speed of every member") {
-    const auto said = program(kDescribe);
-    INFO(said.output);
-    REQUIRE(said.code == 0);
-    CHECK(said.mentions("221.538 rpm, 200 N m (input)"));
-    CHECK(
-        said.mentions("-130.909 rpm, -190.909 rpm relative to the carrier, 5.128 kN on each pin"));
-    CHECK(said.mentions("stationary, 538.462 N m (fixed)"));
-    CHECK(said.mentions("60 rpm, 738.462 N m (output)"));
-    CHECK(!said.mentions("\n  damping "));
+    const auto description = program(kDescribe);
+    INFO(description.output);
+    REQUIRE(description.code == 0);
+    CHECK(description.mentions("221.538 rpm, 200 N m (input)"));
+    CHECK(description.mentions(
+        "-130.909 rpm, -190.909 rpm relative to the carrier, 5.128 kN on each pin"));
+    CHECK(description.mentions("stationary, 538.462 N m (fixed)"));
+    CHECK(description.mentions("60 rpm, 738.462 N m (output)"));
+    CHECK(!description.mentions("\n  damping "));
 }
 
 TEST_CASE("The description of a study fits 80 columns") {
     for (const std::string& study : {std::string("planet-life.toml"), std::string("gusts.toml"),
                                      std::string("planet-crack.toml")}) {
-        const auto said = program("describe " + test::study(study) +
-                                  " --set ensemble.instances=8 --set "
-                                  "ensemble.threshold_instances=20");
-        INFO(said.output);
-        REQUIRE(said.code == 0);
+        const auto description = program("describe " + test::study(study) +
+                                         " --set ensemble.instances=8 --set "
+                                         "ensemble.threshold_instances=20");
+        INFO(description.output);
+        REQUIRE(description.code == 0);
         // The resolved study before this text is TOML, whose inline tables cannot be broken.
-        const std::size_t begin = said.output.find("\nfalse alarms\n");
+        const std::size_t begin = description.output.find("\nfalse alarms\n");
         REQUIRE(begin != std::string::npos);
-        std::istringstream lines(said.output.substr(begin));
+        std::istringstream lines(description.output.substr(begin));
         for (std::string line; std::getline(lines, line);) {
             INFO(line);
             CHECK(line.size() <= 80);
@@ -47,13 +47,13 @@ TEST_CASE("The description of a study fits 80 columns") {
 }
 
 TEST_CASE("describe states which damping is omitted") {
-    const auto said = program(kDescribe +
-                              "--set gearbox.support_damping_N_s_m=0 --set "
-                              "gearbox.sun_bearing_damping_N_s_m=0 --set "
-                              "gearbox.ring_bearing_damping_N_s_m=0");
-    INFO(said.output);
-    REQUIRE(said.code == 0);
-    CHECK(said.mentions("0 for bearings of sun and ring, support of the ring"));
+    const auto description = program(kDescribe +
+                                     "--set gearbox.support_damping_N_s_m=0 --set "
+                                     "gearbox.sun_bearing_damping_N_s_m=0 --set "
+                                     "gearbox.ring_bearing_damping_N_s_m=0");
+    INFO(description.output);
+    REQUIRE(description.code == 0);
+    CHECK(description.mentions("0 for bearings of sun and ring, support of the ring"));
     // Random damping counts as damping.
     const auto drawn = program(kDescribe +
                                "--set gearbox.support_damping_N_s_m=0 --set "
@@ -67,20 +67,22 @@ TEST_CASE("describe states which damping is omitted") {
 // Source: Liang (2016), Fig. 3.14; a crack at 45 degrees exits the planet's tooth after 8.60 mm, of
 // which 4.3 mm are half (with a module of 3.2 mm; 3.175 here).
 TEST_CASE("describe shows fault sizes in the file's unit and as shares of the largest") {
-    const auto said = program("describe " + test::study("planet-crack-ideal.toml") +
-                              " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
-    INFO(said.output);
-    REQUIRE(said.code == 0);
-    CHECK(said.mentions("0.5, 1, 1.5, 2, 3, 4.28 mm; 5.83, 11.7, 17.5, 23.3, 35, 49.9 %"));
+    const auto description =
+        program("describe " + test::study("planet-crack-ideal.toml") +
+                " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
+    INFO(description.output);
+    REQUIRE(description.code == 0);
+    CHECK(description.mentions("0.5, 1, 1.5, 2, 3, 4.28 mm; 5.83, 11.7, 17.5, 23.3, 35, 49.9 %"));
 }
 
 // Teeth of 19/31/81 on rigid bodies. Elastic bodies have no such line.
 TEST_CASE("describe states how much stiffer rigid gear bodies make the meshes than ISO 6336-1") {
-    const auto said = program("describe " + test::study("planet-crack-ideal.toml") +
-                              " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
-    INFO(said.output);
-    REQUIRE(said.code == 0);
-    CHECK(said.mentions("sun-planet 2.29, ring-planet 2.26 times the mean of ISO 6336-1"));
+    const auto description =
+        program("describe " + test::study("planet-crack-ideal.toml") +
+                " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
+    INFO(description.output);
+    REQUIRE(description.code == 0);
+    CHECK(description.mentions("sun-planet 2.29, ring-planet 2.26 times the mean of ISO 6336-1"));
     const auto elastic =
         program("describe " + test::study("bell-206b.toml") +
                 " --set ensemble.instances=5 --set ensemble.threshold_instances=1");

@@ -15,11 +15,11 @@ using namespace gearpod::mc;
 namespace {
 
 // Equal cost of all gearboxes: a batch of sixteen takes `batch_s`.
-RunCalibration given_cost(int threads, double batch_s) {
-    RunCalibration calibration;
+RunCost given_cost(int threads, double batch_s) {
+    RunCost calibration;
     calibration.threads = threads;
     for (GroupCost& group : calibration.cost) {
-        group.fresh.row.features = group.reused.row.features = batch_s / 16.0;
+        group.integrated.row.features = group.reused.row.features = batch_s / 16.0;
     }
     return calibration;
 }
@@ -52,7 +52,7 @@ TEST_CASE("Ranks share the batches, and at most as many threads compute as there
 TEST_CASE("Rank 0 limits the speed where batches arrive faster than it processes them") {
     const BatchPlan plan(16, 16 * 99'999);
     const double batches = 100'000.0;
-    const double each_s = leader_s(
+    const double each_s = leader_time_s(
         checkpoint_bytes(plan, row_shape(Sampler(scene().study()), scene().study())) / batches);
     const double batch_s = 0.1;
     const RankForecast some = forecast_of(plan, batch_s, 4, 50);

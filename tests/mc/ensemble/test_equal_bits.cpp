@@ -30,19 +30,20 @@ std::vector<std::string> studies_with_teeth() {
 constexpr double kFastCarrier_rpm = 300.0;
 
 // True if every mesh of the span is integrated, for a second or more per tile.
-bool marches_all(const mc::Study& study) {
-    return study.numerics.horizon == mc::Horizon::march || !mc::why_no_mesh_repeats(study).empty();
+bool integrates_all_meshes(const mc::Study& study) {
+    return study.numerics.horizon == mc::Horizon::full || !mc::reason_not_periodic(study).empty();
 }
 
 // Overrides for a small ensemble: few gearboxes where all meshes are integrated, and a faster
 // carrier with fewer steps per mesh where it is slow.
 std::vector<std::string> small(const std::string& name) {
     const mc::Study study = shipped_study(name);
-    const bool marched = marches_all(study);
-    std::vector<std::string> changes{marched ? "ensemble.instances=2" : "ensemble.instances=9",
-                                     "ensemble.threshold_instances=1"};
+    const bool integrates_all = integrates_all_meshes(study);
+    std::vector<std::string> changes{
+        integrates_all ? "ensemble.instances=2" : "ensemble.instances=9",
+        "ensemble.threshold_instances=1"};
     const double carrier_rpm = study.operation.carrier_speed_rad_s.value_or(0.0) * 30.0 / M_PI;
-    if (marched && carrier_rpm > 0.0 && carrier_rpm < kFastCarrier_rpm) {
+    if (integrates_all && carrier_rpm > 0.0 && carrier_rpm < kFastCarrier_rpm) {
         changes.push_back(fmt::format("operation.carrier_speed_rpm={}", kFastCarrier_rpm));
     }
     return changes;
@@ -60,13 +61,13 @@ TEST_CASE("Every shipped study gives the same bits by eight lanes and by one or 
         const auto changes = small(name);
         // Variable excitation has kernels of four lanes in a portable build only.
         const mc::Study study = shipped_study(name);
-        const bool any_width = GEARPOD_PORTABLE || !mc::driven_unevenly(study);
+        const bool any_width = GEARPOD_PORTABLE || !mc::has_variable_excitation(study);
         const auto of_lanes = [&](int lanes) {
             auto of_width = changes;
             of_width.push_back(fmt::format("numerics.lanes={}", lanes));
             return bits(test::run(shipped_study(name, of_width)));
         };
         const auto reference = of_lanes(8);
-        CHECK(of_lanes(any_width && marches_all(study) ? 4 : 1) == reference);
+        CHECK(of_lanes(any_width && integrates_all_meshes(study) ? 4 : 1) == reference);
     }
 }

@@ -67,21 +67,21 @@ TEST_CASE("Computing stops a second after a signal, at the limit, or on request"
         CHECK_FALSE(interruption.stop());  // work that is nearly finished may be completed
         std::this_thread::sleep_for(Interruption::kGrace + 50ms);
         CHECK(interruption.stop());
-        CHECK_THROWS_AS(gearpod::machine::leave_if_stopped(), gearpod::machine::Stopped);
-        interruption.let_finish();
+        CHECK_THROWS_AS(gearpod::machine::throw_if_cancelled(), gearpod::machine::Cancelled);
+        interruption.disable_cancellation();
         CHECK_FALSE(interruption.stop());
     }
-    CHECK_NOTHROW(gearpod::machine::leave_if_stopped());
+    CHECK_NOTHROW(gearpod::machine::throw_if_cancelled());
     const Interruption limited(1s);
     CHECK_FALSE(limited.stop());
-    limited.leave_off_in(1h);  // not later than the limit
+    limited.cancel_in(1h);  // not later than the limit
     std::this_thread::sleep_for(1100ms);
     CHECK(limited.stop());
 }
 
 TEST_CASE("A request to stop takes effect at the requested time") {
     const Interruption interruption(std::nullopt);
-    interruption.leave_off_in(200ms);
+    interruption.cancel_in(200ms);
     CHECK_FALSE(interruption.stop());
     std::this_thread::sleep_for(250ms);
     CHECK(interruption.stop());

@@ -22,7 +22,7 @@ mc::Study study_of(int records, const std::string& lanes = "8",
     return shipped_study("planet-crack-ideal.toml", keys);
 }
 
-const std::vector<std::string> kTilt{"ensemble.threshold_tilt=true"};
+const std::vector<std::string> kImportanceSampling{"ensemble.threshold_tilt=true"};
 
 // Values of a parameter or of a feature's level.
 const std::vector<double>& parameter(const mc::Results& results, const std::string& name) {
@@ -108,34 +108,36 @@ TEST_CASE("Records of a gearbox have the same bits for any lanes, and when simul
 TEST_CASE(
     "Exponentially tilted records are plain ones with stretches of shifted noise, and have "
     "weights") {
-    constexpr int kTilted = 8;
-    const mc::Results plain = test::run(study_of(kTilted)),
-                      tilted = test::run(study_of(kTilted, "8", kTilt));
-    const std::vector<double>& weight = parameter(tilted, mc::kNoiseWeight);
-    REQUIRE(weight.size() == kGearboxes * kTilted + kGraded);
+    constexpr int kWeightedRecords = 8;
+    const mc::Results plain = test::run(study_of(kWeightedRecords)),
+                      importance_sampled =
+                          test::run(study_of(kWeightedRecords, "8", kImportanceSampling));
+    const std::vector<double>& weight = parameter(importance_sampled, mc::kNoiseWeight);
+    REQUIRE(weight.size() == kGearboxes * kWeightedRecords + kGraded);
     double sum = 0.0;
     for (std::size_t row = 0; row < weight.size(); ++row) {
-        const bool graded = row >= kGearboxes * kTilted;
-        const bool untilted = graded || row % 4 == 0;
+        const bool graded = row >= kGearboxes * kWeightedRecords;
+        const bool plain_noise = graded || row % 4 == 0;
         INFO(row << " " << weight[row]);
-        CHECK((value_of(tilted, "sensor_rms", row) == value_of(plain, "sensor_rms", row)) ==
-              untilted);
+        CHECK((value_of(importance_sampled, "sensor_rms", row) ==
+               value_of(plain, "sensor_rms", row)) == plain_noise);
         // A stretch that is not the loudest does not change the ratio.
-        CHECK((value_of(tilted, "window_ratio", row) == value_of(plain, "window_ratio", row) ||
-               !untilted));
-        CHECK(value_of(tilted, "te_rms", row) == value_of(plain, "te_rms", row));
+        CHECK((value_of(importance_sampled, "window_ratio", row) ==
+                   value_of(plain, "window_ratio", row) ||
+               !plain_noise));
+        CHECK(value_of(importance_sampled, "te_rms", row) == value_of(plain, "te_rms", row));
         CHECK((graded ? weight[row] == 1.0 : weight[row] > 0.0 && weight[row] <= 4.0));
-        sum += graded ? 0.0 : weight[row] / (kGearboxes * kTilted);
+        sum += graded ? 0.0 : weight[row] / (kGearboxes * kWeightedRecords);
     }
     CHECK(sum == Approx(1.0).margin(0.4));
-    CHECK(tilted.request.threshold_tilt);
+    CHECK(importance_sampled.request.importance_sampling);
 }
 
 TEST_CASE(
     "Exponentially tilted records have the same bits for any lanes, and when simulated alone") {
-    const mc::Results results = test::run(study_of(4, "8", kTilt));
-    CHECK(bits(test::run(study_of(4, "1", kTilt))) == bits(results));
-    const mc::Study study = study_of(4, "8", kTilt);
+    const mc::Results results = test::run(study_of(4, "8", kImportanceSampling));
+    CHECK(bits(test::run(study_of(4, "1", kImportanceSampling))) == bits(results));
+    const mc::Study study = study_of(4, "8", kImportanceSampling);
     const mc::Scene scene(study);
     const mc::Simulation alone = mc::simulate(scene, mc::id_of_row(study, 4 * 5 + 3), 1);
     for (std::size_t f = 0; f < results.features.size(); ++f) {
@@ -153,9 +155,9 @@ TEST_CASE(
                             "features.use=[\"window_ratio\"]"}));
     const analysis::FeatureDetection found = mc::detect_all(results).front();
     const analysis::LevelDetection& level = found.levels[1];
-    REQUIRE(level.tilted);
-    CHECK(level.tilted->gearboxes == 200);
-    CHECK(level.tilted->extrapolation == Approx(1.0 / (200 * 1e-3)));
+    REQUIRE(level.importance_sampled);
+    CHECK(level.importance_sampled->gearboxes == 200);
+    CHECK(level.importance_sampled->extrapolation == Approx(1.0 / (200 * 1e-3)));
     CHECK(level.threshold_rate.lower < 1e-3);
     CHECK(level.threshold_rate.upper > 1e-3);
     CHECK(level.threshold_rate.upper / level.threshold_rate.lower < 3.0);

@@ -21,25 +21,25 @@ constexpr std::size_t kLanes = 8;
 
 // Integration of a tile takes a second unless it is reused; the features of every gearbox take
 // another sixteenth.
-RunCalibration given_costs(int threads) {
-    RunCalibration calibration;
+RunCost given_costs(int threads) {
+    RunCost calibration;
     calibration.threads = threads;
     for (GroupCost& group : calibration.cost) {
-        group.fresh.whole.march = 1.0;
-        group.fresh.row.features = group.reused.row.features = 1.0 / 16.0;
+        group.integrated.whole.integration = 1.0;
+        group.integrated.row.features = group.reused.row.features = 1.0 / 16.0;
     }
     return calibration;
 }
 
-MarchCounts all_marched(const BatchPlan& plan) {
-    MarchCounts counts;
-    counts.marched = {(plan.threshold_rows() + kLanes - 1) / kLanes,
-                      (plan.graded_rows() + kLanes - 1) / kLanes};
+IntegrationCounts all_integrated(const BatchPlan& plan) {
+    IntegrationCounts counts;
+    counts.integrated = {(plan.threshold_rows() + kLanes - 1) / kLanes,
+                         (plan.graded_rows() + kLanes - 1) / kLanes};
     return counts;
 }
 
-double forecast_s(const RunCalibration& calibration, const BatchPlan& plan) {
-    return gearboxes_s(calibration, plan, kLanes, all_marched(plan));
+double forecast_s(const RunCost& calibration, const BatchPlan& plan) {
+    return gearboxes_s(calibration, plan, kLanes, all_integrated(plan));
 }
 
 std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
@@ -68,7 +68,7 @@ TEST_CASE(
     "A run takes the rounds of batches that its threads need; the last round may be partial") {
     // Cost of a batch of sixteen gearboxes: two integrations, and a second for the features.
     const double batch_s = 3.0;
-    const RunCalibration two = given_costs(2);
+    const RunCost two = given_costs(2);
     CHECK(forecast_s(two, {16, 16}) == Approx(batch_s));
     CHECK(forecast_s(two, {16, 32}) == Approx(2 * batch_s));
     CHECK(forecast_s(two, {16, 48}) == Approx(2 * batch_s));
@@ -81,24 +81,24 @@ TEST_CASE(
 }
 
 TEST_CASE("Each group has its own cost, and a thread starts once") {
-    RunCalibration calibration = given_costs(1);
-    calibration.cost[static_cast<std::size_t>(Group::graded)].fresh.whole.march = 5.0;
+    RunCost calibration = given_costs(1);
+    calibration.cost[static_cast<std::size_t>(Group::graded)].integrated.whole.integration = 5.0;
     calibration.start_s = 0.25;
     CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 3.0 + 11.0));
     calibration.threads = 2;
     CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 11.0));
-    calibration.cost[0].fresh.rest = 0.5;
+    calibration.cost[0].integrated.rest = 0.5;
     // Ten batches for two threads, and one gearbox for one of them.
     CHECK(forecast_s(calibration, {160, 1}) == Approx(0.25 + 5 * 4.0 + 5.0 + 1.0 / 16.0));
 }
 
 TEST_CASE("Cached responses are not integrated again") {
-    RunCalibration calibration = given_costs(1);
+    RunCost calibration = given_costs(1);
     for (GroupCost& group : calibration.cost) {
-        group.reused.whole.march = 0.01;
+        group.reused.whole.integration = 0.01;
     }
-    MarchCounts counts;
-    counts.marched = {1, 3};
+    IntegrationCounts counts;
+    counts.integrated = {1, 3};
     CHECK(gearboxes_s(calibration, {160, 160}, kLanes, counts) ==
           Approx(4 * 1.0 + 36 * 0.01 + 320 / 16.0));
 }
@@ -117,24 +117,24 @@ TEST_CASE("Integrations are counted as the cache keeps them") {
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         worker.compute(plan.batch(b), seconds);
     }
-    const MarchCounts counts = count_marches(scene, plan, 1.0);
-    CHECK(counts.kept == task.marches.kept());
-    CHECK(counts.marched[0] + counts.marched[1] == counts.kept);
+    const IntegrationCounts counts = count_integrations(scene, plan, 1.0);
+    CHECK(counts.kept == task.cache.kept());
+    CHECK(counts.integrated[0] + counts.integrated[1] == counts.kept);
     // With capacity for half of them, the others are integrated each time.
-    const MarchCounts half =
-        count_marches(scene, plan, 256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
+    const IntegrationCounts half =
+        count_integrations(scene, plan, 256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
     CHECK(half.kept == counts.kept / 2);
-    CHECK(half.marched[1] > counts.marched[1] + 5);
-    CHECK(half.marched[1] < 23);
+    CHECK(half.integrated[1] > counts.integrated[1] + 5);
+    CHECK(half.integrated[1] < 23);
 
     const Scene scattered(test::shipped_study("planet-crack-ideal.toml", kFast));
-    CHECK(count_marches(scattered, plan, 1.0).marched == std::array<std::size_t, 2>{3, 23});
-    CHECK(count_marches(scattered, plan, 1.0).kept == 0);
+    CHECK(count_integrations(scattered, plan, 1.0).integrated == std::array<std::size_t, 2>{3, 23});
+    CHECK(count_integrations(scattered, plan, 1.0).kept == 0);
 }
 
 TEST_CASE("Peak memory is that of the gearboxes, or of the analysis after them") {
     MemoryUse memory{20e6, 50e6, 30e6, -8e6};
-    MarchCounts counts;
+    IntegrationCounts counts;
     CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6);
     counts.kept = 10;
     CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6 + 32e6);
@@ -152,16 +152,16 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         INFO(name);
         const Scene scene(study);
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
-        const RunCalibration calibration = calibrate_run(scene, plan, 1, kNoBudget_s);
+        const RunCost calibration = measure_run_cost(scene, plan, 1, kNoBudget_s);
         // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
         const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
         const AnalysisTrial trial =
-            tried ? try_analysis(study, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
+            tried ? measure_analysis(study, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
         const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
         ++studies;
         trials += tried ? 1 : 0;
         CHECK(calibration.to_record == scene.signal_meshes());
-        if (!calibration.march_alone) {
+        if (!calibration.integration_only) {
             CHECK(!calibration.gearboxes.empty());
             CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
             if (tried) {
@@ -170,7 +170,7 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
             }
         }
         const bool shortened =
-            study.numerics.horizon != Horizon::reuse && !study.effects.quasi_static();
+            study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static();
         CHECK(calibration.recorded ==
               (shortened ? std::min(kFewestMeshes, calibration.to_record) : calibration.to_record));
         CHECK(std::isfinite(forecast.total_s()));
@@ -188,14 +188,14 @@ TEST_CASE(
     const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
     const auto before = bits_of(first_tile(scene));
     const BatchPlan plan(16, 32);
-    const RunCalibration cut = calibrate_run(scene, plan, 1, kNoBudget_s);
+    const RunCost cut = measure_run_cost(scene, plan, 1, kNoBudget_s);
     CHECK(cut.recorded == kFewestMeshes);
     CHECK(cut.to_record == 2511);
     // Run-in to the periodic orbit, and eight mesh periods.
     CHECK(cut.meshes >= kFewestMeshes + 2);
     CHECK(cut.meshes < kFewestMeshes + scene.max_meshes());
-    const Seconds& whole = cut.cost[0].fresh.whole;
-    CHECK(whole.march > 20.0 * whole.signals);
+    const Seconds& whole = cut.cost[0].integrated.whole;
+    CHECK(whole.integration > 20.0 * whole.signals);
     // Sensor signals recorded during integration need no stored records, in a run or here.
     CHECK(cut.memory.records == 0.0);
     CHECK(motion_bytes(scene) < 0.01 * record_bytes(scene));
@@ -206,9 +206,9 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
     const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     const Scene scene(study);
     const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
-    const RunCalibration calibration = calibrate_run(scene, plan, 2, 0.5);
+    const RunCost calibration = measure_run_cost(scene, plan, 2, 0.5);
     const std::size_t rows = 1100, shown = 1;
-    const Results made = made_up_results(study, calibration, plan, rows, {1, 2});
+    const Results made = synthetic_results(study, calibration, plan, rows, {1, 2});
     REQUIRE(made.group.size() == rows);
     CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
     CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});

@@ -46,7 +46,7 @@ class Computed {
         return lane_signals(scene_, path_, tile_, lane, features_.meshes());
     }
     double noise_m_s2() const { return tile_.inputs[0].noise_m_s2; }
-    int marched_meshes() const { return tile_.meshes; }
+    int integrated_meshes() const { return tile_.meshes; }
 
   private:
     Scene scene_;
@@ -54,7 +54,7 @@ class Computed {
     signals::PathGrid path_;
     GearboxTile tile_;
     HealthyReference healthy_;
-    InstanceFeatures features_;
+    RealizationFeatures features_;
     std::vector<std::vector<double>> values_;
 };
 
@@ -124,14 +124,14 @@ TEST_CASE("A baseline is the same in the tile of its record as in an earlier til
     const std::vector<GearboxId> ids{
         kHealthy, kFaulty, {Group::graded, 5}, {Group::graded, 6}, {Group::threshold, 7}};
     // With five of eight lanes taken there is no room for the baselines, with four there is.
-    const Computed before(study, ids), beside(study, {ids.begin(), ids.end() - 1});
-    REQUIRE(beside.values().size() == 4);
-    for (std::size_t i = 0; i < beside.values().size(); ++i) {
-        CHECK(beside.values()[i] == before.values()[i]);
-        CHECK(beside.signals(static_cast<int>(i)).baseline->sensor ==
+    const Computed before(study, ids), fewer(study, {ids.begin(), ids.end() - 1});
+    REQUIRE(fewer.values().size() == 4);
+    for (std::size_t i = 0; i < fewer.values().size(); ++i) {
+        CHECK(fewer.values()[i] == before.values()[i]);
+        CHECK(fewer.signals(static_cast<int>(i)).baseline->sensor ==
               before.signals(static_cast<int>(i)).baseline->sensor);
     }
-    CHECK(beside.marched_meshes() < before.marched_meshes());
+    CHECK(fewer.integrated_meshes() < before.integrated_meshes());
 }
 
 TEST_CASE("The torque of baseline records has the requested scatter on both shafts") {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mc/answers/contact_loss.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/report/json.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/summary/contact_loss.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
@@ -79,7 +79,7 @@ TEST_CASE("Heavier loads keep teeth in contact longer") {
 TEST_CASE("The share of time out of contact has no value where teeth cannot separate") {
     const Study study = test::shipped_study(
         "planet-crack-ideal.toml", {"ensemble.instances=4", "ensemble.threshold_instances=4"});
-    CHECK_FALSE(teeth_can_part(study));
+    CHECK_FALSE(teeth_can_separate(study));
     Results results = test::run(study);
     CHECK(results.contact_loss.empty());
     CHECK(contact_loss_text(summarise_contact_loss(results, ColumnRows(results))).empty());

@@ -59,10 +59,10 @@ struct Noise {
 
 Noise noise_of(const std::string& study, const std::string& options, const std::string& path,
                double low_pass_Hz) {
-    const auto said =
+    const auto header =
         program("simulate " + study + " --instance 2 --meshes 455 --out " + path + options);
-    INFO(said.output);
-    REQUIRE(said.code == 0);
+    INFO(header.output);
+    REQUIRE(header.code == 0);
     const auto columns = read_columns(path);
     std::vector<double> noise = columns.at("sensor_noise_1");
     const std::vector<double>& clean = columns.at("sensor");
@@ -193,12 +193,12 @@ TEST_CASE("A study with noise by density is calibrated by its density") {
             "s.toml")
             .study;
     REQUIRE(study);
-    const auto inputs = mc::usual_inputs(*study, 2.0);
+    const auto inputs = mc::default_inputs(*study, 2.0);
     const auto at = std::ranges::find(inputs, "sensor.noise_density_m_s2_per_sqrt_Hz",
                                       &mc::CalibratedInput::key);
     REQUIRE(at != inputs.end());
     CHECK(at->high == Approx(1.05 * 2.0 / std::sqrt(1.0261721529 * 800.0)));
-    CHECK(at->after_march());
+    CHECK(at->independent_of_motion());
     CHECK(std::ranges::find(inputs, "sensor.noise_m_s2", &mc::CalibratedInput::key) ==
           inputs.end());
 }

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "lockstep/tile/tile.hpp"
-#include "mc/gearbox/tile_draws.hpp"
-#include "mc/gearbox/tooth_draws.hpp"
+#include "mc/gearbox/random_tooth_errors.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -25,7 +25,7 @@ lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
     lockstep::TileSettings settings;
     settings.tolerance = 1e-10;
     settings.max_meshes = scene.max_meshes();
-    settings.march_meshes = 1;
+    settings.recorded_meshes = 1;
     settings.run_in_meshes = run_in;
     const lockstep::TileResult tile =
         lockstep::run_tile<1>(scene.plan(), std::span(&inputs, 1), faults, settings);
@@ -42,8 +42,8 @@ TEST_CASE("The initial transient with real teeth has decayed when recording begi
     CHECK(run_in <= 10);
     const lockstep::MeshRecord own = first_mesh(scene, run_in), late = first_mesh(scene, 100);
     CHECK(test::relative_difference(own.acceleration, late.acceleration) <
-          settle_tolerance(scene.study()));
-    CHECK(test::relative_difference(own.te, late.te) < settle_tolerance(scene.study()));
+          convergence_tolerance(scene.study()));
+    CHECK(test::relative_difference(own.te, late.te) < convergence_tolerance(scene.study()));
     // The transient is large without a run-in.
     CHECK(test::relative_difference(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
 }

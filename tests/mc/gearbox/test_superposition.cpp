@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "lockstep/tile/tile.hpp"
-#include "mc/gearbox/healthy_march.hpp"
+#include "mc/gearbox/healthy_solution.hpp"
 #include "mc/gearbox/mesh_time.hpp"
-#include "mc/gearbox/tile_draws.hpp"
-#include "mc/gearbox/tooth_draws.hpp"
+#include "mc/gearbox/random_tooth_errors.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
@@ -44,7 +44,7 @@ class Tile {
     std::vector<double> sensor(int lane) const {
         return lane_signals(scene_, path_, tile_, lane, scene_.signal_meshes()).sensor;
     }
-    double forecast_meshes() const { return marched_meshes(scene_); }
+    double forecast_meshes() const { return integrated_meshes(scene_); }
 
   private:
     Scene scene_;
@@ -69,18 +69,18 @@ const std::string kLight =
 TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full integration") {
     const std::vector<std::string> heavy{
         "random.operation.torque_N_m={distribution=\"uniform\",low=6000,high=6500}"};
-    const Tile superposed(study_with("superpose", heavy)), marched(study_with("march", heavy));
+    const Tile superposed(study_with("superpose", heavy)), integrated(study_with("march", heavy));
     CHECK(superposed->superposed == 16);  // including their baselines
-    CHECK(superposed->marched_instead == 0);
-    CHECK(marched->superposed + marched->marched_instead == 0);
-    CHECK(2 * superposed->meshes < marched->meshes);
+    CHECK(superposed->superposition_fallbacks == 0);
+    CHECK(integrated->superposed + integrated->superposition_fallbacks == 0);
+    CHECK(2 * superposed->meshes < integrated->meshes);
     // Cost per record with the fault: baselines need fewer meshes.
-    CHECK(superposed.forecast_meshes() < marched.forecast_meshes());
+    CHECK(superposed.forecast_meshes() < integrated.forecast_meshes());
     CHECK(superposed->meshes < 2.0 * superposed.forecast_meshes());
     for (int lane = 0; lane < 8; ++lane) {
         INFO("lane " << lane);
         CHECK(superposed->status[static_cast<std::size_t>(lane)] == Status::ok);
-        CHECK(relative_rms(superposed.sensor(lane), marched.sensor(lane)) < 1e-8);
+        CHECK(relative_rms(superposed.sensor(lane), integrated.sensor(lane)) < 1e-8);
     }
     const Results few = test::run(study_with("superpose")), all = test::run(study_with("march"));
     for (std::size_t f = 0; f < few.features.size(); ++f) {
@@ -93,13 +93,13 @@ TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full
 
 TEST_CASE("Gearboxes whose tooth pairs lose contact are integrated in full, to the bit") {
     const Tile superposed(study_with("superpose", {kLight})),
-        marched(study_with("march", {kLight}));
+        integrated(study_with("march", {kLight}));
     CHECK(superposed->superposed > 0);
-    CHECK(superposed->marched_instead > 0);
+    CHECK(superposed->superposition_fallbacks > 0);
     int same = 0;
     for (int lane = 0; lane < 8; ++lane) {
         INFO("lane " << lane);
-        const auto a = superposed.sensor(lane), b = marched.sensor(lane);
+        const auto a = superposed.sensor(lane), b = integrated.sensor(lane);
         same += a == b ? 1 : 0;
         CHECK(relative_rms(a, b) < 1e-8);
     }
@@ -114,7 +114,7 @@ class ContactLimit {
   public:
     explicit ContactLimit(const Study& study) : scene_(study), sampler_(study) {}
 
-    lockstep::TileResult run(std::uint64_t first, bool compose) const {
+    lockstep::TileResult run(std::uint64_t first, bool use_superposition) const {
         std::vector<GearboxId> ids;
         std::vector<InstanceInputs> sampled;
         std::vector<dynamics::GearboxInputs> inputs;
@@ -129,9 +129,9 @@ class ContactLimit {
         lockstep::TileSettings settings;
         settings.tolerance = 1e-10;
         settings.max_meshes = scene_.max_meshes();
-        settings.march_meshes = 12;
+        settings.recorded_meshes = 12;
         settings.run_in_meshes = run_in_meshes(scene_);
-        settings.compose = compose;
+        settings.superpose = use_superposition;
         return lockstep::run_tile<8>(scene_.plan(), inputs, faults, settings);
     }
 
@@ -171,14 +171,14 @@ TEST_CASE(
     int superposed = 0;
     double worst = 0.0;
     for (std::uint64_t first = 0; first < 200; first += 8) {
-        const lockstep::TileResult composed = tiles.run(first, true),
+        const lockstep::TileResult superposed_tile = tiles.run(first, true),
                                    whole = tiles.run(first, false);
         for (std::size_t lane = 0; lane < 8; ++lane) {
-            if (composed.composed[lane]) {
+            if (superposed_tile.superposed[lane]) {
                 ++superposed;
-                worst = std::max(worst, relative_rms(composed, whole, lane));
+                worst = std::max(worst, relative_rms(superposed_tile, whole, lane));
                 for (std::size_t pair = 0; pair < 6; ++pair) {
-                    CHECK(composed.contact_loss[8 * pair + lane] == 0.0);
+                    CHECK(superposed_tile.contact_loss[8 * pair + lane] == 0.0);
                     CHECK(whole.contact_loss[8 * pair + lane] == 0.0);
                 }
             }
@@ -207,8 +207,9 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
         const Scene scene(study);
         const signals::PathGrid path = path_grid(scene);
         const std::vector<GearboxId> ids{{Group::graded, 1}};
-        const HealthyMarch march(scene, path, ids, {Sampler(study).sample(ids[0])}, 1);
-        return march.with_fault(2e-3).lane[0].sensor;
+        const HealthySolution healthy_solution(scene, path, ids, {Sampler(study).sample(ids[0])},
+                                               1);
+        return healthy_solution.with_fault(2e-3).lane[0].sensor;
     };
     CHECK(relative_rms(cracked("superpose"), cracked("march")) < 1e-7);
 }

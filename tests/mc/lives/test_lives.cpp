@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/realization_features.hpp"
 #include "mc/lives/life_monitor.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
@@ -28,7 +28,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
     const auto life = tiles.run(std::span(&id, 1), true, costs).front();
     REQUIRE(life.status == mc::Status::ok);
     const mc::HealthyReference none;
-    mc::InstanceFeatures features(scene, &none);
+    mc::RealizationFeatures features(scene, &none);
     // Records without a crack, and at a depth that is integrated.
     for (const std::size_t r : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
         const mc::LifeRecord& record = life.history.records[r];
@@ -37,12 +37,12 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         inputs.torque_N_m *= record.torque;
         inputs.gain *= record.gain;
         const auto path = mc::path_grid(scene);
-        const auto tile = mc::run_given(scene, path, std::span(&id, 1), {inputs}, 1);
-        const auto marched =
+        const auto tile = mc::run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1);
+        const auto integrated_features =
             features.compute(mc::lane_signals(scene, path, tile, 0, 0), inputs, id);
-        for (std::size_t f = 0; f < marched.size(); ++f) {
+        for (std::size_t f = 0; f < integrated_features.size(); ++f) {
             INFO(r << " " << scene.study().features.use[f]);
-            CHECK(life.values[f][r] == Approx(marched[f]).epsilon(1e-6));
+            CHECK(life.values[f][r] == Approx(integrated_features[f]).epsilon(1e-6));
         }
     }
     CHECK(life.history.records[6].depth_m == Approx(1e-3).epsilon(1e-12));
@@ -108,21 +108,21 @@ TEST_CASE("A life of one record with a population threshold equals the snapshot 
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one));
     const auto campaign = mc::run_campaign(scene);
     const mc::LifeMonitor monitor(scene.study(), campaign);
-    const auto& monitored = monitor.answers();
+    const auto& monitored = monitor.results();
     for (std::size_t f = 0; f < 2; ++f) {
         INFO(monitored[f].feature);
         REQUIRE(monitored[f].feature == snapshot.features[f].name);
         const auto& level = detection[f].levels[0];
-        CHECK(monitored[f].answers.threshold.value == Approx(level.threshold).epsilon(1e-9));
-        CHECK(monitored[f].answers.ended == 16);
-        CHECK(monitored[f].answers.found == level.cells[0].detected);
+        CHECK(monitored[f].performance.threshold.value == Approx(level.threshold).epsilon(1e-9));
+        CHECK(monitored[f].performance.ended == 16);
+        CHECK(monitored[f].performance.found == level.cells[0].detected);
         for (std::size_t g = 0; g < 16; ++g) {
             CHECK(campaign.cracked[g].values[f][0] ==
                   Approx(snapshot.features[f].values[40 + g]).epsilon(1e-9));
         }
     }
     // Some but not all are found in both, so that the comparison is meaningful.
-    CHECK(monitored[1].answers.found > 0);
+    CHECK(monitored[1].performance.found > 0);
 }
 
 std::string life_options() {
@@ -150,11 +150,11 @@ TEST_CASE("Lives have the same bits for any lanes") {
         CHECK(eight.cracked[g].history.end_hours == one.cracked[g].history.end_hours);
     }
     CHECK(eight.interpolation.last == one.interpolation.last);
-    CHECK(eight.setting[0].values == one.setting[0].values);
+    CHECK(eight.threshold_lives[0].values == one.threshold_lives[0].values);
 }
 
 // JSON results without run times.
-nlohmann::json told(const Outcome& outcome) {
+nlohmann::json results_of(const Outcome& outcome) {
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     auto json = nlohmann::json::parse(outcome.output);
@@ -167,11 +167,11 @@ TEST_CASE("Lives have the same bits for any threads, and the command prints all 
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set monitoring.false_alarms_per_1000_h=10 --out " +
                                 folder.file("l.h5");
-    const auto reference = told(program(command));
+    const auto reference = results_of(program(command));
     const auto one = bits(folder.file("l.h5"));
-    CHECK(told(program(command + " --set numerics.threads=1")) == reference);
+    CHECK(results_of(program(command + " --set numerics.threads=1")) == reference);
     CHECK(bits(folder.file("l.h5")) == one);
-    CHECK(told(program(command + " --seed 77 --force")) != reference);
+    CHECK(results_of(program(command + " --seed 77 --force")) != reference);
     REQUIRE(reference["monitored"].size() == 15);  // two features and both, five detectors
     for (const auto& each : reference["monitored"]) {
         CHECK(each["false_alarms"]["hours"] == 4 * 34 * 5.0);
@@ -193,8 +193,8 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
     const std::string file = folder.file("l.h5");
     const std::string command =
         "lives " + study("planet-crack-ideal.toml") + life_options() + " --out " + file;
-    const auto whole = told(program(command));
-    CHECK(told(program("report " + file + " --json -")) == whole);
+    const auto whole = results_of(program(command));
+    CHECK(results_of(program("report " + file + " --json -")) == whole);
     std::istringstream text(program("report " + file).output);
     for (std::string line; std::getline(text, line);) {
         CHECK(line.size() <= 80);
@@ -209,11 +209,11 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
     CHECK(other.code == 2);
     CHECK(other.mentions("interval_h = 6"));
     CHECK(other.mentions("--force"));
-    CHECK(told(program(command)) == whole);
+    CHECK(results_of(program(command)) == whole);
     // Additional gearboxes with cracks are appended to the existing ones.
-    const auto more = told(program(command + " --resume --instances 5"));
+    const auto more = results_of(program(command + " --resume --instances 5"));
     CHECK(more["lives"].size() == 5);
-    CHECK(more == told(program(command + " --force --instances 5")));
+    CHECK(more == results_of(program(command + " --force --instances 5")));
     for (const std::string& refused :
          {"compare " + file + " " + file, "report " + file + " --csv " + folder.file("tables"),
           "merge " + file + " --out " + folder.file("m.h5")}) {
@@ -227,13 +227,13 @@ TEST_CASE("Stopped lives resume to the same bits") {
     const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set ensemble.threshold_instances=20 --out ";
-    const auto whole = told(program(command + folder.file("w.h5")));
+    const auto whole = results_of(program(command + folder.file("w.h5")));
     const Outcome stopped =
         shell("timeout --preserve-status -s TERM 0.7 " + std::string(GEARPOD_PROGRAM) + " " +
               command + folder.file("s.h5"));
     CHECK((stopped.code == 4 || stopped.code == 0));  // all were done on a fast machine
     CHECK(std::filesystem::exists(folder.file("s.h5.part")) == (stopped.code == 4));
-    CHECK(told(program(command + folder.file("s.h5") + " --resume")) == whole);
+    CHECK(results_of(program(command + folder.file("s.h5") + " --resume")) == whole);
     CHECK(bits(folder.file("s.h5")) == bits(folder.file("w.h5")));
 }
 
@@ -241,9 +241,9 @@ TEST_CASE("Two ranks compute the same lives", "[mpi]") {
     const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set numerics.threads=1 --out ";
-    const auto one = told(program(command + folder.file("1.h5")));
+    const auto one = results_of(program(command + folder.file("1.h5")));
     const Outcome two = shell(mpirun(2) + GEARPOD_PROGRAM + " " + command + folder.file("2.h5"));
-    CHECK(told(two) == one);
+    CHECK(results_of(two) == one);
     CHECK(bits(folder.file("2.h5")) == bits(folder.file("1.h5")));
 }
 

@@ -1,7 +1,7 @@
 // Checks length and loads of records against whole spans, many short records, and integration.
 #include <cmath>
 
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/realization_features.hpp"
 #include "mc/lives/campaign.hpp"
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
@@ -101,7 +101,7 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
     CHECK(errors.load > 0.0);
     CHECK(errors.load < 0.05);
     const mc::HealthyReference none;
-    mc::InstanceFeatures features(scene, &none);
+    mc::RealizationFeatures features(scene, &none);
     double apart = 0.0;
     for (std::size_t r = 0; r < 4; ++r) {
         const mc::LifeRecord& record = life.history.records[r];
@@ -112,24 +112,24 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
         inputs.torque_N_m *= record.torque;
         inputs.speed_rad_s *= record.speed;
         const auto path = mc::path_grid(scene);
-        const auto tile = mc::run_given(scene, path, std::span(&id, 1), {inputs}, 1);
-        const auto marched =
+        const auto tile = mc::run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1);
+        const auto integrated =
             features.compute(mc::lane_signals(scene, path, tile, 0, 0), inputs, id);
-        for (std::size_t f = 0; f < marched.size(); ++f) {
-            CHECK(life.values[f][r] == Approx(marched[f]).epsilon(5.0 * errors.load));
+        for (std::size_t f = 0; f < integrated.size(); ++f) {
+            CHECK(life.values[f][r] == Approx(integrated[f]).epsilon(5.0 * errors.load));
         }
     }
     CHECK(apart < 0.03);
 }
 
 TEST_CASE("More integrated torques and speeds reduce the interpolation error") {
-    const auto error = [](int marched) {
-        const std::string count = std::to_string(marched);
+    const auto error = [](int integrated) {
+        const std::string count = std::to_string(integrated);
         const mc::Scene scene(
             quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05",
                          "life.marched_torques=" + count, "life.marched_speeds=" + count}));
         const mc::LifeTiles tiles(scene);
-        CHECK(tiles.load_count() == static_cast<std::size_t>(marched * marched));
+        CHECK(tiles.load_count() == static_cast<std::size_t>(integrated * integrated));
         const mc::GearboxId id{mc::Group::graded, 1};
         mc::LifeCosts costs;
         mc::InterpolationErrors errors;
@@ -198,12 +198,12 @@ TEST_CASE("Invalid records and curves are refused with the key") {
 }
 
 TEST_CASE("describe states which inputs vary per gearbox and which per record") {
-    const Outcome said = program("describe " + study("planet-life.toml"));
-    CHECK(said.code == 0);
-    CHECK(said.mentions("random per gearbox"));
-    CHECK(said.mentions("torque per record"));
-    CHECK(said.mentions("interpolated between solutions at 0.97, 1.03"));
-    CHECK(said.mentions("speed per record"));
+    const Outcome description = program("describe " + study("planet-life.toml"));
+    CHECK(description.code == 0);
+    CHECK(description.mentions("random per gearbox"));
+    CHECK(description.mentions("torque per record"));
+    CHECK(description.mentions("interpolated between solutions at 0.97, 1.03"));
+    CHECK(description.mentions("speed per record"));
     // Random depth from [random] applies to `run`: in a life the crack grows.
     const Outcome drawn =
         program("describe " + study("planet-life.toml") +

@@ -210,12 +210,12 @@ TEST_CASE("The study written by new is described and run unchanged") {
 
 TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     const Folder folder;
-    const auto said = program(
+    const auto refusal = program(
         "new planetary --sun 21 --planet 39 --ring 98 --module 12 --torque 5 "
         "--speed 3 --out " +
         folder.file("p.toml"));
-    CHECK(said.code == 2);
-    CHECK(said.mentions("--ring"));
+    CHECK(refusal.code == 2);
+    CHECK(refusal.mentions("--ring"));
     CHECK(folder.empty());
     CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
 }

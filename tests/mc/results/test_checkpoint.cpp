@@ -262,15 +262,15 @@ TEST_CASE("Only one of several competing runs gets a checkpoint") {
         }
         ::close(gate[0]);
         ::close(gate[1]);
-        int made = 0, told = 0;
+        int made = 0, reported = 0;
         for (const pid_t starter : starters) {
             int status = 0;
             REQUIRE(waitpid(starter, &status, 0) == starter);
             made += WEXITSTATUS(status) == 0 ? 1 : 0;
-            told += WEXITSTATUS(status) == 1 ? 1 : 0;
+            reported += WEXITSTATUS(status) == 1 ? 1 : 0;
         }
         CHECK(made == 1);
-        CHECK(told == 5);
+        CHECK(reported == 5);
     }
     CHECK(folder.files() == 20);
 }

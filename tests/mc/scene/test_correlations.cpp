@@ -4,7 +4,7 @@
 
 #include "analysis/statistics/midranks.hpp"
 #include "mc/scene/sampling.hpp"
-#include "tests/mc/scene/draws.hpp"
+#include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
 
 using namespace gearpod::mc;
@@ -122,7 +122,7 @@ TEST_CASE("Correlated inputs have the requested rank correlation and their own d
                     pairs.mass, [&](double x) { return x <= own.quantile(share); });
                 CHECK(static_cast<double>(below) / 5000.0 == Approx(share).margin(0.02));
             }
-            std::vector<double> drawn = draws_of(text, 5000);
+            std::vector<double> drawn = samples_of(text, 5000);
             std::ranges::nth_element(drawn, drawn.begin() + 4000);
             CHECK(own.quantile(0.8) == Approx(drawn[4000]).epsilon(0.03));
         }

@@ -1,7 +1,7 @@
 // Checks distributions of random inputs against their closed forms.
 #include "mc/scene/sampling.hpp"
 #include "tests/mc/program.hpp"
-#include "tests/mc/scene/draws.hpp"
+#include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod::tests;
@@ -10,26 +10,27 @@ TEST_CASE("Random values of Weibull and beta laws follow their distribution func
     for (const double shape : {0.7, 2.0, 9.0}) {
         const std::string text =
             "{distribution='weibull', scale=3, shape=" + std::to_string(shape) + "}";
-        CHECK(kolmogorov_smirnov(draws_of(text, kDraws), [&](double x) {
+        CHECK(kolmogorov_smirnov(samples_of(text, kSamples), [&](double x) {
                   return 1.0 - std::exp(-std::pow(x / 3.0, shape));
               }) < kKsLimit);
     }
     // Closed forms: F = u^2 for alpha = 2, beta = 1; the arcsine law for alpha = beta = 1/2.
     CHECK(kolmogorov_smirnov(
-              draws_of("{distribution='beta', low=-1, high=3, alpha=2, beta=1}", kDraws),
+              samples_of("{distribution='beta', low=-1, high=3, alpha=2, beta=1}", kSamples),
               [](double x) { return std::pow((x + 1) / 4, 2); }) < kKsLimit);
     CHECK(kolmogorov_smirnov(
-              draws_of("{distribution='beta', low=0, high=2, alpha=0.5, beta=0.5}", kDraws),
+              samples_of("{distribution='beta', low=0, high=2, alpha=0.5, beta=0.5}", kSamples),
               [](double x) { return 2 / 3.14159265358979324 * std::asin(std::sqrt(x / 2)); }) <
           kKsLimit);
 }
 
 TEST_CASE("Discrete values have the frequencies of their weights") {
-    const auto draws =
-        draws_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}", kDraws);
+    const auto samples =
+        samples_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}", kSamples);
     for (const auto& [value, share] : {std::pair{30.0, 0.125}, {10.0, 0.25}, {20.0, 0.625}}) {
-        const double found = static_cast<double>(std::count(draws.begin(), draws.end(), value));
-        CHECK(found / kDraws == Approx(share).margin(4 * std::sqrt(share * (1 - share) / kDraws)));
+        const double found = static_cast<double>(std::count(samples.begin(), samples.end(), value));
+        CHECK(found / kSamples ==
+              Approx(share).margin(4 * std::sqrt(share * (1 - share) / kSamples)));
     }
     const Distribution discrete =
         distribution_of("{distribution='discrete', values=[30, 10, 20], weights=[1, 2, 5]}");
@@ -55,10 +56,11 @@ TEST_CASE("Medians of Weibull and beta laws are those of the distribution functi
 }
 
 TEST_CASE("Measured values are used with equal frequency") {
-    const auto draws = draws_of("{distribution='empirical', values=[3, 1, 1, 7]}", kDraws);
+    const auto samples = samples_of("{distribution='empirical', values=[3, 1, 1, 7]}", kSamples);
     for (const auto& [value, share] : {std::pair{3.0, 0.25}, {1.0, 0.5}, {7.0, 0.25}}) {
-        const double found = static_cast<double>(std::count(draws.begin(), draws.end(), value));
-        CHECK(found / kDraws == Approx(share).margin(4 * std::sqrt(share * (1 - share) / kDraws)));
+        const double found = static_cast<double>(std::count(samples.begin(), samples.end(), value));
+        CHECK(found / kSamples ==
+              Approx(share).margin(4 * std::sqrt(share * (1 - share) / kSamples)));
     }
     const Distribution measured =
         distribution_of("{distribution='empirical', values=[3, 1, 2], rows=4}");

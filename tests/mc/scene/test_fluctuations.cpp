@@ -167,17 +167,17 @@ TEST_CASE("Every mesh is integrated where none repeats, and only there") {
     const auto horizon = [](const std::vector<std::string>& overrides) {
         return study_of(kExampleStudy, overrides).numerics.horizon;
     };
-    CHECK(horizon({"effects.gravity=true"}) == Horizon::march);
+    CHECK(horizon({"effects.gravity=true"}) == Horizon::full);
     CHECK(horizon({"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"}) ==
-          Horizon::march);
+          Horizon::full);
     // An amplitude of 0 is no fluctuation.
     CHECK(horizon({"operation.torque_fluctuation=0", "operation.torque_fluctuation_Hz=3"}) ==
-          Horizon::reuse);
+          Horizon::periodic);
     // The weight is as constant as the torque where the carrier is fixed.
     std::string standing = kExampleStudy;
     const std::string speed = "carrier_speed_rpm = 8.87";
     standing.replace(standing.find(speed), speed.size(), "fixed = \"carrier\"\nsun_speed_rpm = 50");
-    CHECK(study_of(standing, {"effects.gravity=true"}).numerics.horizon == Horizon::reuse);
+    CHECK(study_of(standing, {"effects.gravity=true"}).numerics.horizon == Horizon::periodic);
 }
 
 TEST_CASE("A scene's cost includes its own effects only") {
@@ -201,18 +201,22 @@ TEST_CASE("A scene's cost includes its own effects only") {
 
 TEST_CASE("Without inertia the transmission error follows the torque from mesh to mesh") {
     const Study steady = study_of(kQuasiStaticStudy, {"numerics.horizon=march"});
-    const Study driven = study_of(kQuasiStaticStudy, {"operation.torque_fluctuation=0.3",
-                                                      "operation.torque_fluctuation_order=2",
-                                                      "operation.torque_fluctuation_phase_deg=40"});
-    const Scene of_steady(steady), of_driven(driven);
+    const Study with_fluctuation =
+        study_of(kQuasiStaticStudy,
+                 {"operation.torque_fluctuation=0.3", "operation.torque_fluctuation_order=2",
+                  "operation.torque_fluctuation_phase_deg=40"});
+    const Scene of_steady(steady), of_fluctuating_torque(with_fluctuation);
     const GearboxTile a = run(of_steady, {{Group::graded, 0}}, 1);
-    const GearboxTile b = run(of_driven, {{Group::graded, 0}}, 1);
-    REQUIRE(b.march.content.size() == static_cast<std::size_t>(of_driven.signal_meshes()));
-    const int samples = of_driven.samples_per_mesh();
+    const GearboxTile b = run(of_fluctuating_torque, {{Group::graded, 0}}, 1);
+    REQUIRE(b.integration.content.size() ==
+            static_cast<std::size_t>(of_fluctuating_torque.signal_meshes()));
+    const int samples = of_fluctuating_torque.samples_per_mesh();
     double worst = 0.0;
     for (std::size_t mesh : {0U, 1U, 30U, 500U}) {
-        const auto& te_a = a.march.records[static_cast<std::size_t>(a.march.content[mesh])].te;
-        const auto& te_b = b.march.records[static_cast<std::size_t>(b.march.content[mesh])].te;
+        const auto& te_a =
+            a.integration.records[static_cast<std::size_t>(a.integration.content[mesh])].te;
+        const auto& te_b =
+            b.integration.records[static_cast<std::size_t>(b.integration.content[mesh])].te;
         for (int s = 0; s < samples; ++s) {
             // Two periods per turn of the carrier, which takes 68 meshes.
             const double turns =

@@ -10,14 +10,14 @@
 
 using namespace gearpod;
 using namespace gearpod::mc;
-using analysis::DrawExchange;
+using analysis::InputExchange;
 
 namespace {
 
 constexpr int kNumbers = 2000;
 
 std::vector<double> numbers(const Study& study, std::uint64_t index,
-                            const std::vector<DrawExchange>& exchanged = {},
+                            const std::vector<InputExchange>& exchanged = {},
                             Group group = Group::graded) {
     GearboxId id{group, index};
     id.exchanged = exchanged;
@@ -79,8 +79,8 @@ TEST_CASE("A later exchange mixes the result of the earlier ones") {
 TEST_CASE("Noise is exchanged number by number, separately for each record and repeat") {
     const Study study = test::study_of_text(tests::kExampleStudy);
     GearboxId id{Group::graded, 4}, other{Group::graded, 100};
-    const std::vector<DrawExchange> exchanged{{100, 0.1}};
-    for (const Record record : {Record::judged, Record::baseline}) {
+    const std::vector<InputExchange> exchanged{{100, 0.1}};
+    for (const Record record : {Record::test, Record::baseline}) {
         for (const std::uint64_t repeat : {0, 3}) {
             id.record = other.record = record;
             id.repeat = other.repeat = repeat;
@@ -109,15 +109,15 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
     constexpr int kGearboxes = 2000;
     double sum = 0.0, squares = 0.0, twos = 0.0;
     for (std::uint64_t index = 0; index < kGearboxes; ++index) {
-        const std::vector<DrawExchange> none, others{{5000 + index, 0.3}, {9000 + index, 0.6}};
+        const std::vector<InputExchange> none, others{{5000 + index, 0.3}, {9000 + index, 0.6}};
         // Computed by the quantile of the input's normal number, also without exchanges.
-        const auto with = [&](std::span<const DrawExchange> exchanged) {
+        const auto with = [&](std::span<const InputExchange> exchanged) {
             GearboxId id{Group::graded, index};
             id.exchanged = exchanged;
             const InstanceInputs inputs = sampler.sample(id);
             CHECK(sampler.row(id)[column] == inputs.path_exponent);
             CHECK(inputs.path_exponent ==
-                  share_below(Normals(study, id, "sensor.path_exponent")()));
+                  standard_normal_cdf(Normals(study, id, "sensor.path_exponent")()));
             return inputs;
         };
         with(none);
@@ -136,10 +136,10 @@ TEST_CASE("Inputs without an underlying normal number are exchanged as a whole")
     const Study study = test::study_of_text(tests::kExampleStudy);
     int taken = 0;
     for (std::uint64_t index = 0; index < 200; ++index) {
-        const std::vector<DrawExchange> other{{1000 + index, 0.2}};
+        const std::vector<InputExchange> other{{1000 + index, 0.2}};
         GearboxId id{Group::graded, index};
         id.exchanged = other;
-        const std::uint64_t from = drawn_from(study, id, "sensor.tones.phase");
+        const std::uint64_t from = source_index(study, id, "sensor.tones.phase");
         CHECK((from == index || from == 1000 + index));
         taken += from == 1000 + index ? 1 : 0;
         CHECK(record_stream(study, id, "sensor.tones.phase")() ==

@@ -40,15 +40,15 @@ mc::Study study_of(const std::vector<std::string>& more) {
 // Quasi-static equilibrium at the loaded approach: the springs of the integration together carry
 // the nominal force of their pair.
 TEST_CASE("The springs of relieved teeth carry the force at the loaded approach") {
-    for (const std::vector<std::string>& drive :
+    for (const std::vector<std::string>& input_overrides :
          {std::vector<std::string>{}, {"operation.fixed='sun'", "operation.input='ring'"}}) {
-        std::vector<std::string> extended = drive;
+        std::vector<std::string> extended = input_overrides;
         extended.push_back("effects.contact_onset='extended'");
-        for (const auto& more : {drive, extended}) {
+        for (const auto& more : {input_overrides, extended}) {
             const Scene scene(study_of(more));
-            const lockstep::MarchPlan& plan = scene.plan();
+            const lockstep::IntegrationPlan& plan = scene.plan();
             CHECK(plan.mesh_law == dynamics::MeshLaw::unilateral);
-            CHECK(scene.pairs().reversed == !drive.empty());
+            CHECK(scene.pairs().reversed == !input_overrides.empty());
             double largest = 0;
             for (std::size_t step = 0; step < plan.grid.steps.size(); step += 7) {
                 const lockstep::Step& at = plan.grid.steps[step];
@@ -64,7 +64,7 @@ TEST_CASE("The springs of relieved teeth carry the force at the loaded approach"
                         force += plan.nodes.tooth_stiffness[i] * std::max(0.0, d - gap);
                         largest = std::max(largest, gap);
                     }
-                    const int mesh = pair / scene.drive().pairs_per_mesh();
+                    const int mesh = pair / scene.drivetrain().pairs_per_mesh();
                     const double nominal =
                         scene.meshes()[static_cast<std::size_t>(mesh)].loaded->force_N();
                     CHECK(force == Approx(nominal).epsilon(1e-6));

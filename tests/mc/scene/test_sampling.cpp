@@ -12,7 +12,7 @@
 #include "mc/input/document.hpp"
 #include "mc/scene/sampling.hpp"
 #include "signals/noise/normals.hpp"
-#include "tests/mc/scene/draws.hpp"
+#include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
@@ -117,18 +117,19 @@ TEST_CASE("Random values of each distribution follow its distribution function")
     const boost::math::normal normal;
     const auto phi = [&](double x) { return boost::math::cdf(normal, x); };
 
-    CHECK(kolmogorov_smirnov(draws_of("{distribution='uniform', low=-2, high=3}", kDraws),
+    CHECK(kolmogorov_smirnov(samples_of("{distribution='uniform', low=-2, high=3}", kSamples),
                              [](double x) { return (x + 2) / 5; }) < kKsLimit);
-    CHECK(kolmogorov_smirnov(draws_of("{distribution='normal', mean=5, sd=2}", kDraws),
+    CHECK(kolmogorov_smirnov(samples_of("{distribution='normal', mean=5, sd=2}", kSamples),
                              [&](double x) { return phi((x - 5) / 2); }) < kKsLimit);
     const boost::math::lognormal lognormal(std::log(3.0), std::sqrt(std::log(1 + 0.4 * 0.4)));
-    CHECK(kolmogorov_smirnov(draws_of("{distribution='lognormal', median=3, cv=0.4}", kDraws),
+    CHECK(kolmogorov_smirnov(samples_of("{distribution='lognormal', median=3, cv=0.4}", kSamples),
                              [&](double x) { return boost::math::cdf(lognormal, x); }) < kKsLimit);
     const auto triangular = [](double x) {
         return x <= 1 ? x * x / 4 : 1 - (4 - x) * (4 - x) / 12;
     };
-    CHECK(kolmogorov_smirnov(draws_of("{distribution='triangular', low=0, mode=1, high=4}", kDraws),
-                             triangular) < kKsLimit);
+    CHECK(kolmogorov_smirnov(
+              samples_of("{distribution='triangular', low=0, mode=1, high=4}", kSamples),
+              triangular) < kKsLimit);
     // Truncation around the mean, in the upper tail, in the lower tail.
     const double bounds[][2] = {{-1, 0.5}, {4, 5}, {-9, -6}};
     for (const auto& [low, high] : bounds) {
@@ -138,24 +139,25 @@ TEST_CASE("Random values of each distribution follow its distribution function")
         // Differences of small tails, not of values near one.
         const double sign = low >= 0 ? -1.0 : 1.0;
         const double below = phi(sign * low), above = phi(sign * high);
-        CHECK(kolmogorov_smirnov(draws_of(text, kDraws), [&, a = below, b = above](double x) {
+        CHECK(kolmogorov_smirnov(samples_of(text, kSamples), [&, a = below, b = above](double x) {
                   return (phi(sign * x) - a) / (b - a);
               }) < kKsLimit);
     }
 }
 
 TEST_CASE("Moments of the random values are those of the closed forms") {
-    const auto lognormal = draws_of("{distribution='lognormal', median=2, cv=0.5}", kDraws);
+    const auto lognormal = samples_of("{distribution='lognormal', median=2, cv=0.5}", kSamples);
     // Mean median sqrt(1 + cv^2), standard deviation cv times the mean; five standard errors.
-    const double mean = 2 * std::sqrt(1.25), sd = 0.5 * mean, root = std::sqrt(1.0 * kDraws);
+    const double mean = 2 * std::sqrt(1.25), sd = 0.5 * mean, root = std::sqrt(1.0 * kSamples);
     CHECK(mean_of(lognormal) == Approx(mean).margin(5 * sd / root));
     double squares = 0.0;
     for (const double x : lognormal) {
         squares += (x - mean) * (x - mean);
     }
-    CHECK(std::sqrt(squares / kDraws) == Approx(sd).epsilon(0.03));
+    CHECK(std::sqrt(squares / kSamples) == Approx(sd).epsilon(0.03));
 
-    const auto triangular = draws_of("{distribution='triangular', low=0, mode=1, high=4}", kDraws);
+    const auto triangular =
+        samples_of("{distribution='triangular', low=0, mode=1, high=4}", kSamples);
     CHECK(mean_of(triangular) == Approx(5.0 / 3).margin(5 * 0.85 / root));
 }
 
@@ -178,7 +180,7 @@ TEST_CASE("Truncated normals keep their bounds even far in the tails") {
                              "{distribution='truncated-normal', mean=0, sd=1, low=29, high=1e6}",
                              "{distribution='truncated-normal', mean=0, sd=1, low=-1e6, high=-29}",
                              "{distribution='truncated-normal', mean=1, sd=1e-3, low=0, high=2}"}) {
-        for (const double x : draws_of(text, 2000)) {
+        for (const double x : samples_of(text, 2000)) {
             CHECK(std::isfinite(x));
             CHECK(std::abs(x) < 30.01);
         }
@@ -192,7 +194,7 @@ TEST_CASE("Levels and grids alternate in the graded group and are 0 in the thres
         CHECK(sampler.sample(Group::graded, i).fault_size == Approx(depths_mm[i % 5] * 1e-3));
         CHECK(sampler.sample(Group::threshold, i).fault_size == 0.0);
     }
-    const auto grid = draws_of("{distribution='grid', low=0, high=1, count=3}", 4);
+    const auto grid = samples_of("{distribution='grid', low=0, high=1, count=3}", 4);
     CHECK(grid == std::vector<double>{0.0, 0.5, 1.0, 0.0});
 }
 
@@ -268,12 +270,12 @@ TEST_CASE("Different inputs of the same distribution are independent") {
         study_with({"random.gearbox.sun_mass_kg={distribution='uniform', low=1, high=2}",
                     "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"}));
     double products = 0.0;
-    for (std::uint64_t i = 0; i < kDraws; ++i) {
+    for (std::uint64_t i = 0; i < kSamples; ++i) {
         const InstanceInputs inputs = sampler.sample(Group::graded, i);
         products += 12 * (inputs.bodies[Member::sun].mass_kg - 1.5) *
                     (inputs.bodies[Member::ring].mass_kg - 1.5);
     }
-    CHECK(std::abs(products / kDraws) < 5 / std::sqrt(1.0 * kDraws));  // correlation
+    CHECK(std::abs(products / kSamples) < 5 / std::sqrt(1.0 * kSamples));  // correlation
 }
 
 TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") {

@@ -10,7 +10,7 @@
 
 #include "mc/random/scrambled_sobol.hpp"
 #include "mc/scene/sampling.hpp"
-#include "tests/mc/scene/draws.hpp"
+#include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
 
 using namespace gearpod::mc;
@@ -80,26 +80,26 @@ TEST_CASE("The first two coordinates are equidistributed over all rectangles of 
     // Sobol's first two dimensions are a (0, m, 2)-net, which nested permutations preserve.
     const Sobol sobol(2);
     for (const unsigned first : {0U, 2U, 5U, 8U}) {
-        std::set<std::uint64_t> boxes;
+        std::set<std::uint64_t> cells;
         for (std::uint32_t n = 0; n < 256; ++n) {
             const std::uint64_t x =
                 owen_scrambled(sobol.coordinate(n, 0), {5, Group::graded, 0, 0});
             const std::uint64_t y =
                 owen_scrambled(sobol.coordinate(n, 1), {5, Group::graded, 0, 1});
-            boxes.insert((x >> (32 - first)) << 8 | y >> (24 + first));
+            cells.insert((x >> (32 - first)) << 8 | y >> (24 + first));
         }
-        CHECK(boxes.size() == 256);
+        CHECK(cells.size() == 256);
     }
 }
 
 TEST_CASE("A scrambled point is uniform over the seeds") {
     const Sobol sobol(3);
-    std::vector<double> draws;
+    std::vector<double> point_coordinates;
     for (std::uint64_t seed = 0; seed < 5000; ++seed) {
-        draws.push_back(kWhole *
-                        owen_scrambled(sobol.coordinate(5, 2), {seed, Group::threshold, 0, 3}));
+        point_coordinates.push_back(
+            kWhole * owen_scrambled(sobol.coordinate(5, 2), {seed, Group::threshold, 0, 3}));
     }
-    CHECK(kolmogorov_smirnov(draws, [](double x) { return x; }) < kKsLimit);
+    CHECK(kolmogorov_smirnov(point_coordinates, [](double x) { return x; }) < kKsLimit);
 }
 
 TEST_CASE("A mean over evenly distributed gearboxes has the variance of stratified ones") {

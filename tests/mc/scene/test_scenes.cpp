@@ -141,18 +141,19 @@ TEST_CASE("Scenes of other numerics share unchanged parts, and integrate as if b
     const auto with = [&](const std::vector<std::string>& overrides) {
         return test::study_of_text(kFixedShaftStudy, overrides).numerics;
     };
-    const Scene settled =
+    const Scene other_tolerance =
         scene.with(with({"numerics.grid=graded", "numerics.settle_tolerance=1e-4"}));
-    CHECK(&settled.plan() == &scene.plan());
-    CHECK(settled.study().numerics.settle_tolerance == 1e-4);
+    CHECK(&other_tolerance.plan() == &scene.plan());
+    CHECK(other_tolerance.study().numerics.convergence_tolerance == 1e-4);
     const Scene uniform = scene.with(with({}));
     CHECK(&uniform.meshes() == &scene.meshes());
     CHECK(uniform.plan().grid.steps.size() > scene.plan().grid.steps.size());
     const Scene thin = scene.with(with({"numerics.stiffness_tolerance=1e-3"}));
     CHECK(&thin.meshes() != &scene.meshes());
     CHECK(thin.mean_pairs() != scene.mean_pairs());
-    for (const Scene* other : {&settled, &uniform, &thin}) {
-        const auto here = run_one(*other).march, anew = run_one(Scene(other->study())).march;
+    for (const Scene* other : {&other_tolerance, &uniform, &thin}) {
+        const auto here = run_one(*other).integration,
+                   anew = run_one(Scene(other->study())).integration;
         REQUIRE(here.records.size() == anew.records.size());
         for (std::size_t i = 0; i < here.records.size(); ++i) {
             CHECK(here.records[i].acceleration == anew.records[i].acceleration);
@@ -181,16 +182,16 @@ TEST_CASE(
         text, {"gearbox.tooth_profile=constant", "gearbox.mesh_stiffness_N_m=7e8",
                "effects.motion=quasi-static", "fault.kind=none"});
     const auto tile = run_one(Scene(study));
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const double cosine = std::cos(M_PI / 9);
     const double r1 = 0.5 * 3.175e-3 * 19 * cosine, r2 = 0.5 * 3.175e-3 * 48 * cosine;
     const double force = 11.9 / r1;
     const double slack = force / 7e8 + 2.0 * force / 6.56e7;
-    for (const double te : tile.march.records[0].te) {
+    for (const double te : tile.integration.records[0].te) {
         CHECK(te == Approx(-slack / r2).epsilon(1e-9));
     }
     // The couplings twist by T / k_c, in u by the base radii.
-    const auto& q = tile.march.records[0].motion;
+    const auto& q = tile.integration.records[0].motion;
     CHECK(q[dynamics::u_m] - q[dynamics::u_1] == Approx(11.9 / 4.4e4 * r1).epsilon(1e-9));
 }
 
@@ -203,13 +204,13 @@ TEST_CASE(
         {"gearbox.sun_planet_low_stiffness_N_m=2e9", "gearbox.ring_planet_low_stiffness_N_m=2.4e9",
          "gearbox.support_stiffness_N_m=1e10", "fault.kind=none"});
     const auto tile = run_one(Scene(study));
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const double a = M_PI / 9, b = 7 * M_PI / 180;
     const double squared = std::pow(std::sin(a), 2) + std::pow(std::cos(a) * std::cos(b), 2);
     const double sun_radius = 0.5 * 0.010 * 16 * std::cos(std::atan(std::tan(a) / std::cos(b)));
     const double force = 180e3 * 16.0 / (16 + 68) / 3.0 / sun_radius;
     const double slack = force / (2e9 * squared) + force / (2.4e9 * squared) + 3.0 * force / 1e10;
-    CHECK(std::abs(tile.march.records[0].te[0]) == Approx(slack / sun_radius).epsilon(1e-6));
+    CHECK(std::abs(tile.integration.records[0].te[0]) == Approx(slack / sun_radius).epsilon(1e-6));
 }
 
 TEST_CASE("A planet tooth weakened on both sides meets sun and ring half a turn apart") {

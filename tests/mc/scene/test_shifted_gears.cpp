@@ -84,14 +84,14 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
           Approx(-forces[dynamics::sun] * (std::cos(angle_s) + std::cos(angle_r))).epsilon(1e-12));
     // Phases repeat with the planets' positions; the phase of the ring relative to the sun follows
     // from the planet's flanks.
-    const auto& drive = dynamic_cast<const mc::PlanetaryDrive&>(scene.drive());
+    const auto& drivetrain = dynamic_cast<const mc::PlanetaryDrivetrain&>(scene.drivetrain());
     for (int n = 0; n < 4; ++n) {
         const double turn = places.place[static_cast<std::size_t>(n)] / 126.0;
-        CHECK(std::cos(2 * std::numbers::pi * (drive.pitch_phase(n) - 27 * turn)) ==
+        CHECK(std::cos(2 * std::numbers::pi * (drivetrain.pitch_phase(n) - 27 * turn)) ==
               Approx(1).margin(1e-9));
         CHECK(std::cos(2 * std::numbers::pi *
-                       (drive.pitch_phase(4 + n) + 99 * turn - drive.ring_to_sun_phase())) ==
-              Approx(1).margin(1e-9));
+                       (drivetrain.pitch_phase(4 + n) + 99 * turn -
+                        drivetrain.ring_to_sun_phase())) == Approx(1).margin(1e-9));
     }
 }
 

@@ -21,10 +21,10 @@ struct RingMesh {
 RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
     const mc::Scene scene(shipped_study("published/yang-separation.toml", overrides));
     const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
-    const int pair = scene.drive().pairs_per_mesh();
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
+    const int pair = scene.drivetrain().pairs_per_mesh();
     const Eigen::VectorXd row = dynamics::mesh_row(scene.plan().layout, pair);
-    const auto& motion = tile.march.records[0].motion;
+    const auto& motion = tile.integration.records[0].motion;
     const int samples = scene.samples_per_mesh();
     std::vector<double> pressed;
     RingMesh result;
@@ -32,8 +32,8 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
         const double phase = static_cast<double>(i) / samples;
         const Eigen::Map<const Eigen::VectorXd> q(motion.data() + i * row.size(), row.size());
         // Error with amplitude 0.4 um, phase 180 degrees.
-        const double error =
-            -0.4e-6 * std::sin(2.0 * std::numbers::pi * (phase - scene.drive().pitch_phase(pair)));
+        const double error = -0.4e-6 * std::sin(2.0 * std::numbers::pi *
+                                                (phase - scene.drivetrain().pitch_phase(pair)));
         pressed.push_back(row.dot(q) - error);
         result.mean_force_N +=
             std::max(pressed.back(), 0.0) * scene.pairs().total(pair, phase) / samples;
@@ -61,7 +61,7 @@ std::vector<double> rig_signal(double depth_mm, bool alike) {
                        std::to_string(depth_mm) + "] }"});
     if (alike) {
         study.errors.pitch_error_m = 0.0;
-        study.numerics.horizon = mc::Horizon::reuse;
+        study.numerics.horizon = mc::Horizon::periodic;
     }
     return test::sensor_signal(mc::Scene(study), kRigMeshes, 0);
 }
@@ -129,10 +129,10 @@ TEST_CASE("Separating teeth that never repeat are integrated mesh by mesh, and o
              "numerics.max_meshes=400"}));
         return run_one(scene, false, 0);
     };
-    CHECK(status("reuse").march.status[0] == lockstep::LaneStatus::unsettled);
-    const auto marched = status("march");
-    CHECK(marched.march.status[0] == lockstep::LaneStatus::ok);
-    const auto& records = marched.march.records;
+    CHECK(status("reuse").integration.status[0] == lockstep::LaneStatus::not_converged);
+    const auto full_status = status("march");
+    CHECK(full_status.integration.status[0] == lockstep::LaneStatus::ok);
+    const auto& records = full_status.integration.records;
     double change = 0.0, largest = 0.0;
     for (std::size_t i = 0; i < records[1].te.size(); ++i) {
         change = std::max(change, std::abs(records[1].te[i] - records[2].te[i]));
@@ -206,13 +206,13 @@ TEST_CASE("Tones of the drive reduce the contrast of the cracked tooth's windows
         return std::pair{values("window_ratio").back(), values("sensor_rms").back()};
     };
     const auto [quiet, quiet_rms] = ratios("published/liang-fig-5-8.toml");
-    const auto [heard, heard_rms] = ratios("published/liang-test-rig.toml");
-    CHECK(heard < quiet);
-    CHECK(heard - 1.0 > 0.8 * (quiet - 1.0));
+    const auto [signal_ratio, signal_rms] = ratios("published/liang-test-rig.toml");
+    CHECK(signal_ratio < quiet);
+    CHECK(signal_ratio - 1.0 > 0.8 * (quiet - 1.0));
     // Power adds: half the sum of the squared amplitudes below the low-pass.
     double power = 0.0;
     for (const mc::Tone& tone : shipped_study("published/liang-test-rig.toml").sensor.tones) {
         power += 0.5 * tone.amplitude_m_s2 * tone.amplitude_m_s2;
     }
-    CHECK(heard_rms * heard_rms - quiet_rms * quiet_rms == Approx(power).epsilon(0.1));
+    CHECK(signal_rms * signal_rms - quiet_rms * quiet_rms == Approx(power).epsilon(0.1));
 }

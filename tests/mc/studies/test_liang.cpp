@@ -165,7 +165,7 @@ TEST_CASE("With the carrier fixed the planets still mesh, driven from either sid
         const mc::Scene scene(study);
         CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 46.68 / 60).epsilon(1e-6));
         const auto tile = run_one(scene);
-        CHECK(tile.march.status[0] == lockstep::LaneStatus::ok);
+        CHECK(tile.integration.status[0] == lockstep::LaneStatus::ok);
         // The path does not rotate, so the signal repeats with the cracked tooth every Z_p meshes.
         const auto lines = spectrum(scene, 2 * 31);
         const double largest = *std::max_element(lines.begin(), lines.end());

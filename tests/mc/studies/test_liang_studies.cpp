@@ -37,13 +37,14 @@ struct SunMotion {
 
 SunMotion sun_motion(const mc::Scene& scene, std::uint64_t number = 0) {
     const auto tile = run_one(scene, true, number);
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const std::size_t freedoms = 9 + 3 * 4;
     SunMotion sun;
     sun.samples = scene.samples_per_mesh();
     for (std::size_t k = 0; k < 19; ++k) {
-        const auto id = static_cast<std::size_t>(tile.march.content[k % tile.march.content.size()]);
-        const auto& motion = tile.march.records[id].motion;
+        const auto id =
+            static_cast<std::size_t>(tile.integration.content[k % tile.integration.content.size()]);
+        const auto& motion = tile.integration.records[id].motion;
         for (std::size_t i = 0; i < motion.size(); i += freedoms) {
             sun.x.push_back(motion[i + 6]);
             sun.y.push_back(motion[i + 7]);

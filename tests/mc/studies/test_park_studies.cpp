@@ -17,7 +17,7 @@ constexpr double kSunTeeth = 16, kRingTeeth = 68;
 // Averaged TE of one planet turn, in rad, with the mean removed.
 std::vector<double> te_turn(const mc::Scene& scene, std::uint64_t number = 0) {
     const auto tile = run_one(scene, false, number);
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     return {tile.te_turn.begin(), tile.te_turn.end()};
 }
 
@@ -204,8 +204,8 @@ TEST_CASE("The TE of every sample is the sun's force over the train's stiffness"
         double worst = 0.0;
         for (int i = 0; i < kPlanetTeeth * samples; ++i) {
             const auto mesh = static_cast<std::size_t>(i / samples);
-            const int id = tile.march.content[mesh % tile.march.content.size()];
-            const double te = tile.march.records[static_cast<std::size_t>(id)]
+            const int id = tile.integration.content[mesh % tile.integration.content.size()];
+            const double te = tile.integration.records[static_cast<std::size_t>(id)]
                                   .te[static_cast<std::size_t>(i % samples)];
             const double expected =
                 sun_force_N(study) / sun_base_m(study) *

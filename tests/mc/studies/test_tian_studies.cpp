@@ -120,8 +120,8 @@ TEST_CASE("Coarse steps keep the dominant harmonic, or do not converge") {
         // The trapezoidal rule does not damp modes that are this much faster than its steps.
         auto trapezoidal = coarse;
         trapezoidal.push_back("numerics.integrator=\"newmark\"");
-        CHECK(run_one(mc::Scene(shipped_study(name, trapezoidal))).march.status[0] ==
-              lockstep::LaneStatus::unsettled);
+        CHECK(run_one(mc::Scene(shipped_study(name, trapezoidal))).integration.status[0] ==
+              lockstep::LaneStatus::not_converged);
     }
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("Section 4.2.1: there is no motion along x") {
     for (const auto& name : kFaults) {
         const auto tile = run_one(mc::Scene(shipped_study(name)), true, 1);
         double along_x = 0.0, along_y = 0.0;
-        for (const auto& record : tile.march.records) {
+        for (const auto& record : tile.integration.records) {
             const auto& q = record.motion;
             for (std::size_t i = 0; i < q.size(); i += dynamics::fixed_shaft_motions) {
                 along_x = std::max(
@@ -157,11 +157,11 @@ TEST_CASE("Fig. 4.7: the chipped tooth's signal departs from the healthy one at 
 
     const auto rise = fault_signal(scene);
     const double largest = peak(rise);
-    std::size_t heard = 0;
-    while (std::abs(rise[heard]) < 1e-3 * largest) {
-        ++heard;
+    std::size_t first_deviation = 0;
+    while (std::abs(rise[first_deviation]) < 1e-3 * largest) {
+        ++first_deviation;
     }
-    const double since = static_cast<double>(heard) / scene.samples_per_mesh() -
+    const double since = static_cast<double>(first_deviation) / scene.samples_per_mesh() -
                          scene.pattern().passages.front().start;
     CHECK(degrees(since) == Approx(22.4).margin(1.0));
 }

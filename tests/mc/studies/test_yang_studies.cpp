@@ -22,7 +22,7 @@ struct Motions {
 
 Motions motions(const mc::Scene& scene, int number) {
     const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
-    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
+    REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.plan().layout);
     const auto freedoms = static_cast<std::size_t>(layout.degrees_of_freedom());
     const auto sun = static_cast<std::size_t>(layout.rotation_index(dynamics::sun));
@@ -30,8 +30,9 @@ Motions motions(const mc::Scene& scene, int number) {
     Motions result;
     result.samples = scene.samples_per_mesh();
     for (std::size_t k = 0; k < kMeshes; ++k) {
-        const auto id = static_cast<std::size_t>(tile.march.content[k % tile.march.content.size()]);
-        const auto& motion = tile.march.records[id].motion;
+        const auto id =
+            static_cast<std::size_t>(tile.integration.content[k % tile.integration.content.size()]);
+        const auto& motion = tile.integration.records[id].motion;
         for (std::size_t i = 0; i < motion.size(); i += freedoms) {
             result.sun.push_back(motion[i + sun]);
             result.planet4.push_back(motion[i + planet4]);
@@ -128,7 +129,7 @@ TEST_CASE("Yang, sections 4.1 and 4.2: frequencies, mesh phases, 7 and 28 meshes
 
     // Source: Table 3, beta_s = beta_r = 0, beta_rs = 1/2.
     for (int n = 0; n < kPlanets; ++n) {
-        const auto phase = [&](int pair) { return scene.drive().pitch_phase(pair); };
+        const auto phase = [&](int pair) { return scene.drivetrain().pitch_phase(pair); };
         CHECK(std::remainder(phase(n) - phase(0), 1.0) == Approx(0.0).margin(1e-12));
         CHECK(std::remainder(phase(kPlanets + n) - phase(n) - 0.5, 1.0) ==
               Approx(0.0).margin(1e-12));

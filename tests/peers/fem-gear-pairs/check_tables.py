@@ -22,10 +22,10 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 FAILED = []
 
 
-def stored(table, **wanted):
+def stored(table, **keys):
     with open(FOLDER / table, newline="") as f:
         return next(row for row in csv.DictReader(f)
-                    if all(row[column] == value for column, value in wanted.items()))
+                    if all(row[column] == value for column, value in keys.items()))
 
 
 def compare(what, found, row, columns, tolerance):

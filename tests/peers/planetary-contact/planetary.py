@@ -199,13 +199,13 @@ class Planetary:
         record = np.zeros(len(times), dtype=np.uint8)
         record[np.searchsorted(times, np.round(sample_times[sample_times >= 0], 12))] = 1
         n, count = self.dof, len(self.contacts)
-        box = Gearbox(n, count, (ctypes.c_double * MAX_DOF)(*self.mass), (ctypes.c_double * MAX_DOF)(*self.force),
+        gearbox = Gearbox(n, count, (ctypes.c_double * MAX_DOF)(*self.mass), (ctypes.c_double * MAX_DOF)(*self.force),
                       self.array(self.stiffness), self.array(self.damping), self.period, self.meshes, self.contacts)
         state = np.concatenate([self.static_deflection(), np.zeros(n)])
         out = np.zeros((int(record.sum()), 3 * n + count))
         library.integrate.argtypes = [ctypes.POINTER(Gearbox), DOUBLES, ctypes.c_void_p, ctypes.c_long,
                                       ctypes.c_double, DOUBLES, DOUBLES]
-        library.integrate(box, times.ctypes.data_as(DOUBLES), record.ctypes.data, len(times), 0.0,
+        library.integrate(gearbox, times.ctypes.data_as(DOUBLES), record.ctypes.data, len(times), 0.0,
                           state.ctypes.data_as(DOUBLES), out.ctypes.data_as(DOUBLES))
         shares = [sum(x.time_out for x in self.contacts if x.kind == kind)
                   / sum(x.time_out + x.time_in for x in self.contacts if x.kind == kind) for kind in (0, 1)]
@@ -228,11 +228,11 @@ class Planetary:
         return self.without_rotation(np.linalg.solve(k, self.force)[None, :])[0]
 
 
-def planet_acceleration(result, box, low_pass_Hz):
+def planet_acceleration(result, gearbox, low_pass_Hz):
     """Root mean square of planet 1's acceleration along y of the carrier frame below a frequency, m/s2."""
     a = result["a"][:-1, 10]
     spectrum = np.fft.rfft(a) / len(a)
-    frequency = np.fft.rfftfreq(len(a), (result["phase"][1] - result["phase"][0]) * box.period)
+    frequency = np.fft.rfftfreq(len(a), (result["phase"][1] - result["phase"][0]) * gearbox.period)
     chosen = (frequency > 0) & (frequency < low_pass_Hz)
     return math.sqrt(2 * np.sum(np.abs(spectrum[chosen])**2))
 
@@ -254,13 +254,13 @@ def main():
     if given.no_errors:
         for key in ("sun_index_um", "planet_index_um", "planet_ring_side_index_um", "ring_index_um"):
             case[key] = (0 * np.array(case[key])).tolist()
-    box = Planetary(case, given.onset)
-    result = box.run(given.run_in or case["run_in"], given.meshes or case["meshes"], given.steps or case["steps"],
+    gearbox = Planetary(case, given.onset)
+    result = gearbox.run(given.run_in or case["run_in"], given.meshes or case["meshes"], given.steps or case["steps"],
                      case["samples_per_mesh"])
     force, q = result["force"][:-1], result["q"][:-1]
-    print(f"{case['title']}: {given.onset} onset, mesh frequency {1 / box.period:.4f} Hz, nominal mesh force "
-          f"{box.force_nominal:.2f} N")
-    print(f"planet 1 acceleration below 800 Hz {planet_acceleration(result, box, 800):.4f} m/s2 rms; out of contact: "
+    print(f"{case['title']}: {given.onset} onset, mesh frequency {1 / gearbox.period:.4f} Hz, nominal mesh force "
+          f"{gearbox.force_nominal:.2f} N")
+    print(f"planet 1 acceleration below 800 Hz {planet_acceleration(result, gearbox, 800):.4f} m/s2 rms; out of contact: "
           f"sun {result['out_of_contact'][0]:.4f}, ring {result['out_of_contact'][1]:.4f}")
     print(f"mean mesh forces {force.mean(0).round(1)} N, rms deviation {force.std(0).round(1)} N")
     print(f"motion about its mean, um rms: {(1e6 * q.std(0)).round(4)}")

@@ -36,8 +36,8 @@ mc::Study study_of(const std::string& path) {
 }
 
 // Plan with steps from transition to transition.
-lockstep::MarchPlan table_plan(const mc::Scene& scene) {
-    lockstep::MarchPlan plan = scene.plan();
+lockstep::IntegrationPlan table_plan(const mc::Scene& scene) {
+    lockstep::IntegrationPlan plan = scene.plan();
     if (plan.mesh_law != dynamics::MeshLaw::linear) {
         throw std::runtime_error("only for studies without separation and transmission errors");
     }
@@ -64,7 +64,7 @@ std::vector<double> list(const Eigen::VectorXd& row) {
 }
 
 // Matrices without the meshes, which are added as k v v^T and c v v^T.
-json matrices(const lockstep::MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+json matrices(const lockstep::IntegrationPlan& plan, const dynamics::GearboxInputs& inputs) {
     const int pairs = dynamics::pairs(plan.layout);
     const dynamics::GearboxMatrices m = dynamics::assemble(
         plan.layout, inputs, std::vector<double>(static_cast<std::size_t>(pairs), 0.0));
@@ -97,7 +97,7 @@ std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t la
 
 void write_problem(const mc::Study& study) {
     const mc::Scene scene(study);
-    const lockstep::MarchPlan plan = table_plan(scene);
+    const lockstep::IntegrationPlan plan = table_plan(scene);
     const mc::Sampler sampler(study);
     json all{{"samples", scene.samples_per_mesh()},
              {"meshes", scene.pattern().length},
@@ -137,7 +137,7 @@ void write_problem(const mc::Study& study) {
 
 struct Signals {
     std::string name, command;
-    double march_s = 0.0, mesh_s = 0.0;
+    double integration_s = 0.0, mesh_s = 0.0;
     lockstep::TileResult tile;
 };
 
@@ -163,7 +163,7 @@ Signals read_signals(const mc::Scene& scene, const std::string& argument) {
     }
     std::vector<double> values(count);
     std::memcpy(values.data(), bytes.data(), bytes.size());
-    signals.march_s = values[0];
+    signals.integration_s = values[0];
     signals.mesh_s = values[1];
     const double* value = values.data() + 2;
     for (std::size_t k = 0; k < meshes; ++k) {
@@ -192,10 +192,11 @@ void grade(const mc::Study& study, const std::vector<std::string>& arguments) {
     fmt::print("name,command,march_s,mesh_s,sensor,te,{}\n", fmt::join(study.features.use, ","));
     for (const std::string& argument : arguments) {
         const Signals signals = read_signals(scene, argument);
-        const mc::PilotRecord record = pilot.of_march(scene, [&](auto) { return signals.tile; });
+        const mc::PilotRecord record =
+            pilot.record_of_integration(scene, [&](auto) { return signals.tile; });
         const mc::PilotError error = mc::pilot_error(record, reference.record);
         fmt::print("\"{}\",see tests/peers/solver-settings/README.md,{:.4g},{:.4g},{:.3g},{:.3g}",
-                   signals.name, signals.march_s, signals.mesh_s, error.sensor, error.te);
+                   signals.name, signals.integration_s, signals.mesh_s, error.sensor, error.te);
         for (int f = 0; f < record.features_used; ++f) {
             fmt::print(",{:.3g}", error.feature(f, record.levels));
         }

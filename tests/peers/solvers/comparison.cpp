@@ -23,13 +23,13 @@ mc::PilotRecord some_of(const mc::PilotRecord& all, int first, int last) {
 
 mc::PilotError error_of(const mc::Scene& scene, const std::vector<lockstep::MeshRecord>& records,
                         int first, int last, const mc::PilotRecord& reference) {
-    const mc::PilotRecord all = mc::Pilot(scene).of_march(scene, [&](auto) {
-        lockstep::TileResult march;
-        march.records = records;
-        march.content.resize(records.size());
-        std::iota(march.content.begin(), march.content.end(), 0);
-        march.status.assign(kGearboxes, lockstep::LaneStatus::ok);
-        return march;
+    const mc::PilotRecord all = mc::Pilot(scene).record_of_integration(scene, [&](auto) {
+        lockstep::TileResult integration;
+        integration.records = records;
+        integration.content.resize(records.size());
+        std::iota(integration.content.begin(), integration.content.end(), 0);
+        integration.status.assign(kGearboxes, lockstep::LaneStatus::ok);
+        return integration;
     });
     return mc::pilot_error(some_of(all, first, last), some_of(reference, first, last));
 }

@@ -29,7 +29,7 @@ struct Late {};
 class Cvode {
   public:
     Cvode(const Task& task, Multistep method, double tolerance, int gearbox)
-        : task_(task), gearbox_(gearbox), box_(gearbox_of(task, gearbox)) {
+        : task_(task), gearbox_(gearbox), parameters_(gearbox_of(task, gearbox)) {
         check(SUNContext_Create(nullptr, &context_), "SUNContext_Create");
         y_ = N_VNew_Serial(kSensing, context_);
         absolute_ = N_VNew_Serial(kSensing, context_);
@@ -77,7 +77,7 @@ class Cvode {
 
     double steps() const { return steps_; }
 
-    void march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+    void integrate(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
         const std::vector<int>& all = task_.fine.stretches();
         const std::vector<int> whole{all.front(), all.back()};
         stops_ = stops;
@@ -163,7 +163,7 @@ class Cvode {
         const auto& own = *static_cast<const Cvode*>(self);
         Meshes<double> m;
         own.meshes_at(t, m);
-        rates<kSensing>(own.box_, m, NV_DATA_S(y), NV_DATA_S(dy));
+        rates<kSensing>(own.parameters_, m, NV_DATA_S(y), NV_DATA_S(dy));
         return 0;
     }
 
@@ -173,16 +173,16 @@ class Cvode {
     // state. Calls take(i, column).
     template <class Take>
     void each_column(const Meshes<double>& m, Take take) const {
-        Gearbox<double> box = box_;
-        box.pull = 0.0;
-        for (double& force : box.force) {
+        Gearbox<double> parameters = parameters_;
+        parameters.pull = 0.0;
+        for (double& force : parameters.force) {
             force = 0.0;
         }
         double unit[kSensing] = {};
         Column column;
         for (int i = 0; i < kSensing; ++i) {
             unit[i] = 1.0;
-            rates<kSensing>(box, m, unit, column.data());
+            rates<kSensing>(parameters, m, unit, column.data());
             unit[i] = 0.0;
             take(i, column);
         }
@@ -199,8 +199,8 @@ class Cvode {
         for (int i = 0; i < kSensing; ++i) {
             moved[i] = y[i] + (i % 2 == 0 ? 1.0 : -0.5) * task_.scale[i];
         }
-        rates<kSensing>(box_, m, y, before.data());
-        rates<kSensing>(box_, m, moved, after.data());
+        rates<kSensing>(parameters_, m, y, before.data());
+        rates<kSensing>(parameters_, m, moved, after.data());
         each_column(m, [&](int i, const Column& column) {
             for (std::size_t d = 0; d < kSensing; ++d) {
                 change[d] += column[d] * (moved[i] - y[i]);
@@ -260,7 +260,7 @@ class Cvode {
 
     const Task& task_;
     const int gearbox_;
-    const Gearbox<double> box_;
+    const Gearbox<double> parameters_;
     bool stops_ = false;
     int k_ = 0, first_ = 0, last_ = 0;
     double steps_ = 0.0, give_up_at_s_ = 0.0;
@@ -282,13 +282,13 @@ PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multi
         Cvode solver(task, method, tolerance, g);
         const double began = mc::thread_processor_s();
         try {
-            solver.march(extent, stops, run.records);
+            solver.integrate(extent, stops, run.records);
         } catch (const Late&) {
             run.late = true;
         } catch (const std::runtime_error&) {
             run.failed = true;
         }
-        run.march_s += mc::thread_processor_s() - began;
+        run.integration_s += mc::thread_processor_s() - began;
         run.steps += solver.steps() / (extent.run_in + extent.recorded) / (last - first);
     }
     return run;

@@ -14,8 +14,8 @@ inline constexpr int kPlanets = 4;
 inline constexpr int kPairs = 2 * kPlanets;
 inline constexpr int kMotions = 9 + 3 * kPlanets;
 inline constexpr int kChannels = 2 * kPlanets;
-inline constexpr int kMoving = 2 * kMotions;              // without the sensor
-inline constexpr int kSensing = kMoving + 4 * kChannels;  // with it
+inline constexpr int kMotionStates = 2 * kMotions;              // without the sensor
+inline constexpr int kSensing = kMotionStates + 4 * kChannels;  // with it
 
 enum Body { carrier, ring, sun, planet };
 
@@ -114,7 +114,7 @@ inline void low_pass(double w, const T& u, const T* z, T* rate) {
     rate[3] = w2 * (z[0] - z[2]) - b2 * z[3];
 }
 
-// Derivative y' of `Size` states: kMoving or kSensing.
+// Derivative y' of `Size` states: kMotionStates or kSensing.
 template <int Size, class T>
 inline void rates(const Gearbox<T>& g, const Meshes<T>& m, const T* y, T* dy) {
     const T *q = y, *v = y + kMotions;
@@ -127,8 +127,8 @@ inline void rates(const Gearbox<T>& g, const Meshes<T>& m, const T* y, T* dy) {
         const T w = g.speed;
         for (int n = 0; n < kPlanets; ++n) {
             const T *qp = q + 9 + 3 * n, *vp = v + 9 + 3 * n, *ap = a + 9 + 3 * n;
-            const T* z = y + kMoving + 8 * n;
-            T* rate = dy + kMoving + 8 * n;
+            const T* z = y + kMotionStates + 8 * n;
+            T* rate = dy + kMotionStates + 8 * n;
             low_pass<T>(g.low_pass_rad_s, ap[0] - w * (2.0 * vp[1] + w * qp[0]), z, rate);
             low_pass<T>(g.low_pass_rad_s, ap[1] - w * (w * qp[1] - 2.0 * vp[0]), z + 4, rate + 4);
         }

@@ -40,13 +40,13 @@ class Dopri5 {
     Dopri5(const Task& task, double tolerance, int gearbox)
         : task_(task),
           gearbox_(gearbox),
-          box_(gearbox_of(task, gearbox)),
+          parameters_(gearbox_of(task, gearbox)),
           stepper_(Controlled(ErrorAgainstSize(task, tolerance))) {}
 
     double steps() const { return steps_; }
 
     // Returns true if it reached the end in time.
-    bool march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+    bool integrate(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
         const double give_up_at_s = mc::thread_processor_s() + extent.most_s;
         Sensing y;
         copy_start(task_, gearbox_, y.data());
@@ -94,7 +94,7 @@ class Dopri5 {
                 task_.fine.at_phase(pattern_mesh(task_, static_cast<int>(mesh)), phase - mesh,
                                     first, last, gearbox_, m);
             }
-            rates<kSensing>(box_, m, y.data(), dy.data());
+            rates<kSensing>(parameters_, m, y.data(), dy.data());
         };
         const int samples = task_.scene.samples_per_mesh();
         int sample = static_cast<int>(std::ceil((from - k) * samples - 1e-9));
@@ -123,7 +123,7 @@ class Dopri5 {
 
     const Task& task_;
     const int gearbox_;
-    const Gearbox<double> box_;
+    const Gearbox<double> parameters_;
     odeint::dense_output_runge_kutta<Controlled> stepper_;
     double step_s_ = 1e-6;
     double steps_ = 0.0;
@@ -137,8 +137,8 @@ PeerRun odeint_dopri5(const Task& task, const Extent& extent, int first, int las
     for (int g = first; g < last; ++g) {
         Dopri5 solver(task, tolerance, g);
         const double began = mc::thread_processor_s();
-        run.late |= !solver.march(extent, stops, run.records);
-        run.march_s += mc::thread_processor_s() - began;
+        run.late |= !solver.integrate(extent, stops, run.records);
+        run.integration_s += mc::thread_processor_s() - began;
         run.steps += solver.steps() / (extent.run_in + extent.recorded) / (last - first);
     }
     return run;

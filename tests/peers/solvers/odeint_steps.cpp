@@ -44,8 +44,8 @@ class StepRates {
 };
 
 template <int Size, class T, class MeshesAt, class Record>
-void march_steps(const Task& task, const Extent& extent, const Gearbox<T>& gearbox,
-                 MeshesAt meshes_at, State<Size, T>& y, Record record) {
+void integrate_steps(const Task& task, const Extent& extent, const Gearbox<T>& gearbox,
+                     MeshesAt meshes_at, State<Size, T>& y, Record record) {
     odeint::runge_kutta4<State<Size, T>, double, State<Size, T>, double, odeint::array_algebra>
         stepper;
     StepRates<Size, T, MeshesAt> rates_of(gearbox, meshes_at);
@@ -73,7 +73,7 @@ PeerRun one_by_one(const Task& task, const Extent& extent, int first, int last) 
         State<Size, double> y;
         std::copy_n(start, Size, y.begin());
         const double began = mc::thread_processor_s();
-        march_steps<Size>(
+        integrate_steps<Size>(
             task, extent, gearbox,
             [&](int mesh, int step, int node, Meshes<double>& m) {
                 task.steps.at_node(mesh, step, node, g, m);
@@ -83,7 +83,7 @@ PeerRun one_by_one(const Task& task, const Extent& extent, int first, int last) 
                 record_sample(task, state.data(), Size == kSensing, g, sample,
                               run.records[static_cast<std::size_t>(k)]);
             });
-        run.march_s += mc::thread_processor_s() - began;
+        run.integration_s += mc::thread_processor_s() - began;
     }
     return run;
 }
@@ -102,7 +102,7 @@ PeerRun wide(const Task& task, const Extent& extent) {
         }
     }
     const double began = mc::thread_processor_s();
-    march_steps<Size>(
+    integrate_steps<Size>(
         task, extent, gearbox,
         [&](int mesh, int step, int node, Meshes<Eight>& m) {
             task.steps.at_node(mesh, step, node, m);
@@ -118,19 +118,19 @@ PeerRun wide(const Task& task, const Extent& extent) {
                               run.records[static_cast<std::size_t>(k)]);
             }
         });
-    run.march_s = mc::thread_processor_s() - began;
+    run.integration_s = mc::thread_processor_s() - began;
     return run;
 }
 
 }  // namespace
 
 PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only) {
-    return motion_only ? one_by_one<kMoving>(task, extent, first, last)
+    return motion_only ? one_by_one<kMotionStates>(task, extent, first, last)
                        : one_by_one<kSensing>(task, extent, first, last);
 }
 
 PeerRun odeint_wide_rk4(const Task& task, const Extent& extent, bool motion_only) {
-    return motion_only ? wide<kMoving>(task, extent) : wide<kSensing>(task, extent);
+    return motion_only ? wide<kMotionStates>(task, extent) : wide<kSensing>(task, extent);
 }
 
 }  // namespace gearpod::peers::GEARPOD_PEERS_BUILD

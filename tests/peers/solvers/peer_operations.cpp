@@ -26,7 +26,7 @@ double flop() {
 }  // namespace
 
 double rk4_flop(bool motion_only) {
-    return motion_only ? flop<kMoving>() : flop<kSensing>();
+    return motion_only ? flop<kMotionStates>() : flop<kSensing>();
 }
 
 }  // namespace gearpod::peers

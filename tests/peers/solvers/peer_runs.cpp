@@ -7,8 +7,8 @@ namespace gearpod::peers {
 
 Gearbox<double> gearbox_of(const Task& task, int gearbox) {
     const auto& layout = std::get<dynamics::PlanetaryLayout>(task.scene.plan().layout);
-    const auto& in =
-        std::get<dynamics::PlanetaryInputs>(task.boxes.inputs[static_cast<std::size_t>(gearbox)]);
+    const auto& in = std::get<dynamics::PlanetaryInputs>(
+        task.gearboxes.inputs[static_cast<std::size_t>(gearbox)]);
     Gearbox<double> g{};
     const double right = std::numbers::pi / 2, alpha = layout.pressure_angle_rad;
     for (int n = 0; n < kPlanets; ++n) {
@@ -30,7 +30,7 @@ Gearbox<double> gearbox_of(const Task& task, int gearbox) {
     for (int b = 0; b < 3; ++b) {
         g.force[b] = in.force_N[b];
     }
-    const int held = dynamics::held_body(layout.fixed);
+    const int held = dynamics::fixed_body(layout.fixed);
     g.support_stiffness[held] = in.support_stiffness_N_m;
     g.support_damping[held] = in.support_damping_N_s_m;
     g.speed = in.carrier_speed_rad_s;
@@ -51,7 +51,7 @@ void record_sample(const Task& task, const double* y, bool sensing, int lane, in
     for (int c = 0; c < kChannels && sensing; ++c) {
         record
             .acceleration[static_cast<std::size_t>((sample * kChannels + c) * kGearboxes + lane)] =
-            y[kMoving + 4 * c + 2];
+            y[kMotionStates + 4 * c + 2];
     }
     double te = 0.0;
     for (int d = 0; d < kMotions; ++d) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gearbox.hpp"
-#include "lockstep/plan/march.hpp"
+#include "lockstep/plan/integration_plan.hpp"
 #include "stiffness_tables.hpp"
 
 namespace gearpod::peers {
@@ -15,7 +15,7 @@ namespace gearpod::peers {
 // Problem that all solvers integrate.
 struct Task {
     const mc::Scene& scene;
-    const Boxes& boxes;
+    const GearboxInputs8& gearboxes;
     const StiffnessTables& steps;  // for fixed steps
     const StiffnessTables& fine;   // for solvers that choose their steps
     lockstep::TileState start;     // of all eight, near the periodic orbit, at an integer phase
@@ -36,7 +36,7 @@ struct Extent {
 struct PeerRun {
     // Records with eight lanes, of which only the integrated ones are filled.
     std::vector<lockstep::MeshRecord> records;
-    double march_s = 0.0;               // of processor time, over all integrated mesh periods
+    double integration_s = 0.0;         // of processor time, over all integrated mesh periods
     double steps = 0.0;                 // per mesh period and realization
     bool late = false, failed = false;  // stopped by the time limit, or by the solver
 };

@@ -11,7 +11,7 @@ namespace gearpod::peers {
 namespace {
 
 void compare(const Options& options) {
-    OwnMarch own(options);
+    GearpodSolver own(options);
     const mc::Pilot pilot(own.scene());
     fmt::print(stderr, "reference: two methods until they agree\n");
     const mc::Reference reference = mc::converged_reference(own.scene().study(), pilot, {});

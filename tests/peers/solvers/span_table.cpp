@@ -17,7 +17,7 @@ constexpr double kSlow_s = 1.0;
 
 }  // namespace
 
-SpanTable::SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pilot,
+SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot& pilot,
                      const mc::Reference& reference)
     : options_(options),
       own_(own),
@@ -27,7 +27,7 @@ SpanTable::SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pil
       chosen_(resolved_.study) {
     span_ = kRunIn + own.scene().span_meshes();
     const mc::PilotRecord record = pilot.run(chosen_);
-    rows_.push_back({"gearpod, " + resolved_.choice->rung.text(),
+    rows_.push_back({"gearpod, " + resolved_.choice->setting.text(),
                      {},
                      record.meshes_per_tile(),
                      mc::pilot_error(record, reference.record),
@@ -42,25 +42,25 @@ SpanTable::SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pil
 }
 
 void SpanTable::add_all() {
-    constexpr int kBox = kLargestCrack;
+    constexpr int kGearbox = kLargestCrack;
     add_fixed("odeint rk4, one by one", [](const Task& task, const Extent& extent, double) {
-        return vectorized::odeint_rk4(task, extent, kBox, kBox + 1, false);
+        return vectorized::odeint_rk4(task, extent, kGearbox, kGearbox + 1, false);
     });
     add_fixed("odeint rk4, 8-wide value type", [](const Task& task, const Extent& extent, double) {
         PeerRun run = vectorized::odeint_wide_rk4(task, extent, false);
-        run.march_s /= kGearboxes;
+        run.integration_s /= kGearboxes;
         return run;
     });
     for (const bool stops : {false, true}) {
         const std::string how = stops ? ", restarted at transitions" : "";
         add_adaptive("odeint dopri5" + how, [=](const Task& task, const Extent& extent, double e) {
-            return odeint_dopri5(task, extent, kBox, kBox + 1, e, stops);
+            return odeint_dopri5(task, extent, kGearbox, kGearbox + 1, e, stops);
         });
         for (const auto& [name, method] : {std::pair("CVODE BDF, dense", Multistep::bdf),
                                            std::pair("CVODE BDF, sparse", Multistep::sparse_bdf),
                                            std::pair("CVODE Adams", Multistep::adams)}) {
             add_adaptive(name + how, [=](const Task& task, const Extent& extent, double e) {
-                return cvode(task, extent, kBox, kBox + 1, method, e, stops);
+                return cvode(task, extent, kGearbox, kGearbox + 1, method, e, stops);
             });
         }
     }
@@ -72,7 +72,8 @@ std::optional<Attempt> SpanTable::attempt(const std::string& name, const Way& wa
         way(own_.task(), {kRunIn, own_.task().steps.meshes(), options_.try_s}, tolerance);
     fmt::print(stderr, "{}, {:.1e}: ", name, tolerance);
     if (run.late || run.failed) {
-        fmt::print(stderr, "{} after {:.1f} s\n", run.late ? "given up" : "failed", run.march_s);
+        fmt::print(stderr, "{} after {:.1f} s\n", run.late ? "given up" : "failed",
+                   run.integration_s);
         return {};
     }
     Attempt done{
@@ -81,7 +82,7 @@ std::optional<Attempt> SpanTable::attempt(const std::string& name, const Way& wa
     done.within = done.error.largest_feature() <= options_.error;
     fmt::print(stderr,
                "worst feature {:.1e}, sensor {:.1e}, {:.0f} steps a mesh period, {:.1f} s\n",
-               done.error.largest_feature(), done.error.sensor, run.steps, run.march_s);
+               done.error.largest_feature(), done.error.sensor, run.steps, run.integration_s);
     return done;
 }
 
@@ -103,7 +104,7 @@ void SpanTable::add_adaptive(const std::string& name, Way way) {
 }
 
 void SpanTable::round() {
-    rows_[0].times.push_back(pilot_.run(chosen_).march_s);
+    rows_[0].times.push_back(pilot_.run(chosen_).integration_s);
     rows_[1].times.push_back(own_.tile_mesh_s() / kGearboxes * span_);
     for (std::size_t i = 0; i < ways_.size(); ++i) {
         Row& row = rows_[i + 2];
@@ -112,7 +113,7 @@ void SpanTable::round() {
             continue;
         }
         const PeerRun run = ways_[i](own_.task(), {1, 1}, row.tolerance);
-        row.times.push_back(run.march_s / 2.0 * span_);
+        row.times.push_back(run.integration_s / 2.0 * span_);
     }
 }
 
@@ -151,9 +152,10 @@ void SpanTable::write(const std::string& path) const {
     const int levels = static_cast<int>(own_.scene().study().sensor.noise_levels.size());
     for (std::size_t i = 2; i < rows_.size(); ++i) {
         const Row& row = rows_[i];
-        const double march_s = median(row.times);
-        file << fmt::format("\"{}\",peer_solvers,{:.6g},{:.6g},{:.6g},{:.6g}", row.name, march_s,
-                            march_s / row.meshes, row.error->sensor, row.error->te);
+        const double integration_s = median(row.times);
+        file << fmt::format("\"{}\",peer_solvers,{:.6g},{:.6g},{:.6g},{:.6g}", row.name,
+                            integration_s, integration_s / row.meshes, row.error->sensor,
+                            row.error->te);
         for (std::size_t f = 0; f < own_.scene().study().features.use.size(); ++f) {
             file << fmt::format(",{:.6g}", row.error->feature(static_cast<int>(f), levels));
         }

@@ -4,15 +4,15 @@
 
 #include <functional>
 
+#include "gearpod_solver.hpp"
 #include "mc/numerics/reference.hpp"
-#include "own_march.hpp"
 #include "tolerance_search.hpp"
 
 namespace gearpod::peers {
 
 class SpanTable {
   public:
-    SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pilot,
+    SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot& pilot,
               const mc::Reference& reference);
 
     // Finds the tolerances of all solvers and prints progress to stderr.
@@ -30,7 +30,7 @@ class SpanTable {
     std::string line(const Row& row) const;
 
     const Options& options_;
-    OwnMarch& own_;
+    GearpodSolver& own_;
     const mc::Pilot& pilot_;
     const mc::Reference& reference_;
     const mc::ResolvedStudy resolved_;

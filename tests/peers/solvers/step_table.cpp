@@ -11,12 +11,12 @@ namespace {
 
 using bench::Width;
 
-constexpr int kBox = kLargestCrack;
+constexpr int kGearbox = kLargestCrack;
 constexpr std::size_t kScalarRow = 2;  // one gearbox in scalar code, with the sensor
 
 }  // namespace
 
-StepTable::StepTable(OwnMarch& own, const mc::Reference& reference)
+StepTable::StepTable(GearpodSolver& own, const mc::Reference& reference)
     : own_(own), reference_(reference) {
     rows_.push_back({"gearpod, 8 in lockstep", {}, 0.0, {}});
     work_.push_back({static_cast<double>(bench::rk4_operations(own.scene().plan()).flop())});
@@ -25,16 +25,16 @@ StepTable::StepTable(OwnMarch& own, const mc::Reference& reference)
         const double flop = rk4_flop(motion_only);
         add("odeint rk4, one gearbox" + what, {flop, Width::bits_512, motion_only},
             [=](const Task& task, const Extent& extent) {
-                return vectorized::odeint_rk4(task, extent, kBox, kBox + 1, motion_only);
+                return vectorized::odeint_rk4(task, extent, kGearbox, kGearbox + 1, motion_only);
             });
         add("odeint rk4, one gearbox, scalar code" + what, {flop, Width::scalar, motion_only},
             [=](const Task& task, const Extent& extent) {
-                return scalar::odeint_rk4(task, extent, kBox, kBox + 1, motion_only);
+                return scalar::odeint_rk4(task, extent, kGearbox, kGearbox + 1, motion_only);
             });
         add("odeint rk4, 8-wide value type" + what, {flop, Width::bits_512, motion_only},
             [=](const Task& task, const Extent& extent) {
                 PeerRun run = vectorized::odeint_wide_rk4(task, extent, motion_only);
-                run.march_s /= kGearboxes;
+                run.integration_s /= kGearboxes;
                 return run;
             });
     }
@@ -50,7 +50,8 @@ void StepTable::measure_errors() {
     const Extent pattern{2, own_.task().steps.meshes()};
     for (std::size_t i = 0; i < ways_.size() && !work_[i + 1].no_sensor; ++i) {
         const PeerRun run = ways_[i](own_.task(), pattern);
-        rows_[i + 1].error = error_of(own_.scene(), run.records, kBox, kBox + 1, reference_.record);
+        rows_[i + 1].error =
+            error_of(own_.scene(), run.records, kGearbox, kGearbox + 1, reference_.record);
     }
 }
 
@@ -60,7 +61,7 @@ void StepTable::round() {
     for (int repeat = 0; repeat < 5; ++repeat) {
         all[0].push_back(own_.tile_mesh_s() / steps / kGearboxes);
         for (std::size_t i = 0; i < ways_.size(); ++i) {
-            all[i + 1].push_back(ways_[i](own_.task(), {1, 0}).march_s / steps);
+            all[i + 1].push_back(ways_[i](own_.task(), {1, 0}).integration_s / steps);
         }
         for (const Width width : {Width::scalar, Width::bits_256, Width::bits_512}) {
             peaks_[width].push_back(bench::fma_rate_double(width));

@@ -5,15 +5,15 @@
 #include <functional>
 #include <map>
 
+#include "gearpod_solver.hpp"
 #include "mc/numerics/reference.hpp"
-#include "own_march.hpp"
 #include "tests/bench/fma_peak.hpp"
 
 namespace gearpod::peers {
 
 class StepTable {
   public:
-    StepTable(OwnMarch& own, const mc::Reference& reference);
+    StepTable(GearpodSolver& own, const mc::Reference& reference);
 
     void measure_errors();
     void round();
@@ -32,7 +32,7 @@ class StepTable {
     double share(std::size_t row) const;    // of the peak
     void print_limit() const;
 
-    OwnMarch& own_;
+    GearpodSolver& own_;
     const mc::Reference& reference_;
     std::vector<Row> rows_;
     std::vector<Work> work_;  // for the rows

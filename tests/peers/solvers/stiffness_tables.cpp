@@ -5,34 +5,34 @@
 
 namespace gearpod::peers {
 
-Boxes boxes_of(const mc::Scene& scene) {
-    Boxes boxes;
-    boxes.faults = {&scene.pairs(), scene.pattern(), {}};
-    boxes.faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
+GearboxInputs8 inputs_of_gearboxes(const mc::Scene& scene) {
+    GearboxInputs8 gearboxes;
+    gearboxes.faults = {&scene.pairs(), scene.pattern(), {}};
+    gearboxes.faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
     const mc::Sampler sampler(scene.study());
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
         const mc::InstanceInputs instance = sampler.sample(mc::Group::graded, i);
-        boxes.instances.push_back(instance);
-        boxes.inputs.push_back(scene.inputs(instance));
-        for (std::size_t c = 0; c < boxes.faults.curve.size(); ++c) {
-            boxes.faults.curve[c].push_back(
+        gearboxes.instances.push_back(instance);
+        gearboxes.inputs.push_back(scene.inputs(instance));
+        for (std::size_t c = 0; c < gearboxes.faults.curve.size(); ++c) {
+            gearboxes.faults.curve[c].push_back(
                 scene.fault().mesh(static_cast<int>(c), instance.fault_size));
         }
     }
-    return boxes;
+    return gearboxes;
 }
 
-StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::MarchPlan& plan,
-                                 const Boxes& boxes)
+StiffnessTables::StiffnessTables(const mc::Scene& scene, const lockstep::IntegrationPlan& plan,
+                                 const GearboxInputs8& gearboxes)
     : plan_(plan) {
-    const lockstep::FaultSchedule schedule(plan, boxes.faults);
+    const lockstep::FaultSchedule schedule(plan, gearboxes.faults);
     for (int k = 0; k < scene.pattern().length; ++k) {
         overrides_.push_back(schedule.overrides(k));
     }
     for (int l = 0; l < kGearboxes; ++l) {
         for (const int pair : {0, kPlanets}) {
             factor_[side(pair)][l] = dynamics::mesh_damping_factor(
-                plan.layout, boxes.inputs[static_cast<std::size_t>(l)], pair);
+                plan.layout, gearboxes.inputs[static_cast<std::size_t>(l)], pair);
         }
     }
     const auto& steps = plan.grid.steps;

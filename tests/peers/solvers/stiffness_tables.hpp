@@ -15,17 +15,18 @@ namespace gearpod::peers {
 // with the largest crack.
 inline constexpr int kGearboxes = 8, kLargestCrack = 6;
 
-struct Boxes {
+struct GearboxInputs8 {
     std::vector<mc::InstanceInputs> instances;
     std::vector<dynamics::GearboxInputs> inputs;
     lockstep::FaultCurves faults;
 };
-Boxes boxes_of(const mc::Scene& scene);
+GearboxInputs8 inputs_of_gearboxes(const mc::Scene& scene);
 
 class StiffnessTables {
   public:
     // Values at the nodes of the steps of `plan`, which must outlive the tables.
-    StiffnessTables(const mc::Scene& scene, const lockstep::MarchPlan& plan, const Boxes& boxes);
+    StiffnessTables(const mc::Scene& scene, const lockstep::IntegrationPlan& plan,
+                    const GearboxInputs8& gearboxes);
 
     const lockstep::PhaseGrid& grid() const { return plan_.grid; }
     int meshes() const { return static_cast<int>(overrides_.size()); }
@@ -69,7 +70,7 @@ class StiffnessTables {
     }
     int step_at(double phase, int first, int last) const;
 
-    const lockstep::MarchPlan& plan_;
+    const lockstep::IntegrationPlan& plan_;
     std::vector<std::vector<lockstep::PairOverride>> overrides_;  // by mesh
     double factor_[2][kGearboxes];
     std::vector<int> stretches_;

@@ -95,7 +95,7 @@ TEST_CASE("Random noise of any colour folds as the noisy signal does, at every l
     for (std::size_t i = 0; i < signal.size(); i += kBins) {
         signal[i] = 0.0;  // a bin without signal
     }
-    const NoiseDraw draw = draw_of_samples(signal, noise, kBins);
+    const NoiseVariates draw = noise_variates_of_samples(signal, noise, kBins);
     for (const double sigma : {0.0, 0.3, 2.0}) {
         for (std::size_t b = 0; b < kBins; ++b) {
             double clean = 0.0, noisy = 0.0;

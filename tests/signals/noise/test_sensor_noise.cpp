@@ -61,14 +61,14 @@ TEST_CASE("The chi-squared transform gives the quantile of the normal distributi
     CHECK(transformed(transform, -10.0) == transformed(transform, -9.5));
 }
 
-double noisy_bin(double folded, const NoiseDraw& draw, std::size_t b, double sigma) {
+double noisy_bin(double folded, const NoiseVariates& draw, std::size_t b, double sigma) {
     const double along = sigma * draw.along[b] + std::sqrt(folded);
     return along * along + sigma * sigma * draw.across[b];
 }
 
 TEST_CASE("A noisy folded bin is distributed as the sum of its noisy samples' squares") {
     constexpr int kTurns = 81;
-    constexpr int kDraws = 20000;
+    constexpr int kSamples = 20000;
     std::mt19937_64 engine(5);
     std::normal_distribution<double> normal;
     std::vector<double> samples(kTurns);
@@ -79,7 +79,7 @@ TEST_CASE("A noisy folded bin is distributed as the sum of its noisy samples' sq
     }
     const double sigma = 0.2;
 
-    std::vector<double> direct(kDraws, 0.0);
+    std::vector<double> direct(kSamples, 0.0);
     for (double& sum : direct) {
         for (const double y : samples) {
             const double noisy = y + sigma * normal(engine);
@@ -87,10 +87,10 @@ TEST_CASE("A noisy folded bin is distributed as the sum of its noisy samples' sq
         }
     }
     const SensorNoise noise(kTurns);
-    NoiseDraw draw;
-    noise.draw(engine, kDraws, draw);
-    std::vector<double> shortcut(kDraws);
-    for (std::size_t b = 0; b < kDraws; ++b) {
+    NoiseVariates draw;
+    noise.draw(engine, kSamples, draw);
+    std::vector<double> shortcut(kSamples);
+    for (std::size_t b = 0; b < kSamples; ++b) {
         shortcut[b] = noisy_bin(folded, draw, b, sigma);
     }
 
@@ -98,8 +98,9 @@ TEST_CASE("A noisy folded bin is distributed as the sum of its noisy samples' sq
     const double mean = folded + kTurns * sigma * sigma;
     const double variance = 2.0 * sigma * sigma * (kTurns * sigma * sigma + 2.0 * folded);
     for (const auto& sample : {direct, shortcut}) {
-        CHECK(moments(sample).mean == Approx(mean).margin(4.0 * std::sqrt(variance / kDraws)));
-        CHECK(moments(sample).variance == Approx(variance).epsilon(4.5 * std::sqrt(2.0 / kDraws)));
+        CHECK(moments(sample).mean == Approx(mean).margin(4.0 * std::sqrt(variance / kSamples)));
+        CHECK(moments(sample).variance ==
+              Approx(variance).epsilon(4.5 * std::sqrt(2.0 / kSamples)));
     }
     CHECK(kolmogorov_two(direct, shortcut) < 1.95);
 }
@@ -120,7 +121,7 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
     for (std::size_t i = 0; i < signal.size(); ++i) {
         folded[i % kBins] += signal[i] * signal[i];
     }
-    NoiseDraw draw;
+    NoiseVariates draw;
     SensorNoise(kTurns).draw(engine, kBins, draw);
     const double sigma = 0.5;
     std::vector<double> expected(kBins);

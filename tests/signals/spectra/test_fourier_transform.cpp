@@ -23,7 +23,8 @@ std::vector<Complex> random_signal(int points) {
     return signal;
 }
 
-std::vector<Complex> transformed(const std::vector<Complex>& signal, FourierTransform::Way way) {
+std::vector<Complex> transformed(const std::vector<Complex>& signal,
+                                 FourierTransform::Direction way) {
     std::vector<Complex> out(signal.size());
     FourierTransform(static_cast<int>(signal.size()), way).transform(signal, out);
     return out;
@@ -48,8 +49,9 @@ TEST_CASE("Fourier transforms of any length are the sums that define them, both 
         const auto signal = random_signal(points);
         // Results have a magnitude of some sqrt(2 n).
         const double limit = 1e-14 * std::sqrt(points);
-        for (const auto way : {FourierTransform::Way::forward, FourierTransform::Way::back}) {
-            const int sign = way == FourierTransform::Way::back ? 1 : -1;
+        for (const auto way :
+             {FourierTransform::Direction::forward, FourierTransform::Direction::back}) {
+            const int sign = way == FourierTransform::Direction::back ? 1 : -1;
             const auto spectrum = transformed(signal, way);
             double worst = 0.0;
             for (std::size_t k = 0; k < spectrum.size(); k += 1 + spectrum.size() / 300) {
@@ -65,8 +67,8 @@ TEST_CASE("Fourier transforms of any length are the sums that define them, both 
 
 TEST_CASE("The transform and its inverse give the signal times its length") {
     const auto signal = random_signal(31 * 432);
-    const auto again = transformed(transformed(signal, FourierTransform::Way::forward),
-                                   FourierTransform::Way::back);
+    const auto again = transformed(transformed(signal, FourierTransform::Direction::forward),
+                                   FourierTransform::Direction::back);
     double worst = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
         worst = std::max(worst, std::abs(again[i] / (31.0 * 432.0) - signal[i]));
@@ -76,11 +78,11 @@ TEST_CASE("The transform and its inverse give the signal times its length") {
 
 TEST_CASE("Fourier transforms have the same bits on every instruction set") {
     const auto signal = random_signal(31 * 108);
-    const auto reference = transformed(signal, FourierTransform::Way::forward);
+    const auto reference = transformed(signal, FourierTransform::Direction::forward);
     const auto best = machine::best_instruction_set();
     for (int set = 0; set <= static_cast<int>(best); ++set) {
         machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
-        CHECK(transformed(signal, FourierTransform::Way::forward) == reference);
+        CHECK(transformed(signal, FourierTransform::Direction::forward) == reference);
     }
     machine::use_instruction_set(best);
 }

@@ -84,12 +84,12 @@ TEST_CASE("Noise that is zero throughout leaves the signal's spectrum unchanged"
         signal[i] = std::cos(0.3 * static_cast<double>(i * i));
     }
     OrderSpectrum spectrum(62);
-    std::vector<double> alone(spectrum.orders()), beside(spectrum.orders());
+    std::vector<double> alone(spectrum.orders()), with_other(spectrum.orders());
     spectrum.load(signal);
     spectrum.amplitudes(1.0, alone);
     spectrum.load(signal, std::vector<double>(62, 0.0));
-    spectrum.amplitudes(1.0, beside);
-    CHECK(alone == beside);
+    spectrum.amplitudes(1.0, with_other);
+    CHECK(alone == with_other);
 }
 
 TEST_CASE("A spectrum refuses signals that are not one turn") {

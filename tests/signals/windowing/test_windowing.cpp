@@ -99,7 +99,7 @@ struct DirectWindows {
     double mean_square = 0.0;
 };
 
-DirectWindows direct_windows(const std::vector<double>& folded, const NoiseDraw& noise,
+DirectWindows direct_windows(const std::vector<double>& folded, const NoiseVariates& noise,
                              double sigma, const SpanLayout& layout, int phases, double taper) {
     std::vector<long double> bins;
     long double total = 0.0L;
@@ -167,8 +167,8 @@ TEST_CASE("Every noise level's windows match its noisy bins, for faint noise or 
             const SpanLayout layout{teeth, 12, 12};
             const std::size_t bins = static_cast<std::size_t>(teeth) * phases;
             const std::vector<double> folded = random_values(bins, 5, 0.0, 8.0);
-            const NoiseDraw noise{random_values(bins, 6, -2.0, 2.0),
-                                  random_values(bins, 7, 4.0, 20.0)};
+            const NoiseVariates noise{random_values(bins, 6, -2.0, 2.0),
+                                      random_values(bins, 7, 4.0, 20.0)};
             for (const double taper : {0.0, 0.1, 0.35, 0.8, 1.0}) {
                 Windowing windowing(layout, phases, taper);
                 windowing.load(folded, noise);
@@ -197,7 +197,7 @@ TEST_CASE("Noise that cancels the signal leaves zero, not less") {
     const int phases = 20;
     const double sigma = 0.7;
     const std::vector<double> folded = random_values(9 * 20, 8, 1.0, 8.0);
-    NoiseDraw noise{{}, std::vector<double>(folded.size(), 0.0)};
+    NoiseVariates noise{{}, std::vector<double>(folded.size(), 0.0)};
     for (const double f : folded) {
         noise.along.push_back(-std::sqrt(f) / sigma);
     }
@@ -216,8 +216,8 @@ TEST_CASE("Noise that cancels the signal leaves zero, not less") {
 TEST_CASE("Without noise the windows do not depend on previously loaded noise") {
     const SpanLayout layout{31, 81, 81};
     const std::vector<double> folded = random_values(31 * 50, 3, 0.0, 1.0);
-    const NoiseDraw noise{random_values(folded.size(), 6, -2.0, 2.0),
-                          random_values(folded.size(), 7, 60.0, 90.0)};
+    const NoiseVariates noise{random_values(folded.size(), 6, -2.0, 2.0),
+                              random_values(folded.size(), 7, 60.0, 90.0)};
     Windowing windowing(layout, 50, 0.1);
     std::vector<double> rms(31), alone(31);
     windowing.load(folded, noise);
@@ -232,7 +232,7 @@ TEST_CASE("Without noise the windows do not depend on previously loaded noise") 
     std::vector<double> few(30);
     CHECK_THROWS_AS(windowing.search(0.0, few), std::invalid_argument);
     CHECK_THROWS_AS(windowing.load(few), std::invalid_argument);
-    CHECK_THROWS_AS(windowing.load(folded, NoiseDraw{few, few}), std::invalid_argument);
+    CHECK_THROWS_AS(windowing.load(folded, NoiseVariates{few, few}), std::invalid_argument);
 }
 
 TEST_CASE("Equal teeth have bit-equal RMS and the earliest of equal offsets is used") {
@@ -257,8 +257,8 @@ TEST_CASE("Equal teeth have bit-equal RMS and the earliest of equal offsets is u
 TEST_CASE("The window search gives the same bits on every instruction set") {
     const SpanLayout layout{31, 81, 81};
     const std::vector<double> folded = random_values(31 * 432, 6, 0.0, 1.0);
-    const NoiseDraw noise{random_values(folded.size(), 7, -2.0, 2.0),
-                          random_values(folded.size(), 8, 60.0, 90.0)};
+    const NoiseVariates noise{random_values(folded.size(), 7, -2.0, 2.0),
+                              random_values(folded.size(), 8, 60.0, 90.0)};
     Windowing windowing(layout, 432, 0.1);
     const auto best = machine::best_instruction_set();
     for (const double sigma : {0.0, 0.3}) {

@@ -1,0 +1,111 @@
+#include "analysis/monitoring/monitor_performance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/wilson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// Order statistic of rank ceil(n q); NaN if there are no values.
+double sample_quantile(std::vector<double> values, double quantile) {
+    if (values.empty()) {
+        return kNan;
+    }
+    const auto n = static_cast<double>(values.size());
+    const auto rank = std::max<long>(1, std::lround(std::ceil(n * quantile - 1e-9)));
+    const auto place = values.begin() + (rank - 1);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+// Record of the first alarm after the crack's initiation.
+std::optional<std::size_t> detection(const Detector& detector, const CrackedLife& life,
+                                     double threshold) {
+    for (const std::size_t record : detector_alarms(detector, life.values, threshold).alarms) {
+        if (record >= life.first) {
+            return record;
+        }
+    }
+    return std::nullopt;
+}
+
+// Share over all pairs of a healthy life and a cracked one that ends.
+double share_by_chance(const Detector& detector, std::span<const HealthyLife> healthy,
+                       std::span<const CrackedLife> cracked, double threshold) {
+    long pairs = 0, found = 0;
+    for (const HealthyLife& one : healthy) {
+        const std::vector<std::size_t> alarms =
+            detector_alarms(detector, one.values, threshold).alarms;
+        for (const CrackedLife& life : cracked) {
+            if (life.end_hours) {
+                const auto first = std::lower_bound(alarms.begin(), alarms.end(), life.first);
+                ++pairs;
+                found += first != alarms.end() && *first < life.values.size() ? 1 : 0;
+            }
+        }
+    }
+    return pairs > 0 ? static_cast<double>(found) / static_cast<double>(pairs) : kNan;
+}
+
+}  // namespace
+
+double quantile_bound(std::vector<double> values, double quantile, double confidence) {
+    std::sort(values.begin(), values.end());
+    // The r-th smallest value lies below the quantile if r or more values do.
+    const auto count = static_cast<double>(values.size());
+    for (std::size_t r = 1; r <= values.size(); ++r) {
+        if (binomial_cdf(count, quantile, static_cast<double>(r - 1)) >= confidence) {
+            return values[r - 1];
+        }
+    }
+    return kNan;
+}
+
+MonitorPerformance monitor_performance(const Detector& detector,
+                                       std::span<const HealthyLife> setting,
+                                       std::span<const HealthyLife> healthy,
+                                       std::span<const CrackedLife> cracked, double per_1000_h,
+                                       double confidence) {
+    MonitorPerformance performance;
+    performance.threshold = monitor_threshold(detector, setting, per_1000_h);
+    const double threshold = performance.threshold.value;
+    performance.false_alarms = false_alarms(detector, healthy, threshold, confidence);
+    performance.expected_per_1000_h =
+        expected_per_1000_h(performance.threshold, performance.false_alarms);
+    if (std::isnan(threshold)) {
+        return performance;
+    }
+    std::vector<double> sizes, warnings;
+    for (const CrackedLife& life : cracked) {
+        const auto record = detection(detector, life, threshold);
+        performance.alarm_hours.push_back(record ? life.hours[*record] : kNan);
+        if (!life.end_hours) {
+            continue;
+        }
+        ++performance.ended;
+        sizes.push_back(record ? life.sizes[*record] : kNever);
+        if (record) {
+            ++performance.found;
+            warnings.push_back(*life.end_hours - life.hours[*record]);
+        }
+    }
+    if (performance.ended > 0) {
+        performance.share =
+            static_cast<double>(performance.found) / static_cast<double>(performance.ended);
+        performance.share_by_chance = share_by_chance(detector, healthy, cracked, threshold);
+        performance.share_bounds =
+            wilson_interval(performance.found, performance.ended, confidence);
+    }
+    performance.size_50 = {sample_quantile(sizes, 0.5), quantile_bound(sizes, 0.5, confidence)};
+    performance.size_90 = {sample_quantile(sizes, 0.9), quantile_bound(sizes, 0.9, confidence)};
+    performance.warning_50 = sample_quantile(warnings, 0.5);
+    performance.warning_90 = sample_quantile(warnings, 0.1);
+    return performance;
+}
+
+}  // namespace gearpod::analysis

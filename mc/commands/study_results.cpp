@@ -1,0 +1,172 @@
+#include "mc/commands/study_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "mc/commands/commands.hpp"
+#include "mc/ensemble/results_check.hpp"
+#include "mc/files/json_text.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/report/example_gearboxes.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/run/support.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+[[noreturn]] void fail_with(const std::string& lines) {
+    throw std::runtime_error(lines.substr(0, lines.size() - 1));
+}
+
+}  // namespace
+
+void OptionProblems::add(const std::string& option, const std::string& what) {
+    text_ += fmt::format("{}: {}\n", option, what);
+}
+
+void OptionProblems::end() const {
+    if (!text_.empty()) {
+        fail_with(text_);
+    }
+}
+
+StudyResults read_study_results(const std::string& path) {
+    StudyResults requested{path, read_frame(path), {}};
+    const FileRows rows(path, requested.frame);
+    check_results(path, requested.frame, rows);
+    StudyReading reading = read_study_text(requested.frame.provenance_value("study"), path);
+    if (!reading.study) {
+        throw std::runtime_error(path + ": the study in the file cannot be read");
+    }
+    requested.study = std::move(*reading.study);
+    requested.frame.detection = detect_all(requested.frame, rows);
+    return requested;
+}
+
+std::optional<FeatureAtLevel> find_feature_at_level(const StudyResults& results,
+                                                    const std::string& feature,
+                                                    const std::optional<double>& noise_level,
+                                                    OptionProblems& wrong_options) {
+    const Results& frame = results.frame;
+    const auto found =
+        std::ranges::find(frame.detection, feature, &analysis::FeatureDetection::feature);
+    if (found == frame.detection.end()) {
+        std::vector<std::string> names;
+        for (const FeatureResult& known : frame.features) {
+            names.push_back(known.name);
+        }
+        wrong_options.add("--feature", fmt::format("\"{}\" is not in {}; its features are {}",
+                                                   feature, results.path, fmt::join(names, ", ")));
+        return std::nullopt;
+    }
+    const double requested_level =
+        noise_level.value_or(frame.noise_levels[reference_level(frame.noise_levels)]);
+    const auto level = std::ranges::find(frame.noise_levels, requested_level);
+    if (level == frame.noise_levels.end()) {
+        wrong_options.add("--noise-level",
+                          fmt::format("{:g} is not a noise level of the file; choose from {:g}",
+                                      requested_level, fmt::join(frame.noise_levels, ", ")));
+        return std::nullopt;
+    }
+    const auto at = static_cast<std::size_t>(level - frame.noise_levels.begin());
+    return FeatureAtLevel{features::find_feature(feature), &found->levels[at]};
+}
+
+void require_threshold(const FeatureAtLevel& requested, OptionProblems& wrong_options) {
+    if (std::isnan(requested.detection->threshold)) {
+        wrong_options.add("--feature",
+                          fmt::format("\"{}\" has no threshold at noise x {:g}: too few healthy "
+                                      "gearboxes for the false-alarm rate; run the study with more "
+                                      "(ensemble.threshold_instances)",
+                                      requested.feature->name, requested.detection->noise_level));
+    }
+}
+
+RequestedSize read_requested_size(const Study& study, double size, OptionProblems& wrong_options) {
+    if (!(size > 0.0) || std::isinf(size)) {
+        wrong_options.add("--size", fmt::format("must be > 0 and finite, but is {:g}", size));
+    }
+    const Unit& unit = fault_size_key(study).unit;
+    return {size * unit.to_si, size, unit.suffix.empty() ? "" : std::string(unit.name)};
+}
+
+const char* alarm_symbol_of(const std::string& feature) {
+    return analysis::alarm_symbol(analysis::alarm_of(*features::find_feature(feature)));
+}
+
+std::string miss_probability_text(const RequestedSize& size, const std::string& feature,
+                                  double noise_level, double threshold) {
+    return fmt::format(
+        "probability that {} misses a fault of {:g}{}{} at noise x {:g} (alarm if {} {:.5g}): ",
+        feature, size.given, size.unit.empty() ? "" : " ", size.unit, noise_level,
+        alarm_symbol_of(feature), threshold);
+}
+
+StudyScene scene_for_results(const StudyResults& results, const Study& study) {
+    StudyScene made = make_scene(results.path, read_study_text(resolved_text(study), results.path));
+    if (!made) {
+        const std::string size = fault_size_key(study).path();
+        for (Problem& problem : made.problems) {
+            const bool of_size = problem.key == size;
+            problem.file = of_size ? "--size" : results.path;
+            problem.line = 0;
+            problem.key = of_size ? "" : problem.key;
+        }
+        fail_with(format(made.problems));
+    }
+    return made;
+}
+
+bool prepare_together(const Ranks& ranks, const std::string& results, const std::string& json,
+                      const std::function<void()>& prepare) {
+    std::string problem;
+    if (ranks.leads() && !can_write({"--json", json}, {{"the results file", results}})) {
+        problem = "-";  // can_write() has printed the reason
+    } else {
+        try {
+            prepare();
+        } catch (const std::exception& error) {
+            problem = exception_text(error);
+        }
+    }
+    for (const std::string& one : ranks.gather(problem)) {
+        if (!one.empty()) {
+            if (ranks.leads() && one != "-") {
+                fmt::print(stderr, "{}\n", one);
+            }
+            return false;
+        }
+    }
+    return true;
+}
+
+int compute_together(const Ranks& ranks, Progress& progress, const std::string& json,
+                     const std::function<CommandResult()>& compute) {
+    try {
+        const CommandResult command_result = compute();
+        progress.finish();
+        if (!ranks.leads()) {
+            return kDone;
+        }
+        if (json != "-") {
+            fmt::print("{}", command_result.text);
+        }
+        if (!json.empty() && !write_text_to(json, json_text(command_result.json, 2) + "\n")) {
+            return kBadInput;
+        }
+        return command_result.failed == 0 ? kDone : kSomeFailed;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;  // there is no checkpoint to resume from
+    }
+}
+
+}  // namespace gearpod::mc

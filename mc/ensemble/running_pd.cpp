@@ -1,0 +1,131 @@
+#include "mc/ensemble/running_pd.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "analysis/detection/size_groups.hpp"
+#include "analysis/detection/threshold.hpp"
+#include "analysis/statistics/wilson.hpp"
+#include "mc/ensemble/batch_worker.hpp"
+#include "mc/scene/feature_needs.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::size_t level_next_to(const std::vector<double>& levels, double requested) {
+    const auto nearer = [&](double a, double b) {
+        return std::abs(a - requested) < std::abs(b - requested);
+    };
+    return static_cast<std::size_t>(std::min_element(levels.begin(), levels.end(), nearer) -
+                                    levels.begin());
+}
+
+}  // namespace
+
+RunningPd::RunningPd(const Study& study, const BatchPlan& plan, const std::string& feature)
+    : request_(detection_request(study)), plan_(plan), shape_(row_shape(Sampler(study), study)) {
+    const Until& until = study.ensemble.until;
+    const auto used = used_features(study);
+    feature_name_ = feature.empty() ? study.features.use.front() : feature;
+    if (until.half_width) {
+        feature_name_ = features::all_features()[static_cast<std::size_t>(*until.feature)].name;
+    }
+    const auto place = static_cast<std::size_t>(
+        std::find(study.features.use.begin(), study.features.use.end(), feature_name_) -
+        study.features.use.begin());
+    alarm_ = analysis::alarm_of(*used.at(place));
+    requested_half_width_ = until.half_width;
+    level_ = level_next_to(request_.noise_levels, requested_half_width_ ? until.noise_level : 1.0);
+    group_ = request_.groups.size() - 1;
+    if (requested_half_width_) {
+        group_ = analysis::group_of(size_in_si(study, *until.size), request_.groups).value();
+    }
+    size_name_ = size_text(study, request_.groups[group_]);
+    column_ = shape_.value_of(place, level_);
+}
+
+void RunningPd::advance(const RowStore& store) {
+    while (!stop_ && next_ < plan_.batches() && store.has(next_)) {
+        if (next_ == plan_.threshold_batches()) {
+            set_threshold(store);
+        }
+        if (next_ >= plan_.threshold_batches()) {
+            count(store.read(next_));
+        }
+        ++next_;
+        if (requested_half_width_ && tested_ > 0 &&
+            half_width(static_cast<double>(tested_)) <= *requested_half_width_) {
+            stop_ = next_;
+        }
+    }
+}
+
+void RunningPd::set_threshold(const RowStore& store) {
+    std::vector<double> healthy;
+    for (std::size_t batch = 0; batch < plan_.threshold_batches(); ++batch) {
+        const BatchRows rows = store.read(batch);
+        for (std::size_t row = 0; row < rows.count(); ++row) {
+            healthy.push_back(rows.values[row * shape_.values() + column_]);
+        }
+    }
+    threshold_ =
+        analysis::alarm_threshold(std::move(healthy), alarm_, request_.false_alarm_rate).value;
+}
+
+void RunningPd::count(const BatchRows& rows) {
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        const double* values = rows.values.data() + row * shape_.values();
+        const double value = values[column_];
+        ++graded_;
+        if (std::isfinite(value) && !std::isnan(threshold_) &&
+            analysis::group_of(values[shape_.parameters - 1], request_.groups) == group_) {
+            ++tested_;
+            detected_ += analysis::is_alarm(value, threshold_, alarm_) ? 1 : 0;
+        }
+    }
+}
+
+// Half width of the Wilson interval at the current rate for a sample of `tested` gearboxes.
+double RunningPd::half_width(double tested) const {
+    const long n = std::lround(tested);
+    const long detected =
+        std::lround(static_cast<double>(detected_) * tested / static_cast<double>(tested_));
+    const auto interval = analysis::wilson_interval(detected, n, request_.confidence);
+    return 0.5 * (interval.upper - interval.lower);
+}
+
+std::string RunningPd::text() const {
+    if (tested_ == 0) {
+        return "";
+    }
+    const auto interval = analysis::wilson_interval(detected_, tested_, request_.confidence);
+    return fmt::format("Pd({}, {}, noise x {:g}) = {:.3g} [{:.3g}, {:.3g}]", feature_name_,
+                       size_name_, request_.noise_levels[level_],
+                       static_cast<double>(detected_) / static_cast<double>(tested_),
+                       interval.lower, interval.upper);
+}
+
+std::optional<std::size_t> RunningPd::rows_left() const {
+    if (!requested_half_width_ || tested_ == 0 || stop_) {
+        return std::nullopt;
+    }
+    double few = static_cast<double>(tested_), many = few;
+    constexpr double kMost = 1e12;
+    while (many < kMost && half_width(many) > *requested_half_width_) {
+        many *= 2.0;
+    }
+    while (many - few > 1.0) {
+        const double middle = std::floor(0.5 * (few + many));
+        (half_width(middle) > *requested_half_width_ ? few : many) = middle;
+    }
+    const double each = static_cast<double>(graded_) / static_cast<double>(tested_);
+    return static_cast<std::size_t>(each * many) -
+           std::min(graded_, static_cast<std::size_t>(each * many));
+}
+
+}  // namespace gearpod::mc

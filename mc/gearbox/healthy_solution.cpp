@@ -1,0 +1,155 @@
+#include "mc/gearbox/healthy_solution.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mc/gearbox/tile_sensor_recorder.hpp"
+#include "signals/sensor/sensor.hpp"
+
+namespace gearpod::mc {
+
+bool integrates_perturbation_only(const Scene& scene) {
+    return scene.study().numerics.horizon != Horizon::periodic &&
+           scene.recorded_meshes() == scene.span_meshes();
+}
+
+namespace {
+
+void remove_mean(std::vector<double>& values) {
+    const double mean =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    for (double& value : values) {
+        value -= mean;
+    }
+}
+
+// Mesh periods of the span that were integrated again, and the record of each of them.
+struct ChangedMeshes {
+    std::vector<int> meshes;
+    signals::Timeline timeline;  // unchanged mesh periods refer to an arbitrary record
+
+    explicit ChangedMeshes(const lockstep::TileResult& integration)
+        : timeline(integration.content) {
+        for (std::size_t k = 0; k < timeline.size(); ++k) {
+            if (timeline[k] == lockstep::kUnchanged) {
+                timeline[k] = 0;
+            } else {
+                meshes.push_back(static_cast<int>(k));
+            }
+        }
+    }
+};
+
+void clear_failed(HealthySolution::Signals& all) {
+    for (std::size_t lane = 0; lane < all.status.size(); ++lane) {
+        if (all.status[lane] != Status::ok) {
+            all.lane[lane] = {};
+        }
+    }
+}
+
+}  // namespace
+
+HealthySolution::HealthySolution(const Scene& scene, const signals::PathGrid& path,
+                                 std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
+                                 int fewest)
+    : scene_(scene), path_(path), ids_(ids), inputs_(std::move(inputs)) {
+    for (InstanceInputs& one : inputs_) {
+        one.gain = 1.0;
+    }
+    const bool keep = integrates_perturbation_only(scene);
+    GearboxTile tile =
+        run_with_inputs(scene, path, ids, inputs_of(0.0), fewest, {.keep_states = keep});
+    healthy_ = signals_of(tile);
+    inputs_.resize(tile.inputs.size(), inputs_.back());
+    if (keep) {
+        states_ = std::move(tile.integration.states);
+        for (const int record : tile.integration.content) {
+            te_.push_back(std::move(tile.integration.records[static_cast<std::size_t>(record)].te));
+        }
+    }
+}
+
+std::vector<InstanceInputs> HealthySolution::inputs_of(double size) const {
+    std::vector<InstanceInputs> all = inputs_;
+    for (InstanceInputs& one : all) {
+        one.fault_size = size;
+    }
+    return all;
+}
+
+HealthySolution::Signals HealthySolution::signals_of(const GearboxTile& tile) const {
+    Signals all{all_lane_signals(scene_, path_, tile, scene_.span_meshes()), tile.status};
+    clear_failed(all);
+    return all;
+}
+
+HealthySolution::Signals HealthySolution::with_fault(double size) const {
+    if (states_.empty()) {
+        return signals_of(run_with_inputs(scene_, path_, ids_, inputs_of(size),
+                                          static_cast<int>(inputs_.size())));
+    }
+    const GearboxTile changed = run_fault_perturbations(scene_, ids_, inputs_of(size), states_);
+    Signals all = healthy_;
+    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+        all.lane[lane].folded.clear();  // the folded squares of the healthy gearbox no longer apply
+        if (all.status[lane] == Status::ok) {
+            all.status[lane] = changed.status[lane];
+        }
+    }
+    change_te(changed, all.lane);
+    change_sensor(changed, all.lane);
+    clear_failed(all);
+    return all;
+}
+
+// Adds to the average of tooth j the mean change of its mesh periods (signals::average_te).
+void HealthySolution::change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const {
+    const auto per_mesh = static_cast<std::size_t>(scene_.te_samples_per_mesh());
+    const std::size_t width = inputs_.size(),
+                      stride =
+                          static_cast<std::size_t>(scene_.samples_per_mesh()) / per_mesh * width;
+    const auto teeth = static_cast<std::size_t>(scene_.span().planet_teeth);
+    const double share = 1.0 / scene_.span().ring_teeth;
+    for (std::size_t k = 0; k < changed.integration.content.size(); ++k) {
+        const int record = changed.integration.content[k];
+        if (record == lockstep::kUnchanged) {
+            continue;
+        }
+        const auto& now = changed.integration.records[static_cast<std::size_t>(record)].te;
+        for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+            std::vector<double>& turn = lanes[lane].te_turn;
+            for (std::size_t p = 0; p < per_mesh && !turn.empty(); ++p) {
+                const std::size_t at = p * stride + lane;
+                turn[k % teeth * per_mesh + p] += share * (now[at] - te_[k][at]);
+            }
+        }
+    }
+    for (LaneSignals& lane : lanes) {
+        remove_mean(lane.te_turn);
+    }
+}
+
+void HealthySolution::change_sensor(const GearboxTile& changed,
+                                    std::vector<LaneSignals>& lanes) const {
+    const ChangedMeshes span(changed.integration);
+    if (span.meshes.empty()) {
+        return;
+    }
+    const int phases = scene_.samples_per_mesh();
+    const auto sensor =
+        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_,
+                            path_exponents(std::span(inputs_).first(ids_.size())), span.meshes);
+    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+        if (lanes[lane].sensor.empty()) {
+            continue;
+        }
+        for (std::size_t i = 0; i < span.meshes.size(); ++i) {
+            std::copy_n(
+                sensor[lane].begin() + static_cast<std::ptrdiff_t>(i) * phases, phases,
+                lanes[lane].sensor.begin() + static_cast<std::ptrdiff_t>(span.meshes[i]) * phases);
+        }
+    }
+}
+
+}  // namespace gearpod::mc

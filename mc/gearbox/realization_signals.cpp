@@ -1,0 +1,214 @@
+#include "mc/gearbox/realization_signals.hpp"
+
+#include <algorithm>
+#include <boost/random/uniform_01.hpp>
+
+#include "machine/cancellation.hpp"
+#include "machine/wall_clock.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/random/philox.hpp"
+#include "mc/scene/feature_needs.hpp"
+#include "mc/study/noise.hpp"
+#include "signals/noise/encoder_noise.hpp"
+#include "signals/noise/normals.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Adds its own lifetime in seconds to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+    ~Stopwatch() { sum_ += seconds_since(start_); }
+
+  private:
+    double& sum_;
+    const WallClock::time_point start_ = WallClock::now();
+};
+
+}  // namespace
+
+signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
+    const double sample_s =
+        dynamics::mesh_period_s(scene.inputs(inputs)) / scene.samples_per_mesh();
+    return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s);
+}
+
+std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
+                                 std::span<const double> clean, const signals::NoiseVariates& draw,
+                                 const GearboxId& id) {
+    if (noise_by_density(scene.study())) {
+        Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor");
+        std::vector<double> unit(clean.size());
+        low_pass_noise(scene, inputs).draw(engine, std::span(unit));
+        return unit;
+    }
+    // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
+    // the directions that expand folded sensor noise to individual samples.
+    Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor.direction");
+    const std::size_t bins = draw.along.size();
+    const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
+    std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
+    unit.resize(clean.size());
+    signals::draw_normals(engine, std::span(unit).subspan(span));
+    return unit;
+}
+
+void add_noise(std::span<const double> unit, double sigma, std::span<double> samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] += sigma * unit[i];
+    }
+}
+
+RealizationSignals::RealizationSignals(const Scene& scene, unsigned needs)
+    : RealizationSignals(scene, needs, scene.span().ring_teeth) {}
+
+RealizationSignals::RealizationSignals(const Scene& scene, unsigned needs, int turns)
+    : scene_(scene),
+      span_{scene.span().planet_teeth, turns, scene.span().carrier_meshes},
+      sensor_noise_(turns),
+      windowing_(span_, scene.samples_per_mesh(), scene.study().features.tukey_taper),
+      spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
+      analysis_(scene, needs),
+      needs_samples_(needs_samples(needs)),
+      meshes_(needed_sensor_meshes(scene, needs)),
+      highest_level_(std::ranges::max(scene.study().sensor.noise_levels)),
+      amplitude_(static_cast<std::size_t>(spectrum_.orders())),
+      tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
+
+bool RealizationSignals::has_sensor_noise(const InstanceInputs& inputs) const {
+    return highest_level_ * inputs.noise_m_s2 > 0.0;
+}
+
+void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                                           const GearboxId& id) {
+    const std::size_t bins = gearbox.folded.size();
+    const bool by_density = noise_by_density(scene_.study());
+    if (!by_density) {
+        Normals engine = Normals::of_noise(scene_.study(), id, "noise.sensor");
+        sensor_noise_.draw(engine, bins, noise_.sensor);
+        if (id.noise_sampling != NoiseSampling::plain) {
+            sample_sensor_noise(gearbox, inputs, id);
+        }
+    }
+    if (!gearbox.sensor.empty()) {
+        noise_.samples = sample_noise(scene_, inputs, gearbox.sensor, noise_.sensor, id);
+    }
+    if (by_density) {
+        const std::size_t span = bins * static_cast<std::size_t>(span_.ring_teeth);
+        noise_.sensor = signals::noise_variates_of_samples(
+            std::span(gearbox.sensor).first(span), std::span(noise_.samples).first(span), bins);
+    }
+}
+
+void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
+                                             const InstanceInputs& inputs, const GearboxId& id) {
+    const auto same = [&](const GearboxId& other) {
+        return other.group == id.group && other.index == id.index &&
+               other.noise_sampling == id.noise_sampling;
+    };
+    if (!sampler_ || !same(sampled_gearbox_)) {
+        std::vector<double> sigmas;
+        for (const double level : scene_.study().sensor.noise_levels) {
+            sigmas.push_back(level * inputs.noise_m_s2);
+        }
+        sampler_.emplace(span_, scene_.samples_per_mesh(), scene_.study().features.tukey_taper);
+        sampler_->load(gearbox.folded, sigmas,
+                       id.noise_sampling == NoiseSampling::towards_alarms
+                           ? signals::NoiseImportanceSampler::TargetTail::loud
+                           : signals::NoiseImportanceSampler::TargetTail::quiet);
+        sampled_gearbox_ = id;
+    }
+    Philox engine = noise_stream(scene_.study(), id, "noise.sensor.tilt");
+    const double pick = boost::random::uniform_01<double>()(engine);
+    sampler_->sample(id.repeat % signals::NoiseImportanceSampler::kKinds, pick, noise_.sensor);
+    importance_sampled_ = true;
+}
+
+double RealizationSignals::noise_weight() const {
+    return importance_sampled_ ? sampler_->weight(noise_.sensor) : 1.0;
+}
+
+void RealizationSignals::draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                                    const GearboxId& id) {
+    const Stopwatch watch(noise_s_);
+    importance_sampled_ = false;
+    const std::size_t bins = gearbox.folded.size();
+    if (bins > 0 && has_sensor_noise(inputs)) {
+        draw_sensor_noise(gearbox, inputs, id);
+    } else {
+        noise_.sensor.along.assign(bins, 0.0);
+        noise_.sensor.across.assign(bins, 0.0);
+        noise_.samples.assign(gearbox.sensor.size(), 0.0);
+    }
+    noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
+    if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
+        Normals encoder = Normals::of_noise(scene_.study(), id, "noise.encoder");
+        signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
+    }
+}
+
+void RealizationSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                              const GearboxId& id) {
+    draw_noise(gearbox, inputs, id);
+    load_signals(gearbox, inputs);
+}
+
+void RealizationSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                              RealizationNoise noise) {
+    noise_ = std::move(noise);
+    load_signals(gearbox, inputs);
+}
+
+void RealizationSignals::load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs) {
+    gearbox_ = &gearbox;
+    sensor_rms_ = inputs.noise_m_s2;
+    encoder_rms_ = inputs.encoder_noise_rad;
+    if (gearbox.folded.empty()) {
+        // A quasi-static gearbox has no sensor.
+    } else if (has_sensor_noise(inputs)) {
+        windowing_.load(gearbox.folded, noise_.sensor);
+    } else {
+        windowing_.load(gearbox.folded);
+    }
+    spectrum_.load(gearbox.te_turn, noise_.encoder);
+}
+
+void RealizationSignals::sensor_features(double noise, features::FeatureInput& input) {
+    const int offset = windowing_.search(noise, tooth_rms_);
+    input.sensor_mean_square = windowing_.mean_square(noise);
+    if (needs_samples_) {
+        samples_ = gearbox_->sensor;
+        add_noise(noise_.samples, noise, samples_);
+        analysis_.sensor(samples_, span_.ring_teeth, offset, input);
+    }
+}
+
+void RealizationSignals::te_features(double noise, features::FeatureInput& input) {
+    te_.resize(gearbox_->te_turn.size());
+    for (std::size_t i = 0; i < te_.size(); ++i) {
+        te_[i] = gearbox_->te_turn[i] + noise * noise_.encoder[i];
+    }
+    spectrum_.amplitudes(noise, amplitude_);
+    analysis_.te(te_, input);
+}
+
+features::FeatureInput RealizationSignals::at(std::size_t level) {
+    machine::throw_if_cancelled();
+    const double factor = scene_.study().sensor.noise_levels[level];
+    features::FeatureInput input;
+    if (!gearbox_->folded.empty()) {
+        sensor_features(factor * sensor_rms_, input);
+    }
+    te_features(factor * encoder_rms_, input);
+    input.te_turn = te_;
+    input.te_amplitude = amplitude_;
+    input.planet_teeth = span_.planet_teeth;
+    input.te_harmonics = scene_.study().features.te_harmonics;
+    input.tooth_rms = tooth_rms_;
+    return input;
+}
+
+}  // namespace gearpod::mc

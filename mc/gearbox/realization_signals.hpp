@@ -1,0 +1,102 @@
+// Signals of one gearbox at every noise level, in the form that features need.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "features/feature.hpp"
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/span_analysis.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/scene/scene.hpp"
+#include "signals/noise/low_pass_noise.hpp"
+#include "signals/noise/sensor_noise.hpp"
+#include "signals/spectra/order_spectrum.hpp"
+#include "signals/windowing/noise_importance_sampler.hpp"
+#include "signals/windowing/windowing.hpp"
+
+namespace gearpod::mc {
+
+// Unit noise for every sample of a gearbox's noise-free sensor signal. The signal begins with the
+// span. Within the span, the noise folds exactly to `draw`; after it, each sample is independent.
+// Noise given by its spectral density is generated sample by sample throughout, and `draw` follows
+// from it.
+std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
+                                 std::span<const double> clean, const signals::NoiseVariates& draw,
+                                 const GearboxId& id);
+// Low-pass filter for the unit noise of a sensor whose noise is given by its spectral density.
+// Samples count as evenly spaced even if the speed fluctuates.
+signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
+// Computes samples[i] += sigma * unit[i].
+void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
+
+// Noise of one gearbox, common to all noise levels.
+struct RealizationNoise {
+    signals::NoiseVariates sensor;
+    std::vector<double> samples;  // unit rms, one value per sample of LaneSignals::sensor
+    std::vector<double> encoder;  // for a noise level of 1 rad rms
+};
+
+// Signals of a gearbox with noise, at each noise level. Holds scratch memory: use one object per
+// thread.
+class RealizationSignals {
+  public:
+    // `needs`: needs of the features (features::Need).
+    RealizationSignals(const Scene& scene, unsigned needs);
+    // The same for signals folded over `turns` planet turns instead of the scene's span, at least
+    // 3. Only for features that do not need samples.
+    RealizationSignals(const Scene& scene, unsigned needs, int turns);
+
+    // Number of mesh periods of sensor signal that LaneSignals must hold; may be 0.
+    int meshes() const { return meshes_; }
+
+    // Loads the next gearbox, with newly generated noise or with the given noise. `gearbox` must
+    // outlive all calls of at() for it.
+    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, RealizationNoise noise);
+    // Signals of the loaded gearbox at a noise level; valid until the next call.
+    features::FeatureInput at(std::size_t level);
+
+    const RealizationNoise& noise() const { return noise_; }
+    // Importance weight of the record loaded last; 1 without importance sampling.
+    double noise_weight() const;
+    // Seconds spent so far on generating noise.
+    double noise_s() const { return noise_s_; }
+
+  private:
+    // True if any noise level adds noise to the sensor.
+    bool has_sensor_noise(const InstanceInputs& inputs) const;
+    void draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                           const GearboxId& id);
+    // Tilts the noise exponentially. The kind of tilting follows from the record's number.
+    void sample_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                             const GearboxId& id);
+    // Generates the noise; zeros where no noise level adds any.
+    void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs);
+    // Both add the signals at one noise level, given as rms in m/s^2 and rad.
+    void sensor_features(double noise, features::FeatureInput& input);
+    void te_features(double noise, features::FeatureInput& input);
+
+    const Scene& scene_;
+    const signals::SpanLayout span_;
+    signals::SensorNoise sensor_noise_;
+    signals::Windowing windowing_;
+    std::optional<signals::NoiseImportanceSampler>
+        sampler_;                      // importance sampling for the gearbox `sampled_gearbox_`
+    GearboxId sampled_gearbox_;        // gearbox for which tilt_ was set up
+    bool importance_sampled_ = false;  // true if the record loaded last has tilted noise
+    signals::OrderSpectrum spectrum_;
+    SpanAnalysis analysis_;
+    bool needs_samples_;
+    int meshes_;
+    const double highest_level_;
+    const LaneSignals* gearbox_ = nullptr;
+    double sensor_rms_ = 0.0, encoder_rms_ = 0.0;  // noise at level 1, m/s^2 and rad
+    RealizationNoise noise_;
+    std::vector<double> te_, samples_, amplitude_, tooth_rms_;
+    double noise_s_ = 0.0;
+};
+
+}  // namespace gearpod::mc

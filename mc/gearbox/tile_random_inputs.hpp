@@ -1,0 +1,41 @@
+// Random inputs of a gearbox that are not among its sampled parameters: phases of interfering
+// tones, and excitation. Errors of the teeth: random_tooth_errors.hpp. The random inputs of a
+// gearbox depend on no other gearbox.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "lockstep/plan/excitation.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/scene/scene.hpp"
+#include "signals/noise/tones.hpp"
+
+namespace gearpod::mc {
+
+// In the functions below `inputs` has one gearbox per lane; lanes beyond `ids` repeat the last
+// gearbox.
+
+// Id of the gearbox in a lane.
+inline const GearboxId& id_of_lane(std::span<const GearboxId> ids, std::size_t lane) {
+    return ids[lane < ids.size() ? lane : ids.size() - 1];
+}
+
+// Interfering tones. Their phases are uniformly distributed, because no tone is synchronous with
+// the meshes. Empty without tones.
+signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
+                          std::span<const InstanceInputs> inputs);
+
+// Run-in: mesh periods that are integrated before the first recorded one. In this time, the
+// transient from the onset of tooth errors or variable excitation decays to the convergence
+// tolerance.
+int run_in_meshes(const Scene& scene);
+
+// Gravity, and the fluctuations of torque and speed. The noise has knots from before the longest
+// run-in until after the last mesh of scene.signal_meshes(), independent of the actual run-in. Its
+// first knot has a random position. Empty if the excitation is constant.
+std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
+                                                    std::span<const GearboxId> ids,
+                                                    std::span<const InstanceInputs> inputs);
+
+}  // namespace gearpod::mc

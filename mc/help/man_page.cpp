@@ -1,0 +1,130 @@
+#include "mc/help/man_page.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+namespace gearpod::mc {
+namespace {
+
+// Escapes text for roff: backslashes, hyphens, and a dot or quote at the start of a line.
+std::string roff(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        out += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+    }
+    return !out.empty() && (out[0] == '.' || out[0] == '\'') ? "\\&" + out : out;
+}
+
+std::vector<const CLI::App*> commands(const CLI::App& app) {
+    return app.get_subcommands(
+        [](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::vector<const CLI::Option*> options(const CLI::App& app) {
+    return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
+bool takes_value(const CLI::Option& option) {
+    return option.get_items_expected_max() > 0;
+}
+
+void add_option(std::string& out, const CLI::Option& option) {
+    out += ".TP\n.B " + roff(option.get_name(option.get_positional(), true));
+    if (takes_value(option) && !option.get_positional()) {
+        out += " \\fI" + roff(option.get_type_name()) + "\\fR";
+    }
+    out += "\n" + roff(option.get_description()) + "\n";
+}
+
+// Choices of an option, taken from the name of its check, "IN:{a,b}".
+std::vector<std::string> choices(const CLI::Option& option) {
+    std::vector<std::string> names;
+    const std::string type = option.get_type_name();
+    const std::size_t open = type.find('{'), close = type.find('}');
+    if (open == std::string::npos || close == std::string::npos) {
+        return names;
+    }
+    return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
+
+std::string words(const CLI::App& app) {
+    std::string text;
+    for (const CLI::Option* option : options(app)) {
+        for (const std::string& name : option->get_lnames()) {
+            text += " --" + name;
+        }
+        for (const std::string& name : option->get_snames()) {
+            text += " -" + name;
+        }
+    }
+    return text.empty() ? text : text.substr(1);
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& app, const std::string& version) {
+    std::string out = ".TH GEARPOD 1 \"\" \"" + roff(version) + "\" \"User Commands\"\n" +
+                      ".SH NAME\ngearpod \\- probability of detection of gear faults\n" +
+                      ".SH SYNOPSIS\n.B gearpod\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n" +
+                      ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";
+    for (const CLI::Option* option : options(app)) {
+        add_option(out, *option);
+    }
+    out += ".SH COMMANDS\n";
+    for (const CLI::App* command : commands(app)) {
+        out += ".SS gearpod " + roff(command->get_name()) + "\n" +
+               roff(command->get_description()) + "\n";
+        for (const CLI::Option* option : options(*command)) {
+            add_option(out, *option);
+        }
+    }
+    return out +
+           ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n2\nwrong input; every problem is printed\n"
+           ".TP\n3\nsome gearboxes failed; they are counted, and the results are written\n"
+           ".TP\n4\nstopped before the end; \\-\\-resume continues from the checkpoint\n";
+}
+
+std::string bash_completion(const CLI::App& app) {
+    std::string names, cases, values;
+    for (const CLI::App* command : commands(app)) {
+        names += (names.empty() ? "" : " ") + command->get_name();
+        cases +=
+            fmt::format("        {}) options=\"{}\" ;;\n", command->get_name(), words(*command));
+        for (const CLI::Option* option : options(*command)) {
+            const auto choice = choices(*option);
+            for (const std::string& name :
+                 choice.empty() ? std::vector<std::string>() : option->get_lnames()) {
+                values += fmt::format("        {}:--{}) choices=\"{}\" ;;\n", command->get_name(),
+                                      name, fmt::join(choice, " "));
+            }
+        }
+    }
+    return "# Bash completion of gearpod, generated from its command line.\n"
+           "_gearpod() {\n"
+           "    local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} options= choices=\n"
+           "    COMPREPLY=()\n"
+           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"" +
+           names + " " + words(app) +
+           "\" -- \"$word\")\n"
+           "        return\n"
+           "    fi\n"
+           "    case $command:${COMP_WORDS[COMP_CWORD - 1]} in\n" +
+           values +
+           "    esac\n"
+           "    case $command in\n" +
+           cases +
+           "    esac\n"
+           "    if [ -n \"$choices\" ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"$choices\" -- \"$word\")\n"
+           "    elif [ \"${word#-}\" != \"$word\" ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
+           "    else\n"
+           "        mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
+           "    fi\n"
+           "}\n"
+           "complete -o filenames -F _gearpod gearpod ./gearpod\n";
+}
+
+}  // namespace gearpod::mc

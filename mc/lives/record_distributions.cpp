@@ -1,0 +1,123 @@
+#include "mc/lives/record_distributions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/statistics/distributions.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kReach = 1.5;  // standard deviations
+
+double nominal_of(const Study& study, const RandomInput& input) {
+    const std::size_t dot = input.key.find('.');
+    const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
+    return std::get<NumberAccess>(key.access).get(study).value() / input.to_si;
+}
+
+}  // namespace
+
+RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quantity, double scatter)
+    : scatter_(scatter) {
+    for (const RandomInput& input : study.random) {
+        if (input.distribution.per_record() && record_quantity(input.key) == quantity) {
+            input_ = input;
+            nominal_ = nominal_of(study, input);
+        }
+    }
+}
+
+double RecordDistribution::factor(double unit) const {
+    if (!input_) {
+        return std::exp(scatter_ * unit);
+    }
+    const double share = analysis::normal_cdf(unit);
+    return input_->distribution.quantile(share) / nominal_;
+}
+
+double RecordDistribution::rms() const {
+    if (!input_) {
+        return std::exp(scatter_ * scatter_);
+    }
+    constexpr int kShares = 999;
+    double sum = 0.0;
+    for (int i = 0; i < kShares; ++i) {
+        const double value = input_->distribution.quantile((i + 0.5) / kShares) / nominal_;
+        sum += value * value / kShares;
+    }
+    return std::sqrt(sum);
+}
+
+std::vector<double> RecordDistribution::integrated_factors(int count) const {
+    if (!varies()) {
+        return {1.0};
+    }
+    std::vector<double> all;
+    for (int i = 0; i < count; ++i) {
+        const double next = factor(-kReach + 2.0 * kReach * i / (count - 1));
+        if (all.empty() || next > all.back()) {
+            all.push_back(next);
+        }
+    }
+    if (all.size() > 1) {
+        return all;
+    }
+    // The evenly spaced quantiles of a discrete distribution may coincide; then its limits are
+    // used.
+    const Support support = input_ ? input_->distribution.support() : Support{1.0, 1.0};
+    return support.low < support.high
+               ? std::vector<double>{support.low / nominal_, support.high / nominal_}
+               : all;
+}
+
+std::vector<double> RecordDistribution::factors_between(int count) const {
+    std::vector<double> all;
+    for (int i = 0; i + 1 < count; ++i) {
+        all.push_back(factor(-kReach + kReach * (2.0 * i + 1.0) / (count - 1)));
+    }
+    return all;
+}
+
+std::string RecordDistribution::text() const {
+    if (input_) {
+        return fmt::format("{} = {}", input_->key, input_->distribution.toml());
+    }
+    return scatter_ > 0.0
+               ? fmt::format("varies by {:g} % (rms) about the gearbox's value", 100.0 * scatter_)
+               : "the gearbox's";
+}
+
+RecordDistributions::RecordDistributions(const Study& study)
+    : torque(study, RecordQuantity::torque, study.life.torque_scatter),
+      speed(study, RecordQuantity::speed, study.life.speed_scatter),
+      gain(study, RecordQuantity::gain, study.life.gain_scatter),
+      noise(study, RecordQuantity::noise, study.life.noise_scatter),
+      sensor_noise_only(std::ranges::any_of(study.random, [](const RandomInput& input) {
+          return input.distribution.per_record() &&
+                 record_quantity(input.key) == RecordQuantity::noise;
+      })) {}
+
+std::vector<double> interpolation_weights(const std::vector<double>& integrated, double factor) {
+    if (integrated.size() == 1) {
+        return {1.0};
+    }
+    const auto above = std::upper_bound(integrated.begin() + 1, integrated.end() - 1, factor);
+    const auto i = static_cast<std::size_t>(above - integrated.begin());
+    std::vector<double> shares(integrated.size(), 0.0);
+    shares[i] = (factor - integrated[i - 1]) / (integrated[i] - integrated[i - 1]);
+    shares[i - 1] = 1.0 - shares[i];
+    return shares;
+}
+
+Study study_of_gearboxes(const Study& study) {
+    Study all = study;
+    std::erase_if(all.random,
+                  [](const RandomInput& input) { return input.distribution.per_record(); });
+    return all;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "mc/scene/drivetrain.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+
+using std::numbers::pi;
+
+gears::FixedMember fixed_member(Member member) {
+    switch (member) {
+        case Member::sun:
+            return gears::FixedMember::sun;
+        case Member::carrier:
+            return gears::FixedMember::carrier;
+        case Member::ring:
+            return gears::FixedMember::ring;
+        case Member::planet:
+        case Member::pinion:
+        case Member::gear:
+            break;
+    }
+    throw std::logic_error("no central member");
+}
+
+gears::Member central_member(Member member) {
+    switch (member) {
+        case Member::sun:
+            return gears::Member::sun;
+        case Member::carrier:
+            return gears::Member::carrier;
+        case Member::ring:
+            return gears::Member::ring;
+        case Member::planet:
+        case Member::pinion:
+        case Member::gear:
+            break;
+    }
+    throw std::logic_error("no central member");
+}
+
+gears::PlanetaryTrain planetary_train(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    return {teeth_of(study, Member::sun).value(), teeth_of(study, Member::planet).value(),
+            teeth_of(study, Member::ring).value(), g.planets, g.planet_positions_rad};
+}
+
+namespace {
+
+double phase_of_teeth(const Study& study, const gears::PlanetaryTrain& train,
+                      gears::PlanetSense sense) {
+    return gears::ring_to_sun_phase(train, gear_of(study, Member::planet),
+                                    working_angle_rad(study, MeshKind::sun_planet),
+                                    working_angle_rad(study, MeshKind::ring_planet), sense);
+}
+
+}  // namespace
+
+PlanetaryDrivetrain::PlanetaryDrivetrain(const Study& study)
+    : train_(planetary_train(study)),
+      flow_{fixed_member(study.operation.fixed), central_member(study.operation.input)},
+      speed_of_(central_member(Sampler(study).speed_member())),
+      torque_on_(central_member(study.operation.torque_on)),
+      sense_(gears::planet_sense(speeds(1.0))),
+      ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase
+                                                         : phase_of_teeth(study, train_, sense_)),
+      radius_m_{centre_distance_m(study), gear_of(study, Member::ring).base_radius(),
+                gear_of(study, Member::sun).base_radius()} {}
+
+double PlanetaryDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
+    return gears::mesh_frequency(train_, speeds(speed_rad_s));
+}
+
+double PlanetaryDrivetrain::input_turns_per_mesh() const {
+    const gears::Speeds turning = speeds(1.0);
+    const double input = flow_.input == gears::Member::sun    ? turning.sun
+                         : flow_.input == gears::Member::ring ? turning.ring
+                                                              : turning.carrier;
+    return std::abs(input) / gears::mesh_frequency(train_, turning);
+}
+
+double PlanetaryDrivetrain::frame_turns_per_mesh() const {
+    return speeds(1.0).carrier / mesh_frequency_rad_s(1.0);
+}
+
+int PlanetaryDrivetrain::input_degree_of_freedom(const dynamics::GearboxLayout& layout) const {
+    const dynamics::Body body = flow_.input == gears::Member::sun    ? dynamics::sun
+                                : flow_.input == gears::Member::ring ? dynamics::ring
+                                                                     : dynamics::carrier;
+    return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(body);
+}
+
+// Along rigid_rotation the carrier's displacement is 1, or the sun's if the carrier is fixed.
+double PlanetaryDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
+    const gears::Speeds turning = speeds(instance.speed_rad_s);
+    return flow_.fixed == gears::FixedMember::carrier ? radius_m_.sun * turning.sun
+                                                      : radius_m_.carrier * turning.carrier;
+}
+
+void PlanetaryDrivetrain::set(const InstanceInputs& instance,
+                              dynamics::GearboxInputs& inputs) const {
+    auto& out = std::get<dynamics::PlanetaryInputs>(inputs);
+    const gears::Speeds turning = speeds(instance.speed_rad_s);
+    out.carrier_speed_rad_s = turning.carrier;
+    out.mesh_period_s = 2.0 * pi / gears::mesh_frequency(train_, turning);
+    const gears::CentralMembers torque =
+        gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
+    out.force_N[dynamics::sun] = torque.sun / radius_m_.sun;
+    out.force_N[dynamics::ring] = torque.ring / radius_m_.ring;
+    out.force_N[dynamics::carrier] = torque.carrier / radius_m_.carrier;
+    // The support's reaction balances the fixed member.
+    out.force_N[dynamics::fixed_body(flow_.fixed)] = 0.0;
+}
+
+double PlanetaryDrivetrain::mesh_force_N(const InstanceInputs& instance) const {
+    const gears::CentralMembers torque =
+        gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
+    return torque.sun / radius_m_.sun / train_.planets;
+}
+
+std::string PlanetaryDrivetrain::pair_name(int pair) const {
+    const int n = train_.planets;
+    return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
+}
+
+double PlanetaryDrivetrain::pitch_phase(int pair) const {
+    const int n = train_.planets;
+    return pair < n ? gears::sun_mesh_phase(train_, pair, sense_)
+                    : gears::ring_mesh_phase(train_, pair - n, sense_) + ring_to_sun_phase_;
+}
+
+std::vector<double> PlanetaryDrivetrain::te_weight(const dynamics::GearboxLayout& layout) const {
+    const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
+    const gears::CentralMembers rotation = gears::transmission_error_weights(train_, flow_);
+    std::vector<double> weight(static_cast<std::size_t>(planetary.degrees_of_freedom()), 0.0);
+    const auto set = [&](dynamics::Body body, double value) {
+        weight[static_cast<std::size_t>(planetary.rotation_index(body))] = value;
+    };
+    set(dynamics::carrier, rotation.carrier / radius_m_.carrier);
+    set(dynamics::ring, rotation.ring / radius_m_.ring);
+    set(dynamics::sun, rotation.sun / radius_m_.sun);
+    return weight;
+}
+
+// The planets' teeth are monitored: after Z_p Z_r mesh periods every planet tooth has met every
+// ring tooth. With a fixed carrier the path repeats every mesh period.
+signals::SpanLayout PlanetaryDrivetrain::span() const {
+    return {train_.planet_teeth, train_.ring_teeth,
+            gears::meshes_per_carrier_turn(train_, flow_.fixed).value_or(1)};
+}
+
+bool PlanetaryDrivetrain::carrier_turns_backwards() const {
+    return speeds(1.0).carrier < 0.0;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,93 @@
+#include "signals/sensor/sensor_response_kernel.hpp"
+
+#include <cmath>
+
+#include "signals/noise/tone_sample.hpp"
+#include "signals/path/path_weights.hpp"
+#include "signals/path/planet_count.hpp"
+#include "signals/path/resultant.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+template <int W>
+GEARPOD_INLINE void all_weights(const PathWeights& a) {
+    const PathGrid& path = *a.path;
+    const long phases = path.phases(), positions = path.positions();
+    whole_step_table<W>(path.positions(), a.exponent, a.whole_steps);
+    with_planets(
+        path.planets(), [&]<int N>() __attribute__((always_inline)) {
+            for (long p = 0; p < phases; ++p) {
+                path_weights<N, W>(path, p, a.exponent, a.whole_steps, a.turn);
+                for (long c = 0; c < positions; ++c) {
+                    double* const to = a.weight + (c * phases + p) * N * W;
+                    for (int i = 0; i < N * W; ++i) {
+                        to[i] = a.turn[c * N * W + i];
+                    }
+                }
+            }
+        });
+}
+
+// Adds the tones at phase p to its samples.
+template <int W>
+GEARPOD_INLINE void add_tones_of_phase(const SensorResponseArguments& a, long p,
+                                       double* __restrict y) {
+    const long tones = a.tones->tones();
+    for (long t = 0; t < tones; ++t) {
+        const long mesh = (t * a.meshes + a.mesh) * W, phase = (p * tones + t) * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            y[l] = plus_tone(y[l], a.tones->mesh_sine()[mesh + l], a.tones->mesh_cosine()[mesh + l],
+                             a.tones->phase_sine()[phase + l], a.tones->phase_cosine()[phase + l]);
+        }
+    }
+}
+
+template <int N, int W>
+GEARPOD_INLINE void compute_mesh_response(const SensorResponseArguments& a) {
+    const PathGrid& path = *a.path;
+    for (long p = 0; p < path.phases(); ++p) {
+        const long place = p * path.positions() + a.carrier;
+        const double sine = path.sine()[place], cosine = path.cosine()[place];
+        const double* __restrict accel = a.accel + p * 2 * N * W;
+        const double* __restrict weight = a.weight + p * N * W;
+        double* __restrict y = a.signal + p * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            y[l] = resultant<N, W>(accel, weight, sine, cosine, l);
+        }
+        if (a.tones != nullptr) {
+            add_tones_of_phase<W>(a, p, y);
+        }
+        if (a.folded != nullptr) {
+            double* __restrict bin = a.folded + p * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                bin[l] = std::fma(y[l], y[l], bin[l]);
+            }
+        }
+    }
+}
+
+template <int W>
+GEARPOD_INLINE void compute_response(const SensorResponseArguments& a) {
+    with_planets(
+        a.path->planets(), [&]<int N>()
+                               __attribute__((always_inline)) { compute_mesh_response<N, W>(a); });
+}
+
+}  // namespace
+
+GEARPOD_KERNEL(sensor_path_weights_1, (const PathWeights& a), (a), all_weights<1>(a))
+GEARPOD_OPTIONAL_KERNEL(sensor_path_weights_4, (const PathWeights& a), (a), all_weights<4>(a))
+GEARPOD_KERNEL(sensor_path_weights_8, (const PathWeights& a), (a), all_weights<8>(a))
+GEARPOD_KERNEL(sensor_path_weights_16, (const PathWeights& a), (a), all_weights<16>(a))
+
+GEARPOD_KERNEL(sensor_response_1, (const SensorResponseArguments& a), (a), compute_response<1>(a))
+GEARPOD_OPTIONAL_KERNEL(sensor_response_4, (const SensorResponseArguments& a), (a),
+                        compute_response<4>(a))
+GEARPOD_KERNEL(sensor_response_8, (const SensorResponseArguments& a), (a), compute_response<8>(a))
+GEARPOD_KERNEL(sensor_response_16, (const SensorResponseArguments& a), (a), compute_response<16>(a))
+
+}  // namespace gearpod::signals

@@ -1,0 +1,50 @@
+// Results files that are complete and wrong but have a valid checksum, as after deliberate editing.
+#pragma once
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mc/files/file_descriptor.hpp"
+#include "mc/files/hdf5_data.hpp"
+#include "mc/results/file_checksum.hpp"
+
+namespace gearpod::test {
+
+inline constexpr std::uintmax_t kChecksumBytes = 16;
+
+// Replaces the checksum of a file by the one of its bytes.
+inline void update_checksum(const std::string& path) {
+    const mc::Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    if (!mc::append_checksum(file.get())) {
+        throw std::runtime_error(path + " cannot be sealed");
+    }
+}
+
+inline void unseal(const std::string& path) {
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - kChecksumBytes);
+}
+
+// Changes a results file through HDF5 and updates its checksum.
+inline void edit_results(const std::string& path, const std::function<void(hid_t root)>& edit) {
+    unseal(path);
+    {
+        const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose,
+                                  "opening the file");
+        edit(file.get());
+    }
+    update_checksum(path);
+}
+
+inline void replace_numbers(hid_t root, const std::string& name, const mc::Shape& shape,
+                            const std::vector<double>& values) {
+    mc::check(H5Ldelete(root, name.c_str(), H5P_DEFAULT), name);
+    mc::write_numbers(root, name, shape, values);
+}
+
+}  // namespace gearpod::test

@@ -1,0 +1,180 @@
+// Checks inputs that vary per record, given by [random] or, in short form, by [life], and the
+// conflicts of both.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "mc/lives/life_tile.hpp"
+#include "mc/lives/record_distributions.hpp"
+#include "tests/mc/lives/life_example.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using namespace gearpod::test;
+
+namespace {
+
+const std::string kTorque =
+    "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=500,per=\"record\"}";
+
+TEST_CASE("A lognormal law per record is equivalent to the scatter key") {
+    const mc::GearboxId id{mc::Group::graded, 2};
+    const auto history = [&](const std::string& more) {
+        const mc::Scene scene(life_study({more}));
+        const mc::CrackLife crack(scene);
+        const auto inputs =
+            mc::Sampler(mc::study_of_gearboxes(scene.study())).sample(id.group, id.index);
+        return crack.history(id, inputs, true);
+    };
+    // For a standard deviation of 0.1 of the logarithm, cv^2 = exp(0.01) - 1.
+    const std::string cv = fmt::format("{:.17g}", std::sqrt(std::expm1(0.01)));
+    const auto in_short = history("life.gain_scatter=0.1");
+    const auto in_long = history(
+        "random.sensor.gain={distribution=\"lognormal\",median=1,cv=" + cv + ",per=\"record\"}");
+    REQUIRE(in_short.records.size() == in_long.records.size());
+    for (std::size_t r = 0; r < in_short.records.size(); ++r) {
+        CHECK(in_long.records[r].gain == Approx(in_short.records[r].gain).epsilon(1e-9));
+        CHECK(in_long.records[r].torque == 1.0);
+    }
+}
+
+TEST_CASE("Records follow the law given by [random], not centred on a value of the gearbox") {
+    const mc::Study study = life_study({kTorque, "life.records=4000"});
+    const mc::Scene scene(study);
+    const mc::CrackLife crack(scene);
+    const mc::Sampler sampler(mc::study_of_gearboxes(study));
+    for (const std::uint64_t index : {0, 1}) {
+        const mc::GearboxId id{mc::Group::threshold, index};
+        const auto inputs = sampler.sample(id.group, id.index);
+        CHECK(inputs.torque_N_m == study.operation.torque_N_m);
+        auto torques = std::vector<double>();
+        for (const auto& record : crack.history(id, inputs, false).records) {
+            torques.push_back(record.torque * inputs.torque_N_m);
+        }
+        // Kolmogorov's distance of 4,000 values from the uniform law: above 1.63 / sqrt(n) once in
+        // 100.
+        std::ranges::sort(torques);
+        double apart = 0.0;
+        for (std::size_t i = 0; i < torques.size(); ++i) {
+            const double share = (torques[i] - 300.0) / 200.0;
+            apart = std::max(apart, std::abs(share - (static_cast<double>(i) + 0.5) / 4000.0));
+        }
+        CHECK(apart < 1.63 / std::sqrt(4000.0));
+    }
+    // The gearbox has no column of its own for this input.
+    for (const auto& column : sampler.columns()) {
+        CHECK(column.name != "torque_N_m");
+    }
+}
+
+TEST_CASE("More integrated values divide the same range evenly, and a record uses its neighbours") {
+    const mc::RecordDistribution law(life_study(), mc::RecordQuantity::torque, 0.1);
+    const auto two = law.integrated_factors(2), four = law.integrated_factors(4),
+               between = law.factors_between(4);
+    REQUIRE(four.size() == 4);
+    REQUIRE(between.size() == 3);
+    CHECK(law.factors_between(2) == std::vector<double>{1.0});
+    CHECK(four.front() == two.front());
+    CHECK(four.back() == two.back());
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(std::log(four[i + 1] / four[i]) == Approx(0.1));
+        CHECK(std::log(between[i] / four[i]) == Approx(0.05));
+        const auto shares = mc::interpolation_weights(four, between[i]);
+        CHECK(shares[i] * four[i] + shares[i + 1] * four[i + 1] == Approx(between[i]));
+        CHECK(std::count(shares.begin(), shares.end(), 0.0) == 2);
+    }
+    CHECK(mc::interpolation_weights(four, 0.5)[0] > 1.0);
+    CHECK(mc::interpolation_weights(four, 0.5)[2] == 0.0);
+    CHECK(mc::interpolation_weights(four, 2.0)[3] > 1.0);
+}
+
+TEST_CASE("A discrete law is integrated at its values") {
+    // Nine in ten at one torque: its quantiles at -1.5 and 1.5 may be equal.
+    const mc::Study study =
+        life_study({"random.operation.torque_N_m={distribution=\"discrete\",values=[300,429],"
+                    "weights=[0.02,0.98],per=\"record\"}"});
+    const mc::RecordDistribution law(study, mc::RecordQuantity::torque, 0.0);
+    const auto integrated = law.integrated_factors(2);
+    REQUIRE(integrated.size() == 2);
+    CHECK(integrated[0] * study.operation.torque_N_m == Approx(300.0));
+    CHECK(integrated[1] * study.operation.torque_N_m == Approx(429.0));
+    CHECK(mc::interpolation_weights(integrated, integrated[0])[0] == Approx(1.0));
+    const mc::RecordDistribution none(life_study(), mc::RecordQuantity::torque, 0.0);
+    CHECK(none.integrated_factors(2) == std::vector<double>{1.0});
+}
+
+TEST_CASE("A snapshot's baseline record varies the inputs per record, and only these") {
+    const std::vector<std::string> both{
+        "features.use=[\"change_window_ratio\"]", "sensor.noise_levels=[1]", kTorque,
+        "random.sensor.gain={distribution=\"uniform\",low=1,high=2}"};
+    const mc::Sampler sampler(shipped_study("planet-crack-ideal.toml", both));
+    const auto test_record = sampler.sample(mc::GearboxId{mc::Group::graded, 3});
+    const auto before = sampler.sample(mc::GearboxId{mc::Group::graded, 3, mc::Record::baseline});
+    CHECK(test_record.torque_N_m != before.torque_N_m);
+    CHECK(before.torque_N_m > 300.0);
+    CHECK(before.torque_N_m < 500.0);
+    CHECK(test_record.gain == before.gain);
+    // With one record per gearbox the record's law is the gearbox's.
+    auto plain = both;
+    plain[2].replace(plain[2].find(",per"), 13, "");
+    const mc::Sampler gearbox(shipped_study("planet-crack-ideal.toml", plain));
+    CHECK(gearbox.sample(mc::Group::graded, 3).torque_N_m == test_record.torque_N_m);
+}
+
+TEST_CASE("Keys of inputs per record are read, written and refused by name") {
+    const mc::Study study = life_study({kTorque});
+    CHECK(mc::resolved_text(study).find("per = \"record\"") != std::string::npos);
+    CHECK(*mc::read_study_text(mc::resolved_text(study), "again").study == study);
+
+    const auto refused = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = kLife;
+        all.insert(all.end(), more.begin(), more.end());
+        std::string text;
+        for (const auto& problem :
+             mc::read_study(test::study("planet-crack-ideal.toml"), all).problems) {
+            text += mc::format(problem) + "\n";
+        }
+        return text;
+    };
+    const auto law = [](const std::string& key, const std::string& rest) {
+        return "random." + key + "={" + rest + ",per=\"record\"}";
+    };
+    const auto refuses = [&](const std::vector<std::string>& more, const std::string& words) {
+        const std::string text = refused(more);
+        INFO(text);
+        CHECK(text.find(words) != std::string::npos);
+        CHECK(std::ranges::count(text, '\n') == 1);
+    };
+    refuses({law("gearbox.mesh_damping_ratio", "distribution=\"uniform\",low=0.04,high=0.1")},
+            "mesh_damping_ratio is the same in all records of a gearbox");
+    refuses({"random.sensor.gain={distribution=\"uniform\",low=1,high=2,per=\"day\"}"},
+            "must be \"record\" or \"gearbox\"");
+    refuses({law("sensor.gain", "distribution=\"levels\",values=[1,2]")},
+            "takes its values in turn");
+    refuses({kTorque, "life.torque_scatter=0.1"}, "conflicts with life.torque_scatter");
+    auto snapshot = std::vector<std::string>{kTorque, "ensemble.threshold_records=3"};
+    std::string text;
+    for (const auto& problem :
+         mc::read_study(test::study("planet-crack-ideal.toml"), snapshot).problems) {
+        text += mc::format(problem) + "\n";
+    }
+    INFO(text);
+    CHECK(text.find("the 3 records of a gearbox differ only in their noise") != std::string::npos);
+}
+
+TEST_CASE("describe shows the law of inputs per record") {
+    std::string options;
+    for (const std::string& one : kLife) {
+        options += " --set '" + one + "'";
+    }
+    const Outcome description = program("describe " + test::study("planet-crack-ideal.toml") +
+                                        options + " --set '" + kTorque + "'");
+    INFO(description.output);
+    CHECK(description.code == 0);
+    CHECK(description.mentions("operation.torque_N_m = { distribution = \"uniform\""));
+    CHECK(description.mentions("times the study's value"));
+}
+
+}  // namespace
