@@ -29,7 +29,8 @@ IntegrationCounts integrations_of_ranks(const Scene& scene, const BatchPlan& pla
 }  // namespace
 
 double checkpoint_bytes(const BatchPlan& plan, const RowShape& shape) {
-    // Each batch has a mark, a count and a checksum; each row has a status (mc/README.md).
+    // Each batch has a mark, a count and a checksum; each row has a status
+    // (docs/reference/results-file.md).
     const double row = 8.0 * (1.0 + static_cast<double>(shape.values()));
     const auto healthy = static_cast<double>(plan.threshold_batches() * plan.threshold_records());
     const auto graded = static_cast<double>(plan.batches() - plan.threshold_batches());

@@ -13,9 +13,9 @@ namespace gearpod::mc {
 std::size_t reference_level(const std::vector<double>& noise_levels);
 
 // Returns {"examples": {"refusal", "noise_level", "gearboxes": [...]}, "stiffness": {"refusal",
-// ...}} for the study stored in the file (mc/README.md lists the keys). The gearboxes are the first
-// rows with values of size 0 and of the largest size. `refusal` is the reason why there are none,
-// or null.
+// ...}} for the study stored in the file (docs/reference/report-json.md lists the keys). The
+// gearboxes are the first rows with values of size 0 and of the largest size. `refusal` is the
+// reason why there are none, or null.
 nlohmann::json examples_json(const Results& frame, const RowSource& rows);
 
 }  // namespace gearpod::mc

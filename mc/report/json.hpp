@@ -9,9 +9,9 @@
 
 namespace gearpod::mc {
 
-// Returns the report; mc/README.md lists the keys. `frame.detection` must be up to date
-// (detect_all). `reliability` is empty if the ensemble is too large. Computes two gearboxes again
-// for their signals (example_gearboxes.hpp).
+// Returns the report; docs/reference/report-json.md lists the keys. `frame.detection` must be up to
+// date (detect_all). `reliability` is empty if the ensemble is too large. Computes two gearboxes
+// again for their signals (example_gearboxes.hpp).
 nlohmann::json report_json(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability);
 

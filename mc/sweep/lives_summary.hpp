@@ -32,7 +32,7 @@ const MonitoredFeature* best_over(const std::vector<LivesPoint>& points);
 std::string lives_sweep_text(const std::vector<VariedKey>& keys,
                              const std::vector<LivesPoint>& points);
 
-// `title`: title of the study. mc/README.md lists the keys.
+// `title`: title of the study. docs/reference/report-json.md lists the keys.
 nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
                                 const std::vector<LivesPoint>& points);
 

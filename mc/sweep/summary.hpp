@@ -48,7 +48,7 @@ PointSummary summarise(const SweepPoint& point, const std::string& results, int 
 // Table with a line for each point; its width is not limited.
 std::string sweep_text(const std::vector<VariedKey>& keys, const std::vector<PointSummary>& points);
 
-// `title`: title of the study. mc/README.md lists the keys.
+// `title`: title of the study. docs/reference/report-json.md lists the keys.
 nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
                                   const std::vector<PointSummary>& points);
 

@@ -25,7 +25,7 @@ matplotlib.use("agg")
 from gearpod import published  # noqa: E402
 
 # Largest accepted relative difference from a published number, where there is a difference;
-# studies/README.md explains each.
+# docs/validation/published.md explains each.
 OFF = {"liang-fig-5-8": 0.18, "tian-fig-4-4": 0.17, "tian-fig-4-5": 0.25, "park-fig-11": 0.06}
 
 

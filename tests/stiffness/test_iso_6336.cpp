@@ -153,7 +153,7 @@ TEST_CASE("the mean mesh stiffness of external pairs is compared with ISO 6336-1
     }
 }
 
-// Prints the table of studies/README.md.
+// Prints the table of docs/validation/mesh-stiffness-level.md.
 TEST_CASE("mean mesh stiffness compared with ISO 6336-1", "[.table]") {
     std::puts(
         "| teeth | shifts | helix, deg | contact ratio | ISO 6336-1 B, N/(mm um) | rigid | ring | "

@@ -4,7 +4,7 @@
 
 Runs the study of each figure (all, or those named) and draws FOLDER/NAME.svg and .png. Lists the
 published values next to the computed ones on the terminal and in FOLDER/published.csv. The
-published values and their sources are in studies/published/figures.json; studies/README.md explains
+published values and their sources are in studies/published/figures.json; docs/validation/published.md explains
 why some differ. matplotlib is needed.
 """
 

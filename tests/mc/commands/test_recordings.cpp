@@ -331,7 +331,8 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
     CHECK(refused("file\n").mentions("lists no recording"));
 }
 
-// Data: the recordings of the HUMS 2023 challenge, if present (studies/README.md).
+// Data: the recordings of the HUMS 2023 challenge, if present
+// (docs/validation/measured-machines.md).
 TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
     const char* file = std::getenv("GEARPOD_HUMS_DATA");
     if (file == nullptr || !std::filesystem::exists(file)) {

@@ -37,7 +37,7 @@ TEST_CASE(
     }
     // Reference: an independent computation with an 800 Hz sensor, for 0, 1, 2, 3, 4.3 mm (rows 1,
     // 3, 5, 6, 7). The thesis' values 1, 1.10, 1.2, 1.44, 1.95 have the same order;
-    // studies/README.md compares them.
+    // docs/validation/published.md compares them.
     const double reference[] = {1.02, 1.04, 1.10, 1.22, 1.61};
     const std::size_t rows[] = {1, 3, 5, 6, 7};
     for (std::size_t i = 0; i < 5; ++i) {

@@ -104,7 +104,7 @@ TEST_CASE("A mesh of nearly constant stiffness oscillates at the closed form's f
 }
 
 TEST_CASE("Figs. 4.4, 4.5: the 7th mesh harmonic dominates, without shear energy the 10th") {
-    // The thesis reads the 6th and the 8th from its plots: see studies/README.md.
+    // The thesis reads the 6th and the 8th from its plots: see docs/validation/published.md.
     CHECK(dominant(spectrum(mc::Scene(shipped_study("published/tian-fig-4-3.toml")), 1)) == 7);
     CHECK(dominant(spectrum(mc::Scene(shipped_study("published/tian-fig-4-5.toml")), 1)) == 10);
 }
