@@ -56,7 +56,7 @@ def draw_others(axes, report):
         if setting["name"] == report["own"]:
             place("setting of the study", setting["gearbox_s"], error["worst_feature"],
                   error["sensor"], "s")
-        elif any("horizon=march" in key for key in setting["overrides"]):
+        elif any("horizon=full" in key for key in setting["overrides"]):
             place("the same, full integration", setting["gearbox_s"], error["worst_feature"],
                   error["sensor"], "D")
     for peer, mark in zip(report.get("peers", []), "ov^<>"):

@@ -76,13 +76,13 @@ std::vector<ListedSetting> listed_settings(const Study& study) {
     }
     if (study.numerics.horizon == Horizon::superposed || reason_not_periodic(study).empty()) {
         all.push_back({own_setting(study), ""});
-        all.back().setting.other.push_back("numerics.horizon=march");
+        all.back().setting.other.push_back("numerics.horizon=full");
     }
     return all;
 }
 
 bool integrates_every_mesh(const SolverSetting& setting) {
-    return !setting.other.empty() && setting.other.back() == "numerics.horizon=march";
+    return !setting.other.empty() && setting.other.back() == "numerics.horizon=full";
 }
 
 std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResult>& settings) {

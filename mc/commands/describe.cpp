@@ -216,8 +216,9 @@ int describe_command(const DescribeOptions& options) {
         "gearbox, effects, cost and forecast, because a pilot run chooses the solver setting "
         "first";
     try {
-        const auto made = load_scene(options.study);
+        const auto made = make_scene(options.study);
         if (!made) {
+            print_problems(made.problems);
             return kBadInput;
         }
         const double setup_s = seconds_since(start);

@@ -239,7 +239,7 @@ void print_excitation(const Study& study) {
                         : fmt::format("computed for every mesh period, because {}{}", why,
                                       reason_not_superposed(study).empty()
                                           ? " (faster if no tooth pair loses contact: "
-                                            "numerics.horizon = \"superpose\")"
+                                            "numerics.horizon = \"superposed\")"
                                           : ""));
     }
 }

@@ -13,7 +13,7 @@ struct SolverSetting {
     std::string integrator;  // as a study file spells it
     int steps = 0;           // per mesh period; 0: chosen by the integrator's own rule
     double convergence_tolerance = 0.0;
-    std::vector<std::string> other;  // further overrides, e.g. "numerics.horizon=march"
+    std::vector<std::string> other;  // further overrides, e.g. "numerics.horizon=full"
 
     // Arguments for --set: "numerics.integrator=sdirk3", ...
     std::vector<std::string> overrides() const;

@@ -39,7 +39,10 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
     }
     try {
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));
-        return {std::make_unique<const Scene>(resolved.study), std::move(resolved.choice), {}};
+        return {std::make_unique<const Scene>(resolved.study),
+                std::move(resolved.choice),
+                {},
+                std::move(reading.notices)};
     } catch (const SceneError& error) {
         return refused({{name, 0, error.key(), error.what(), error.remedy()}});
     }

@@ -14,6 +14,7 @@ struct StudyScene {
     std::unique_ptr<const Scene> scene;    // null: see `problems`
     std::optional<NumericsChoice> choice;  // of the numerics; empty without a tolerance
     Problems problems;
+    Problems notices = {};  // StudyReading::notices
 
     explicit operator bool() const { return scene != nullptr; }
 };

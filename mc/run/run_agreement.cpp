@@ -76,9 +76,9 @@ StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& optio
     }
     if (!why.empty()) {
         made.scene.reset();
-        if (ranks.leads()) {
-            fmt::print(stderr, "{}", why);
-        }
+    }
+    if (ranks.leads()) {
+        fmt::print(stderr, "{}", why.empty() ? format(made.notices) : why);
     }
     return made;
 }

@@ -17,9 +17,7 @@ void print_problems(const Problems& problems) {
 
 std::optional<Study> load_study(const StudyOptions& options) {
     StudyReading reading = read_study(options.path, options.overrides);
-    if (!reading.study) {
-        print_problems(reading.problems);
-    }
+    print_problems(reading.study ? reading.notices : reading.problems);
     return std::move(reading.study);
 }
 
@@ -29,9 +27,7 @@ StudyScene make_scene(const StudyOptions& options) {
 
 StudyScene load_scene(const StudyOptions& options) {
     StudyScene made = make_scene(options);
-    if (!made) {
-        print_problems(made.problems);
-    }
+    print_problems(made ? made.notices : made.problems);
     return made;
 }
 

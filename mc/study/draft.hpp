@@ -14,6 +14,7 @@ namespace gearpod::mc {
 struct StudyDraft {
     Study study;
     Problems problems;
+    Problems notices = {};                         // accepted, but written as in an earlier version
     std::map<std::string, Position> given;         // by key path, in its section
     std::map<std::string, Position> given_random;  // by key path, in [random]
     std::vector<std::string> random_files = {};    // CSV files of random inputs, in their order

@@ -352,6 +352,7 @@ bool compares_records(const Study& study);
 struct StudyReading {
     std::optional<Study> study;  // empty if there are problems
     Problems problems;           // sorted
+    Problems notices = {};       // accepted statements that should be written in another way
 };
 
 // Reads a study file. Each override is "section.key=value" with a TOML value (a bare word is a

@@ -147,7 +147,7 @@ contact = "load-dependent"
 separation = "two-sided"
 [numerics]
 integrator = "newmark"
-horizon = "march"
+horizon = "full"
 [fault]
 kind = "spatial-crack"
 member = "sun"

@@ -50,7 +50,7 @@ void check_horizon(StudyDraft& draft) {
     if (draft.study.numerics.horizon == Horizon::periodic && !why.empty() &&
         draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {
         draft.reject("numerics.horizon", fmt::format("is \"reuse\", but {}", why),
-                     "use horizon = \"march\", or leave the key out");
+                     "use horizon = \"full\", or leave the key out");
     }
 }
 

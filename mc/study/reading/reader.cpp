@@ -183,6 +183,7 @@ StudyReading read_document(const Value& document, Problems problems) {
         reading.study = std::move(draft.study);
     }
     reading.problems = std::move(draft.problems);
+    reading.notices = std::move(draft.notices);
     return reading;
 }
 

@@ -12,6 +12,14 @@
 namespace gearpod::mc {
 namespace {
 
+// Spellings of values in earlier versions, which are still accepted.
+struct FormerSpelling {
+    std::string_view key, former, current;
+};
+constexpr FormerSpelling kFormerSpellings[] = {{"numerics.horizon", "reuse", "periodic"},
+                                               {"numerics.horizon", "superpose", "superposed"},
+                                               {"numerics.horizon", "march", "full"}};
+
 class ValueReader {
   public:
     ValueReader(StudyDraft& draft, const Key& key, const Entry& entry)
@@ -41,10 +49,11 @@ class ValueReader {
     }
 
     void operator()(const ChoiceAccess& access) {
+        const std::string text = current_spelling();
         std::vector<std::string_view> names;
         for (const ChoiceName& name : access.names) {
             names.push_back(name.text);
-            if (value_.kind == Value::Kind::text && value_.text == name.text) {
+            if (value_.kind == Value::Kind::text && text == name.text) {
                 access.set(draft_.study, name.value);
                 return;
             }
@@ -167,6 +176,21 @@ class ValueReader {
             return false;
         }
         return true;
+    }
+
+    // Text of the value. A former spelling is replaced, with a notice.
+    std::string current_spelling() {
+        for (const FormerSpelling& spelling : kFormerSpellings) {
+            if (value_.kind == Value::Kind::text && key_.path() == spelling.key &&
+                value_.text == spelling.former) {
+                draft_.notices.push_back(
+                    {at_.file, at_.line, key_.path(),
+                     fmt::format("\"{}\" is the spelling of an earlier version", value_.text),
+                     fmt::format("write \"{}\"", spelling.current)});
+                return std::string(spelling.current);
+            }
+        }
+        return value_.kind == Value::Kind::text ? value_.text : "";
     }
 
     void reject(std::string what, std::string remedy) {

@@ -16,9 +16,9 @@ constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision
                                       name("single", Precision::single_precision)};
 constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
                                      name("sobol", SamplingKind::sobol)};
-constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::periodic),
-                                    name("superpose", Horizon::superposed),
-                                    name("march", Horizon::full)};
+constexpr ChoiceName kHorizons[] = {name("periodic", Horizon::periodic),
+                                    name("superposed", Horizon::superposed),
+                                    name("full", Horizon::full)};
 // "auto" and the names of all values.
 template <class Enum>
 std::vector<ChoiceName> names_or_auto(std::span<const Enum> values) {
@@ -115,7 +115,7 @@ const Key kRunKeys[] = {
     {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "fraction of the largest value that may be omitted from the terms of the stiffness curves; 0: 1e-13, for a faulty tooth pair 4e-10"},
     {"numerics", "face_slices", integer<&Numerics::face_slices>, kNone, from_to(0, 16), flank_gaps, kShared, "number of slices of a tooth across the face, each with its own gap, for helical or crowned teeth with relief, crowning or an extended contact; 0: 8"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "largest number of mesh periods for converging to the periodic orbit; 0: derived from the damping"},
-    {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "strategy of time integration: reuse the mesh periods of the periodic orbit, superpose the effects of each gear's tooth errors, or march through all mesh periods"},
+    {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "strategy of time integration: repeat the mesh period of the periodic orbit, superpose the effects of each gear's tooth errors, or integrate all mesh periods"},
     {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes integrated in lockstep: 8, 4 or 1; in single precision also 16, the default there"},
     {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "number of threads; 0: the value of OMP_NUM_THREADS, or else one per processor"},
     {"numerics", "instruction_set", choice_or_auto<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},

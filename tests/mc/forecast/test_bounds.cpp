@@ -67,7 +67,7 @@ TEST_CASE("Counts beyond their limits are refused with the limit") {
 TEST_CASE("A run that exceeds the memory reports this before it begins") {
     const Folder folder;
     const std::string run = "run " + test::study("crack-in-sun.toml") +
-                            " --set numerics.horizon=march --set sensor.sampling_Hz=60000 --set "
+                            " --set numerics.horizon=full --set sensor.sampling_Hz=60000 --set "
                             "numerics.threads=2 --out " +
                             folder.file("r.h5");
     const Outcome refused = bounded(run, 1500000);

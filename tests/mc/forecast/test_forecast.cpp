@@ -184,7 +184,7 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
 TEST_CASE(
     "An integration that is truncated for the measurement counts in full, without side effects") {
     std::vector<std::string> overrides = kFast;
-    overrides.push_back("numerics.horizon=march");
+    overrides.push_back("numerics.horizon=full");
     const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
     const auto before = bits_of(first_tile(scene));
     const BatchPlan plan(16, 32);

@@ -20,7 +20,7 @@ namespace {
 Study light_study(const std::vector<std::string>& more = {}) {
     std::vector<std::string> all{
         "operation.carrier_speed_rpm=20",
-        "numerics.horizon=march",
+        "numerics.horizon=full",
         "effects.contact_onset=abrupt",
         "sensor.noise_levels=[1]",
         "ensemble.threshold_records=1",
@@ -53,7 +53,7 @@ TEST_CASE("Rows hold the share of time out of contact of each mesh, for any lane
         CHECK(narrow.contact_loss[m].values == wide.contact_loss[m].values);
     }
     const Results superposed =
-        test::run(light_study({"numerics.lanes=16", "numerics.horizon=superpose"}));
+        test::run(light_study({"numerics.lanes=16", "numerics.horizon=superposed"}));
     for (std::size_t m = 0; m < 2; ++m) {
         CHECK(superposed.contact_loss[m].values == wide.contact_loss[m].values);
     }

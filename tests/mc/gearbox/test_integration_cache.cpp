@@ -72,6 +72,6 @@ TEST_CASE("Nothing is cached where every gearbox has a different response") {
     BatchWorker(task).compute({Group::graded, 0, 0, 8}, seconds);
     CHECK(task.cache.kept() == 0);
     const Scene errors(
-        study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=march"}));
+        study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=full"}));
     CHECK_FALSE(distinct_integrations(errors).has_value());
 }

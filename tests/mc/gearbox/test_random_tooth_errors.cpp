@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 
 // Liang's train with individual tooth errors.
 Study study_with(std::vector<std::string> overrides) {
-    overrides.push_back("numerics.horizon=march");
+    overrides.push_back("numerics.horizon=full");
     return test::shipped_study("planet-crack-ideal.toml", overrides);
 }
 

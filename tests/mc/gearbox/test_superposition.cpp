@@ -69,7 +69,7 @@ const std::string kLight =
 TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full integration") {
     const std::vector<std::string> heavy{
         "random.operation.torque_N_m={distribution=\"uniform\",low=6000,high=6500}"};
-    const Tile superposed(study_with("superpose", heavy)), integrated(study_with("march", heavy));
+    const Tile superposed(study_with("superposed", heavy)), integrated(study_with("full", heavy));
     CHECK(superposed->superposed == 16);  // including their baselines
     CHECK(superposed->superposition_fallbacks == 0);
     CHECK(integrated->superposed + integrated->superposition_fallbacks == 0);
@@ -82,7 +82,7 @@ TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full
         CHECK(superposed->status[static_cast<std::size_t>(lane)] == Status::ok);
         CHECK(relative_rms(superposed.sensor(lane), integrated.sensor(lane)) < 1e-8);
     }
-    const Results few = test::run(study_with("superpose")), all = test::run(study_with("march"));
+    const Results few = test::run(study_with("superposed")), all = test::run(study_with("full"));
     for (std::size_t f = 0; f < few.features.size(); ++f) {
         INFO(few.features[f].name);
         for (std::size_t row = 0; row < few.status.size(); ++row) {
@@ -92,8 +92,8 @@ TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full
 }
 
 TEST_CASE("Gearboxes whose tooth pairs lose contact are integrated in full, to the bit") {
-    const Tile superposed(study_with("superpose", {kLight})),
-        integrated(study_with("march", {kLight}));
+    const Tile superposed(study_with("superposed", {kLight})),
+        integrated(study_with("full", {kLight}));
     CHECK(superposed->superposed > 0);
     CHECK(superposed->superposition_fallbacks > 0);
     int same = 0;
@@ -164,10 +164,11 @@ double relative_rms(const lockstep::TileResult& a, const lockstep::TileResult& b
 TEST_CASE(
     "At 200 random torques around the limit of contact, superposed and integrated responses "
     "agree") {
-    const ContactLimit tiles(study_with(
-        "superpose", {"gearbox.tooth_quality=4", "sensor.sampling_Hz=2730",
-                      "sensor.low_pass_Hz=1000", "operation.carrier_speed_rpm=150",
-                      "random.operation.torque_N_m={distribution=\"uniform\",low=800,high=1500}"}));
+    const ContactLimit tiles(
+        study_with("superposed",
+                   {"gearbox.tooth_quality=4", "sensor.sampling_Hz=2730", "sensor.low_pass_Hz=1000",
+                    "operation.carrier_speed_rpm=150",
+                    "random.operation.torque_N_m={distribution=\"uniform\",low=800,high=1500}"}));
     int superposed = 0;
     double worst = 0.0;
     for (std::uint64_t first = 0; first < 200; first += 8) {
@@ -193,7 +194,7 @@ TEST_CASE(
 TEST_CASE("Superposed gearboxes have the same bits for any lanes") {
     const auto bits = [](int lanes) {
         return test::feature_bits(
-            study_with("superpose", {kLight, "numerics.lanes=" + std::to_string(lanes)}));
+            study_with("superposed", {kLight, "numerics.lanes=" + std::to_string(lanes)}));
     };
     const auto eight = bits(8);
     CHECK(bits(4) == eight);
@@ -211,5 +212,5 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
                                                1);
         return healthy_solution.with_fault(2e-3).lane[0].sensor;
     };
-    CHECK(relative_rms(cracked("superpose"), cracked("march")) < 1e-7);
+    CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);
 }

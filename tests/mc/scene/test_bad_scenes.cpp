@@ -164,7 +164,7 @@ const BadScene kBadScenes[] = {
      "gearbox.sun_planet_error_phase_deg", "has 1 phases for 2 amplitudes in sun_planet_error_um"},
     {kSpatialCrackStudy, "sun_planet_error_um = [10, 2]", "sun_planet_error_um = [10, -2]",
      "gearbox.sun_planet_error_um", "must be >= 0, but is -2"},
-    {kSpatialCrackStudy, "horizon = \"march\"", "horizon = \"reuse\"", "numerics.horizon",
+    {kSpatialCrackStudy, "horizon = \"full\"", "horizon = \"periodic\"", "numerics.horizon",
      "is \"reuse\", but every tooth has individual errors"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "tooth_quality = 13", "gearbox.tooth_quality",
      "must be between 0 and 12"},

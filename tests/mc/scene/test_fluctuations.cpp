@@ -80,20 +80,21 @@ const BadStudy kBad[] = {
      "must be"},
     {kExampleStudy, {"operation.speed_noise=0.01"}, "operation.speed_noise_band_Hz", "missing"},
     {kExampleStudy,
-     {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3", "numerics.horizon=reuse"},
+     {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3",
+      "numerics.horizon=periodic"},
      "numerics.horizon",
      "is \"reuse\", but the torque fluctuates"},
     {kExampleStudy,
      {"gearbox.pitch_error_um=1", "operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3",
-      "numerics.horizon=superpose"},
+      "numerics.horizon=superposed"},
      "numerics.horizon",
      "is \"superpose\", but torque, speed or weight varies"},
     {kExampleStudy,
-     {"numerics.horizon=superpose"},
+     {"numerics.horizon=superposed"},
      "numerics.horizon",
      "is \"superpose\", but the teeth have no individual errors"},
     {kExampleStudy,
-     {"effects.gravity=true", "numerics.horizon=reuse"},
+     {"effects.gravity=true", "numerics.horizon=periodic"},
      "numerics.horizon",
      "gravity rotates relative to the carrier"},
     {kExampleStudy,
@@ -200,7 +201,7 @@ TEST_CASE("A scene's cost includes its own effects only") {
 }
 
 TEST_CASE("Without inertia the transmission error follows the torque from mesh to mesh") {
-    const Study steady = study_of(kQuasiStaticStudy, {"numerics.horizon=march"});
+    const Study steady = study_of(kQuasiStaticStudy, {"numerics.horizon=full"});
     const Study with_fluctuation =
         study_of(kQuasiStaticStudy,
                  {"operation.torque_fluctuation=0.3", "operation.torque_fluctuation_order=2",

@@ -90,7 +90,7 @@ TEST_CASE("Different planets repeat every mesh: reused records equal integration
         "gearbox.planet_bearing_stiffness_scatter=0.1",
         "gearbox.planet_bearing_damping_scatter=0.3", "gearbox.planet_mass_scatter=0.02"};
     auto all = unlike;
-    all.push_back("numerics.horizon=march");
+    all.push_back("numerics.horizon=full");
     const auto reused = features(unlike), full_horizon = features(all), alike = features({});
     REQUIRE(reused.size() == full_horizon.size());
     double moved = 0.0;

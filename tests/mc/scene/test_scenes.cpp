@@ -244,7 +244,7 @@ TEST_CASE(
             CHECK(test::feature_bits(test::study_of_text(kFixedShaftStudy, narrow)) == eight);
         }
     }
-    const std::vector<std::string> pitch{"numerics.horizon=march", "gearbox.pitch_error_um=3"};
+    const std::vector<std::string> pitch{"numerics.horizon=full", "gearbox.pitch_error_um=3"};
     const auto perfect = test::feature_bits(test::study_of_text(kQuasiStaticStudy));
     const auto eight = test::feature_bits(test::study_of_text(kQuasiStaticStudy, pitch));
     for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {

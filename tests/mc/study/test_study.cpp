@@ -163,11 +163,21 @@ TEST_CASE("An override disables tones and pitch errors of the file") {
                  "[sensor]\ntones = [{ frequency_Hz = 50, amplitude_m_s2 = 3 }]");
     CHECK(study_of(toned).sensor.tones.size() == 1);
     CHECK(study_of(toned, {"sensor.tones=[]"}) == study_of(kFixedShaftStudy));
-    const std::vector<std::string> rough{"numerics.horizon=march", "gearbox.pitch_error_um=3"};
+    const std::vector<std::string> rough{"numerics.horizon=full", "gearbox.pitch_error_um=3"};
     auto smooth = rough;
     smooth.push_back("gearbox.pitch_error_um=0");
     CHECK(study_of(kQuasiStaticStudy, rough).errors.pitch_error_m == Approx(3e-6));
     CHECK(study_of(kQuasiStaticStudy, smooth).errors.pitch_error_m == 0.0);
+}
+
+TEST_CASE("Spellings of earlier versions are accepted with a notice") {
+    const auto former = mc::read_study_text(kExampleStudy, "s.toml", {"numerics.horizon=march"});
+    REQUIRE(former.study);
+    CHECK(*former.study == study_of(kExampleStudy, {"numerics.horizon=full"}));
+    REQUIRE(former.notices.size() == 1);
+    CHECK(former.notices[0].key == "numerics.horizon");
+    CHECK(former.notices[0].remedy == "write \"full\"");
+    CHECK(mc::read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
 }
 
 TEST_CASE("The resolved text gives the same study, bit for bit") {

@@ -75,7 +75,7 @@ encoder_noise_arcsec = 0
 noise_levels = [0]
 
 [numerics]
-horizon = "march"
+horizon = "full"
 
 [ensemble]
 instances = 1
