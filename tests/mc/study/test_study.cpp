@@ -171,13 +171,13 @@ TEST_CASE("An override disables tones and pitch errors of the file") {
 }
 
 TEST_CASE("Spellings of earlier versions are accepted with a notice") {
-    const auto former = mc::read_study_text(kExampleStudy, "s.toml", {"numerics.horizon=march"});
+    const auto former = read_study_text(kExampleStudy, "s.toml", {"numerics.horizon=march"});
     REQUIRE(former.study);
     CHECK(*former.study == study_of(kExampleStudy, {"numerics.horizon=full"}));
     REQUIRE(former.notices.size() == 1);
     CHECK(former.notices[0].key == "numerics.horizon");
     CHECK(former.notices[0].remedy == "write \"full\"");
-    CHECK(mc::read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
+    CHECK(read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
 }
 
 TEST_CASE("The resolved text gives the same study, bit for bit") {
