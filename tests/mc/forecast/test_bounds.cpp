@@ -1,5 +1,6 @@
 // Checks the cost of accepted studies: describe ends soon and stays small, run reports in advance
 // what exceeds the memory, and every count has an upper limit.
+#include <sys/resource.h>
 
 #include "tests/mc/program.hpp"
 
