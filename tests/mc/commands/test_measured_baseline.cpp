@@ -113,7 +113,7 @@ TEST_CASE("A file that is no baseline of a recording is reported") {
     // A part of the span has no circular shift: it must begin where the baseline does.
     const std::vector<double> part(healthy.begin() + 88, healthy.begin() + 88 + 33 * 8);
     const auto elsewhere = json_of(written(folder, "part.csv", part), "--baseline " + path);
-    CHECK(elsewhere["unavailable"]["change_sensor_rms"].get<std::string>().find("begin") !=
+    CHECK(elsewhere["unavailable"]["change_sensor_rms"].get<std::string>().find("start position") !=
           std::string::npos);
 }
 

@@ -135,7 +135,7 @@ TEST_CASE("An existing file under the temporary output name is refused and not o
                                             place.study + kSmall + " --quiet --out " + out);
         INFO(outcome.output);
         CHECK(outcome.code == 2);
-        CHECK(outcome.mentions("n.h5.new is in the way"));
+        CHECK(outcome.mentions("n.h5.new has the name of the temporary file"));
         CHECK(bytes_of(precious) == "years of work\n");
         CHECK_FALSE(fs::exists(out));
         fs::remove_all(pending);

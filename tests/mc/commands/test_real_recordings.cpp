@@ -89,7 +89,7 @@ TEST_CASE("Units are converted, and unknown ones refused with those that are kno
                 plain, 1e-9);
     const Outcome outcome = features(s.write("time,sensor [V]", {s.time, s.sensor}));
     CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("unknown unit V; known are m/s^2, mm/s^2, g, mg"));
+    CHECK(outcome.mentions("unknown unit V; known units are m/s^2, mm/s^2, g, mg"));
 }
 
 TEST_CASE("Decimal commas are accepted if the fields are not separated by commas") {
