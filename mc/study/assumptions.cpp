@@ -44,7 +44,7 @@ std::string assumptions(const Study& study, bool lives) {
         all.push_back(study.life.curve_h.empty() ? "cracks that grow by Paris' law"
                                                  : "cracks that grow along the given curve");
     }
-    std::string text = fmt::format("Holds for {}, and for thresholds set on {} gearboxes.",
+    std::string text = fmt::format("Holds for {}, with thresholds from {} gearboxes.",
                                    fmt::join(all, ", "), lives ? "the lives of other" : "other");
     if (compares_records(study) && !lives) {
         text += fmt::format(
@@ -64,9 +64,7 @@ std::string assumptions(const Study& study, bool lives) {
             "intervals treat them as independent and are therefore wider than necessary.";
     }
     if (!has_tooth_errors(study)) {
-        text +=
-            " Errors of real teeth can hide faults that are visible with identical teeth: "
-            "gearbox.tooth_quality simulates them.";
+        text += " Real teeth can hide faults that identical teeth show (gearbox.tooth_quality).";
     }
     return text;
 }
