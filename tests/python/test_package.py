@@ -88,7 +88,7 @@ class Package(unittest.TestCase):
             self.results.signals(200)
 
     def test_errors_are_reported(self):
-        with self.assertRaisesRegex(KeyError, "there are .*te_fc"):
+        with self.assertRaisesRegex(KeyError, "available: .*te_fc"):
             self.results.feature("te_xx")
         with self.assertRaisesRegex(KeyError, "there are 0, 1"):
             self.results.feature("te_fc", 3.0)

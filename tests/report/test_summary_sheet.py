@@ -109,7 +109,7 @@ class Program(unittest.TestCase):
             self.assertTrue(pathlib.Path(sheet).read_bytes().startswith(b"%PDF-"))
             over = gearpod("report", results, "--pdf", results)
             self.assertEqual(over.returncode, 2)
-            self.assertIn("is the results file as well", over.stderr)
+            self.assertIn("is also the results file", over.stderr)
             self.assertEqual(gearpod("report", results).returncode, 0)
 
 

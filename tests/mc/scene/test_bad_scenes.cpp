@@ -117,7 +117,7 @@ const BadScene kBadScenes[] = {
     {kQuasiStaticStudy, "ring_teeth = 68", "ring_teeth = 66", "gearbox.ring_teeth",
      "cannot be assembled"},
     {kQuasiStaticStudy, "[0, 90, 180]", "[0, 90]", "gearbox.planet_positions_deg",
-     "names 2 positions, but there are 3 planets"},
+     "has 2 positions, but there are 3 planets"},
     {kQuasiStaticStudy, "[0, 90, 180]", "[0, 90, 181]", "gearbox.planet_positions_deg",
      "a planet at 181 deg does not mesh"},
     {kQuasiStaticStudy, "[0, 90, 180]", "[90, 180, 270]", "gearbox.planet_positions_deg",

@@ -102,7 +102,7 @@ TEST_CASE("Inputs linked in rows use the same position of their lists") {
         {kTorques + "values=[100,200],rows=1}", kExponents + "values=[0.1,0.2,0.3],rows=1}"});
     REQUIRE(uneven.problems.size() == 1);
     CHECK(format(uneven.problems)
-              .find("has 3 values, but operation.torque_N_m of the same rows "
+              .find("has 3 values, but operation.torque_N_m with the same rows "
                     "has 2") != std::string::npos);
 }
 

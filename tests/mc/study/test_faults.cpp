@@ -174,7 +174,7 @@ TEST_CASE("Text about a fault names its kind and its size") {
 
         const std::string both =
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
-        CHECK(holds(both, "(" + words + " is on one flank") == kind->shapes_tooth());
+        CHECK(holds(both, words + " is on one flank") == kind->shapes_tooth());
     }
 }
 
