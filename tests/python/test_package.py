@@ -90,7 +90,7 @@ class Package(unittest.TestCase):
     def test_errors_are_reported(self):
         with self.assertRaisesRegex(KeyError, "available: .*te_fc"):
             self.results.feature("te_xx")
-        with self.assertRaisesRegex(KeyError, "there are 0, 1"):
+        with self.assertRaisesRegex(KeyError, "available: 0, 1"):
             self.results.feature("te_fc", 3.0)
         with self.assertRaisesRegex(gearpod.Failed, "sensor.noise: unknown key") as caught:
             gearpod.run(STUDY, set={"sensor.noise": 1}, progress=False,
