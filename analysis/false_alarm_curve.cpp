@@ -53,8 +53,8 @@ bool is_smaller(const SizeEstimate& a, const SizeEstimate& b) {
     return place_of(a) < place_of(b);
 }
 
-// Rarity of the rate relative to one in the sample, or relative to one in the gearboxes if their
-// records are importance-sampled. 0 if the rate is not rarer.
+// Extrapolation factor 1 / (rate x n), where n is the size of the healthy sample, or its number of
+// gearboxes if the records are importance-sampled. 0 if the threshold is not extrapolated.
 double extrapolation_of(const Threshold& threshold, double rate) {
     const auto rarer = [&](long sample) { return 1.0 / (rate * static_cast<double>(sample)); };
     if (threshold.importance_sampled) {
@@ -75,9 +75,9 @@ RatePoint point_of(const HealthyThresholds& healthy, double rate, const Threshol
     return point;
 }
 
-// Makes estimates and bounds monotone. A threshold farther out finds no smaller fault, so a lower
-// bound at a nearer threshold also holds at a farther one, however little the sample tells about
-// rarer alarms.
+// Makes estimates and bounds monotone. A threshold farther from the healthy values detects no
+// smaller faults. A lower bound at a nearer threshold is therefore also valid at a farther one,
+// even where the sample has little information about the rarer alarms.
 void make_monotone(std::vector<RatePoint>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const SizeBounds& before = points[i - 1].a90;
@@ -108,7 +108,7 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
             break;
         }
         RatePoint point = point_of(healthy, rate, threshold, two_sided);
-        // The bound on the side of the healthy values finds more faults.
+        // The threshold bound nearer to the healthy values detects more faults.
         const bool high = values.alarm == Alarm::high;
         const Interval& bounds = point.threshold_bounds;
         const double near = high ? bounds.lower : bounds.upper,

@@ -4,8 +4,8 @@
 //
 // 1. The many summaries are replaced by each parameter's conditional mean given them, by ridge
 //    regression on the summaries and their squares: P. Fearnhead, D. Prangle, J. R. Stat. Soc. B 74
-//    (2012), 419-474. Cross-fitting without the sample's own fifth of the simulations avoids
-//    overfitting.
+//    (2012), 419-474. Five-fold cross-fitting avoids overfitting: the regression for a sample
+//    omits the sample's own fold.
 // 2. The nearest samples are kept with Epanechnikov weights and adjusted to the observation along a
 //    weighted regression line: M. A. Beaumont, W. Zhang, D. J. Balding, Genetics 162 (2002),
 //    2025-2035. Residuals are rescaled where their spread varies: M. G. B. Blum, O. Francois, Stat.

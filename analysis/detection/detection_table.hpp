@@ -43,7 +43,7 @@ struct TailChoice {
 // Threshold extrapolated beyond the healthy sample (tail.hpp).
 struct TailThreshold {
     double extrapolation = 1.0;       // 1 / (rate x sample size)
-    std::vector<TailChoice> choices;  // the first set the threshold; the others fit fewer values
+    std::vector<TailChoice> choices;  // the first gives the threshold; the others fit fewer values
     bool steady = true;  // the rates of the other fits lie in the interval of the threshold's rate
 };
 
@@ -101,8 +101,8 @@ struct DetectionRequest {
     std::vector<double> noise_levels;
     std::vector<SizeGroup> groups;  // ascending; from levels or from edges
     SizeUnit size = {};
-    // Epistemic inputs (columns of the gearboxes): their distribution describes the knowledge of
-    // one value that all gearboxes share.
+    // Epistemic inputs (columns of the gearboxes): their distribution describes the uncertainty
+    // about one value that all gearboxes share.
     std::vector<std::string> uncertain = {};
     // Number of consecutive rows per gearbox of the threshold sample: records that differ in noise.
     std::size_t threshold_records = 1;

@@ -36,7 +36,7 @@ class BoundsOfPod : public ResponseBounds {
         : fit_(fit), threshold_(fit.scale.y(threshold)), side_(alarm_sign(alarm)), z_(z) {}
 
     SizeBounds size(double pod, double smallest, double largest) const override {
-        // A higher POD at a size means a smaller size for a POD.
+        // The upper bound of the POD curve gives the lower bound of the size.
         return {at(pod, 0, smallest, largest), at(pod, 1, smallest, largest),
                 at(pod, -1, smallest, largest)};
     }
@@ -143,7 +143,8 @@ class BoundsOfLikelihood : public ResponseBounds {
             fit_.likelihood->maximum_through(x, threshold_, side_ * eta, fit_.maximum);
         return std::sqrt(std::max(0.0, 2.0 * (fit_.maximum.log_likelihood - held)));
     }
-    // Searches from the estimate outwards in growing steps to either end; infinite beyond it.
+    // Root of `beyond`, searched outwards from the estimate `from` in growing steps: downwards to
+    // `low` for way -1, upwards to `high` for way 1. Infinite if there is none up to that end.
     template <typename Function>
     double bound(Function beyond, double from, double low, double high, double way) const {
         const double end = way > 0.0 ? std::max(from, high) : std::min(from, low);

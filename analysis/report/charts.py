@@ -26,8 +26,8 @@ INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8
 _SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}
 _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
 
-LABELS = 30  # points from an axis to the text below its numbers and its name
-GAP = "#d3d8dd"  # a square of a map without a number
+LABELS = 30  # points from an axis to the text below its tick labels and axis label
+GAP = "#d3d8dd"  # colour of a map square that has no number
 
 # Colours from low to high noise. (light scheme, dark scheme)
 QUIET, LOUD = ((0.42, 0.68, 0.88), (0.65, 0.85, 1.0)), ((0.33, 0.07, 0.20), (0.90, 0.36, 0.47))
@@ -126,7 +126,8 @@ class SvgNames:
         return f"chart{self.count}"
 
     def keep(self, figure, title):
-        """Writes the chart as files on white, such as 03-area-under-the-roc.svg and .png."""
+        """Writes the chart on a white background to files such as 03-area-under-the-roc.svg and
+        .png."""
         if self.folder is None:
             return
         words = re.sub(r"[^a-z0-9]+", "-", title.lower().replace("×", "x")).strip("-")[:60]

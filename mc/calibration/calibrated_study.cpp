@@ -8,7 +8,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Joint sample of all inputs, in rows: this keeps the correlations that the recordings determine.
+// TOML text of an empirical distribution whose inputs are drawn jointly, row by row. This keeps the
+// correlations between inputs that the calibration found.
 std::string distribution_of(const std::vector<double>& samples) {
     std::string values;
     for (const double value : samples) {

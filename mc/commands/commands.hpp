@@ -96,7 +96,7 @@ struct LivesOptions {
     std::string json, html;  // "": none; JSON "-": standard output
 };
 int lives_command(const LivesOptions& options);
-// Runs `lives` with existing ranks. Every rank must call it.
+// Runs `lives` on the given MPI ranks. Every rank must call it.
 int lives_study(const LivesOptions& options, const Ranks& ranks);
 // Reports a results file written by `lives`. `report` calls it for such a file.
 int report_lives(const ReportOptions& options);

@@ -16,8 +16,8 @@ struct ExpectedResults {
     const char* command = "run";
     bool nan_parameters_allowed = false;  // true if columns of /instances may be NaN
 };
-// The check of check_results(), with given expectations. `expected` is empty for a study that this
-// program cannot read.
+// Same check as check_results(), against given expected contents. `expected` is empty for a study
+// that this program cannot read.
 void check_against(const std::string& path, const Results& frame, const RowSource& rows,
                    const std::optional<ExpectedResults>& expected);
 

@@ -50,8 +50,8 @@ std::string why_not_extendable(const Results& old, const std::string& path, cons
     const auto there = read_study_text(old.provenance_value("study"), path).study;
     Study as_there = study;
     const auto healthy = there ? there->ensemble.threshold_instances : 0;
-    // Trending features compare with the first healthy gearboxes, so the old results must have had
-    // these.
+    // Trending features are relative to the first healthy gearboxes, so the old results must
+    // contain all of these.
     if (part.whole() && healthy >= HealthyReference::kRecords &&
         healthy < study.ensemble.threshold_instances) {
         as_there.ensemble.threshold_instances = healthy;
@@ -101,7 +101,7 @@ std::unique_ptr<Checkpoint> extend_results(const std::string& results_path, cons
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
     const auto same_number = [](std::size_t batch) { return batch; };
-    // One filler per group. The last batch of each group may be incomplete; it is left out.
+    // One filler per group. The last batch of each group may be incomplete; it is omitted.
     BatchFiller thresholds(*checkpoint, plan, identity.shape, same_number),
         graded(*checkpoint, plan, identity.shape, same_number);
     rows.visit([&](const RowBlock& block) {

@@ -1,6 +1,5 @@
 // Cache of time integrations that a study needs repeatedly. Path exponent, gain and noise do not
-// affect the motion. If the other inputs take few values, the same eight gearboxes occur again and
-// again.
+// affect the motion. If the other inputs take few values, the same tiles of gearboxes recur.
 #pragma once
 
 #include <array>
@@ -19,9 +18,8 @@
 
 namespace gearpod::mc {
 
-// Number of gearboxes of the study that differ in inputs of the time integration. Empty if all of
-// them differ: such an input has a continuous distribution, or every tooth or planet has its own
-// errors.
+// Number of distinct sets of inputs to the time integration. Empty if all gearboxes differ: such an
+// input has a continuous distribution, or every tooth or planet has its own errors.
 std::optional<std::size_t> distinct_integrations(const Scene& scene);
 
 // Number of tiles that a run of the plan integrates, by group. Tiles hold as many gearboxes as

@@ -12,7 +12,7 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-// Calls f(layout, inputs) with the alternatives of their common kind.
+// Calls f() with the values that the two variants hold. Both must be of the same gearbox kind.
 template <class F>
 auto with_inputs(const GearboxLayout& layout, const GearboxInputs& inputs, F f) {
     return std::visit(Overloaded{[&](const PlanetaryLayout& kind) {

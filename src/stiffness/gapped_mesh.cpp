@@ -130,8 +130,8 @@ std::vector<double> GappedMesh::breaks() const {
     return all;
 }
 
-// Time steps end where slices start or end their engagement abruptly, and where the stiffness or
-// the gap of spur teeth has a kink.
+// Positions at which time steps must end: where slices engage or disengage abruptly, and where the
+// stiffness or the gap of spur teeth has a kink.
 std::vector<double> GappedMesh::make_transitions() const {
     std::vector<double> phases;
     add_phase(0, phases);
@@ -177,9 +177,9 @@ void GappedMesh::slice_stiffness(int slice, std::span<const double> tau, double 
         k /= slices_;
 }
 
-// Gap of a slice. Outside the path the curve's stiffness k differs from the pair's stiffness among
-// all others, `own`. The gap is scaled by own / k there, so that the product of stiffness and gap
-// is right.
+// Gap of a slice. Outside the path of contact, the stiffness k of the curve differs from `own`, the
+// stiffness of the pair among all engaged pairs. The gap is scaled by own / k there, so that the
+// product of stiffness and gap is correct.
 double GappedMesh::slice_gap(int slice, double tau) const {
     const double ratio = spur_->contact_ratio();
     const double at = tau - delay(slice) - path_begin();
@@ -349,10 +349,10 @@ class FaultyGappedMesh : public FaultyMesh {
     }
 
   private:
-    // First of the tooth pairs that are engaged while the faulty teeth are.
+    // Index of the first tooth pair whose engagement overlaps that of the faulty pair.
     int first_tooth() const { return 1 - static_cast<int>(std::ceil(healthy_.contact_ratio())); }
 
-    // Fraction of the total loss that a slice has.
+    // Fraction of the total stiffness loss that is assigned to a slice.
     double weight(int slice) const {
         const double low = static_cast<double>(slice) / healthy_.slices_;
         const double high = (slice + 1.0) / healthy_.slices_;

@@ -1,8 +1,8 @@
 // Explicit embedded pair of Bogacki and Shampine (1989), orders 3 and 2. Three stages give the step
-// of order 3. A fourth, at the step's end, estimates the difference from the embedded method of
-// order 2. It could serve as the next step's first stage only if the stiffness did not jump. It is
-// therefore omitted, unless the plan's stage nodes include 1 to request the estimate (a pilot,
-// step_pilot.hpp).
+// of order 3. A fourth stage, at the end of the step, is needed only to estimate the difference
+// from the embedded method of order 2. Because the stiffness may jump between steps, it cannot
+// serve as the first stage of the next step. It is therefore omitted, unless the plan's stage nodes
+// include 1 to request the estimate (see step_pilot.hpp).
 #pragma once
 
 #include "lockstep/integrators/explicit_stage.hpp"

@@ -27,9 +27,9 @@ struct Butcher {
         {-3.0 / 7, 2.0 / 7, 12.0 / 7, -12.0 / 7, 8.0 / 7},
         {7.0 / 90, 0.0, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}};  // the full step
 
-    // Square of the table. It gives the positions from the accelerations, as the table gives the
-    // velocities, so only accelerations are stored. The last column is the sum of each row of the
-    // table, the stage's node.
+    // Square of the Butcher tableau kTable. It gives the positions from the accelerations, as the
+    // tableau gives the velocities, so only accelerations are stored. The last column holds the
+    // node of each stage, which is the sum of the tableau's row.
     static constexpr auto kTwice = [] {
         std::array<std::array<double, kStages + 1>, kStages + 1> twice{};
         for (std::size_t row = 0; row <= kStages; ++row) {
@@ -98,8 +98,8 @@ struct Butcher {
     }
 
   private:
-    // Weighted sum of the accelerations of the stages before `Row`: rise() uses the table, slope()
-    // its square.
+    // Weighted sum of the accelerations of the stages before `Row`. The weights of rise() are from
+    // kTable, those of slope() from its square.
     template <int Row, class Stages>
     static GEARPOD_INLINE auto rise(const Stages& s, int at) {
         using Real = std::remove_cvref_t<decltype(s.q[0])>;

@@ -5,8 +5,8 @@
 //
 // Values outside these limits are replaced by the limit, as in the standard. b_s: web, b: face
 // width, s_R: rim below the tooth's root, m_n: normal module. The factor is a fit to the stiffness
-// of the whole pair, contact included, of external gears whose mate is equal or stiffer. A web
-// wider than the face (a hub) makes the pair stiffer.
+// of the whole pair, contact included, of external gears with a mating gear at least as stiff. A
+// web wider than the face (a hub) makes the pair stiffer.
 #pragma once
 
 namespace gearpod::stiffness {
