@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "mc/accuracy/report.hpp"
+#include "mc/input/wrapped_text.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -27,20 +28,9 @@ std::string worst_feature(const AccuracyReport& report, const PilotError& error)
     return report.features[worst];
 }
 
-// Adds words in lines of at most 80 columns, each one indented.
+// Adds indented lines that fit kLineWidth.
 void add_words(const std::string& words, std::size_t indent, Text out) {
-    constexpr std::size_t kWidth = 80;
-    std::string line;
-    for (std::size_t at = 0; at < words.size();) {
-        const std::size_t end = std::min(words.find(' ', at), words.size());
-        if (!line.empty() && indent + line.size() + 1 + end - at > kWidth) {
-            fmt::format_to(out, "{}{}\n", std::string(indent, ' '), line);
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + words.substr(at, end - at);
-        at = end + 1;
-    }
-    fmt::format_to(out, "{}{}\n", std::string(indent, ' '), line);
+    fmt::format_to(out, "{}{}\n", std::string(indent, ' '), wrapped_text(words, indent));
 }
 
 void add_head(const AccuracyReport& report, Text out) {

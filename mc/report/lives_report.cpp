@@ -9,6 +9,7 @@
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/study/assumptions.hpp"
 
 namespace gearpod::mc {
@@ -16,10 +17,9 @@ namespace {
 
 using LifeJson = nlohmann::json;
 
-// Adds the text in lines of at most 80 columns.
+// Adds the text in lines that fit kLineWidth.
 void add_text(std::string& out, const std::string& text) {
-    constexpr std::size_t kWidth = 80;
-    analysis::add_wrapped(out, text, 2, kWidth);
+    analysis::add_wrapped(out, text, 2, kLineWidth);
 }
 
 // Formats a depth in mm: "2.31", or "> 4" if the probability is not reached at the last depth.

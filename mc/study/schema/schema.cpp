@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "mc/input/wrapped_text.hpp"
 #include "mc/study/distributions/parameters.hpp"
 #include "mc/study/schema/table.hpp"
 
@@ -70,20 +71,9 @@ struct KindText {
     }
 };
 
-// Text wrapped to lines of at most 80 columns, each one indented.
+// Indented lines that fit kLineWidth.
 std::string wrapped(const std::string& text, std::size_t indent) {
-    constexpr std::size_t kWidth = 80;
-    std::string out, line;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
-        if (!line.empty() && indent + line.size() + 1 + end - at > kWidth) {
-            out += std::string(indent, ' ') + line + '\n';
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + text.substr(at, end - at);
-        at = end + 1;
-    }
-    return out + std::string(indent, ' ') + line + '\n';
+    return std::string(indent, ' ') + wrapped_text(text, indent) + '\n';
 }
 
 bool contains(std::string_view text, std::string_view word) {

@@ -44,7 +44,7 @@ template <class Law>
 void MeshForces<W>::with_law(int step, const MeshOverrides& overrides, std::span<const double> q,
                              std::span<const double> v, double* force) const {
     using Pairs = typename Model<Law>::Pairs;
-    const auto pairs = std::make_unique<Pairs>();
+    const auto pairs = std::make_unique_for_overwrite<Pairs>();
     load_pairs<Model<Law>>(plan_, lanes_, overrides, step, 0, *pairs);
     for (int pair = 0; pair < plan_.nodes.pairs; ++pair) {
         alignas(64) double d[W] = {}, r[W] = {};
@@ -88,18 +88,23 @@ void MeshForces<W>::write(const MeshOverrides& overrides, MeshRecord& record) co
     record.mesh_force.resize(plan_.samples() * forces);
     for (std::size_t i = 0; i < steps; ++i) {
         const Step& step = plan_.grid.steps[i];
+        if (step.sample < 0 && step.inside == 0) {
+            continue;
+        }
         const auto states = std::span(record.step_states).subspan(2 * i * size, 2 * size);
         const auto v = states.subspan(size);
         for (std::size_t j = 0; j < size; ++j) {
             q[j] = states[j] + part * step.length * lanes_.mesh_period[j % W] * v[j];
         }
-        for (std::size_t sample = 0; sample < plan_.samples(); ++sample) {
-            const bool starts = static_cast<int>(sample) == step.sample;
-            const int inside = static_cast<int>(sample) - step.first_inside;
-            if (starts || (inside >= 0 && inside < step.inside)) {
-                at(static_cast<int>(i), overrides, q, v,
-                   record.mesh_force.data() + sample * forces);
-            }
+        const auto write_sample = [&](int sample) {
+            at(static_cast<int>(i), overrides, q, v,
+               record.mesh_force.data() + static_cast<std::size_t>(sample) * forces);
+        };
+        if (step.sample >= 0) {
+            write_sample(step.sample);
+        }
+        for (int n = 0; n < step.inside; ++n) {
+            write_sample(step.first_inside + n);
         }
     }
 }
