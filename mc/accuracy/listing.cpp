@@ -13,10 +13,10 @@ namespace gearpod::mc {
 namespace {
 
 // Candidates have up to this many times the steps of an integrator's own rule, which aims at 0.1 %.
-constexpr double kBeyondOwnRule = 1.5;
+constexpr double kListedBeyondOwnRule = 1.5;
 // Only three graded grids are measured, because each one costs a pilot. None is made if its fewest
 // steps would cost more than this many times the least expensive integrator's own steps.
-constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
+constexpr double kListedGridTolerances[] = {1e-2, 1e-3, 1e-4};
 constexpr double kWorthGrading = 3.0;
 
 // Cost of the integrator's own uniform steps, in rk4 steps.
@@ -36,8 +36,8 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
         return;
     }
     for (std::size_t i = 0; i < family.size(); ++i) {
-        if (std::find(std::begin(kGridTolerances), std::end(kGridTolerances),
-                      family.grid_tolerances[i]) != std::end(kGridTolerances)) {
+        if (std::find(std::begin(kListedGridTolerances), std::end(kListedGridTolerances),
+                      family.grid_tolerances[i]) != std::end(kListedGridTolerances)) {
             all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
@@ -54,7 +54,7 @@ Study without_steps(const Study& study) {
 
 std::vector<ListedSetting> listed_settings(const Study& study) {
     const std::vector<SolverFamily> all_families =
-        solver_families(without_steps(study), kBeyondOwnRule);
+        solver_families(without_steps(study), kListedBeyondOwnRule);
     double least_cost = INFINITY;
     for (const SolverFamily& family : all_families) {
         least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(study, family));

@@ -26,13 +26,13 @@ constexpr double kNearFrontier = 3.0;
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
 // Fraction of the processor time for the reference.
-constexpr double kReferenceShare = 1.0 / 3.0;
+constexpr double kReferenceErrorShare = 1.0 / 3.0;
 // Stiffness tolerances tried with the fastest setting for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
-class Measurement {
+class AccuracyMeasurement {
   public:
-    Measurement(const Study& study, const AccuracyRequest& request)
+    AccuracyMeasurement(const Study& study, const AccuracyRequest& request)
         : study_(plain(study)),
           request_(request),
           time_(request.seconds),
@@ -51,7 +51,7 @@ class Measurement {
     AccuracyReport run() {
         request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
-        reference.seconds = kReferenceShare * time_.seconds();
+        reference.seconds = kReferenceErrorShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
         report_.own = 0;
         for (const ListedSetting& listed : listed_settings(study_)) {
@@ -394,7 +394,7 @@ class Measurement {
 }  // namespace
 
 AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request) {
-    return Measurement(study, request).run();
+    return AccuracyMeasurement(study, request).run();
 }
 
 }  // namespace gearpod::mc

@@ -17,8 +17,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
                                     int meshes) {
     const auto& content = tile.integration.content;
