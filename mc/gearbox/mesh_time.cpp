@@ -164,7 +164,7 @@ bool records_during_integration(const Scene& scene) {
            !scene.study().effects.quasi_static() && !distinct_integrations(scene);
 }
 
-int needed_sensor_meshes(const Scene& scene, unsigned needs) {
+int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
     return needs_samples(needs)              ? scene.signal_meshes()
            : noise_by_density(scene.study()) ? scene.span_meshes()
                                              : 0;
