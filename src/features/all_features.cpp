@@ -16,6 +16,7 @@
 #include "features/nsds.hpp"
 #include "features/sensor_rms.hpp"
 #include "features/sideband_index.hpp"
+#include "features/spectral_kurtosis.hpp"
 #include "features/te_fc.hpp"
 #include "features/te_fm0.hpp"
 #include "features/te_kurtosis.hpp"
@@ -98,6 +99,9 @@ constexpr std::array kFeatures{
     feature<nsds>(
         "nsds", "1", AlarmSide::high,
         "how far the average's spectrum stands above healthy gearboxes'; after Lei (2012)"),
+    feature<spectral_kurtosis>("spectral_kurtosis", "1", AlarmSide::high,
+                               "largest spectral kurtosis of the residual signal in frames of a "
+                               "mesh period; Antoni (2006)"),
     feature<window_kurtosis<Gear::planet>>("window_kurtosis", "1", AlarmSide::high,
                                            "largest planet tooth kurtosis over the median one"),
     feature<window_crest<Gear::planet>>("window_crest", "1", AlarmSide::high,
