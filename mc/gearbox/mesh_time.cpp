@@ -68,7 +68,7 @@ lockstep::IntegrationPlan explicit_plan(const Scene& scene, int steps) {
     plan.grid = lockstep::make_phase_grid(plan.grid.samples, steps, {});
     plan.grid.stage_nodes = lockstep::stage_nodes(plan.integrator);
     plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, scene.study().effects.mesh_damping);
-    if (plan.mesh_law != dynamics::MeshLaw::linear) {
+    if (dynamics::has_error(plan.mesh_law)) {
         lockstep::add_errors(
             scene.pairs(), plan.grid,
             std::vector<lockstep::MeshError>(static_cast<std::size_t>(scene.pairs().pairs())),
