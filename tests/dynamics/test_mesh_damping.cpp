@@ -54,10 +54,14 @@ TEST_CASE("Every law of mesh damping has the value of its formula") {
           Approx(2.0 * 0.05 * std::sqrt(kStiffness_N_m * kEquivalent_kg)));
     CHECK(damping(MeshDamping::proportional, {4e-6}) == Approx(1600.0));
     CHECK(damping(MeshDamping::constant, {77.0}) == 77.0);
+    CHECK(damping(MeshDamping::rayleigh, {900.0, 4e-6}) == Approx(810.0 + 1600.0));
 }
 
 TEST_CASE("The damping ratio of two gears that vibrate against one another is that of the law") {
     CHECK(modal_damping_ratio(MeshDamping::ratio, {0.05}) == Approx(0.05));
     const double w = std::sqrt(kStiffness_N_m / kEquivalent_kg);
     CHECK(modal_damping_ratio(MeshDamping::proportional, {4e-6}) == Approx(4e-6 * w / 2.0));
+    CHECK(modal_damping_ratio(MeshDamping::rayleigh, {900.0, 0.0}) == Approx(900.0 / (2.0 * w)));
+    CHECK(modal_damping_ratio(MeshDamping::rayleigh, {900.0, 4e-6}) ==
+          Approx(900.0 / (2.0 * w) + 4e-6 * w / 2.0));
 }

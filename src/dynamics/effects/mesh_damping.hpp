@@ -7,6 +7,7 @@
 #include "dynamics/effects/constant_damping.hpp"
 #include "dynamics/effects/proportional_damping.hpp"
 #include "dynamics/effects/ratio_damping.hpp"
+#include "dynamics/effects/rayleigh_damping.hpp"
 
 namespace gearpod::dynamics {
 
