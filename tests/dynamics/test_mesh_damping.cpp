@@ -7,6 +7,8 @@
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 
+namespace test_mesh_damping {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -65,3 +67,5 @@ TEST_CASE("The damping ratio of two gears that vibrate against one another is th
     CHECK(modal_damping_ratio(MeshDamping::rayleigh, {900.0, 4e-6}) ==
           Approx(900.0 / (2.0 * w) + 4e-6 * w / 2.0));
 }
+
+}  // namespace test_mesh_damping

@@ -6,6 +6,8 @@
 
 #include "features/feature.hpp"
 
+namespace test_all_features {
+
 using namespace gearpod;
 using namespace gearpod::features;
 
@@ -86,3 +88,5 @@ TEST_CASE("Features compare a record with its baseline and with the change since
 }
 
 }  // namespace
+
+}  // namespace test_all_features

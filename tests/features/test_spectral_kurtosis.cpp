@@ -8,6 +8,8 @@
 #include "features/feature.hpp"
 #include "features/spectral_kurtosis.hpp"
 
+namespace test_spectral_kurtosis {
+
 using namespace gearpod;
 using namespace gearpod::features;
 
@@ -87,3 +89,5 @@ TEST_CASE("Spectral kurtosis needs the averaged sensor signal and is not a defau
 }
 
 }  // namespace
+
+}  // namespace test_spectral_kurtosis

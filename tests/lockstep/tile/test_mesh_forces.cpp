@@ -6,6 +6,8 @@
 #include "lockstep/tile/mesh_forces.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_mesh_forces {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 
@@ -43,3 +45,5 @@ TEST_CASE("The mesh's damping force is the rate of its deflection times the law'
 }
 
 }  // namespace
+
+}  // namespace test_mesh_forces

@@ -5,6 +5,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_mesh_damping_keys {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -42,3 +44,5 @@ TEST_CASE("The parameters of a law of mesh damping belong to that law only") {
 }
 
 }  // namespace
+
+}  // namespace test_mesh_damping_keys
