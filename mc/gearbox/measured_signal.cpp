@@ -375,7 +375,7 @@ class SignalReader {
     int most_meshes() const {
         const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
         return meshes_needed(scene_.study(), scene_.span(),
-                             planetary ? features::kSun | features::kRing : 0U);
+                             planetary ? features::kCentralGears : features::SignalSet());
     }
 
     static constexpr double kFewestSamples = 2.0;  // per mesh period

@@ -234,8 +234,8 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     while (result.samples % result.te_samples != 0) {
         ++result.te_samples;
     }
-    const unsigned needs = needs_of(used_features(study));
-    if ((needs & features::kTeParts) != 0 && result.te_samples < kFewestSamples) {
+    const features::SignalSet needs = needs_of(used_features(study));
+    if (needs.has<features::TeParts>() && result.te_samples < kFewestSamples) {
         throw SceneError("sensor.encoder_sampling_Hz",
                          fmt::format("{} sample(s) per mesh period are too few for te_fm4, te_m6a "
                                      "and te_m8a, which split the transmission error",

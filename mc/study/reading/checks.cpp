@@ -141,7 +141,7 @@ void check_feature(StudyDraft& draft, const std::string& name) {
                                  "accelerations: effects.motion)",
                                  name),
                      "use features of the transmission error");
-    } else if ((feature->needs & (features::kSun | features::kRing)) != 0 &&
+    } else if (feature->needs.overlaps(features::kCentralGears) &&
                draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
                draft.usable("gearbox.kind")) {
         draft.reject("features.use",

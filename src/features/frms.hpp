@@ -3,12 +3,14 @@
 // harmonics and their sidebands due to the carrier's rotation. All are whole multiples of the
 // carrier frequency, so the filter subtracts the average over carrier turns. Lines of sun and
 // planet teeth have other orders; those of a tooth of a fixed ring coincide with the regular ones.
-#include "features/feature.hpp"
+#pragma once
+
+#include "features/signals.hpp"
 
 namespace gearpod::features {
 
-double frms(const FeatureInput& input) {
-    return input.filtered_rms;
+inline double frms(const FilteredSensor& sensor) {
+    return sensor.rms;
 }
 
 }  // namespace gearpod::features

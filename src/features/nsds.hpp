@@ -5,19 +5,21 @@
 //     NSDS = sum over f > 0 of max(0, s(f) - s_h(f)) / sum over f > 0 of s_h(f),
 //
 // where s are the amplitudes of the averaged turn, and s_h their mean over the healthy records.
+#pragma once
+
 #include <algorithm>
 
-#include "features/feature.hpp"
+#include "features/signals.hpp"
 
 namespace gearpod::features {
 
-double nsds(const FeatureInput& input) {
-    double above = 0.0, healthy = 0.0;
-    for (std::size_t k = 1; k < input.healthy.amplitude.size(); ++k) {
-        above += std::max(0.0, input.sensor.amplitude[k] - input.healthy.amplitude[k]);
-        healthy += input.healthy.amplitude[k];
+inline double nsds(const SensorTurn& sensor, const HealthyRecords& healthy) {
+    double above = 0.0, sum = 0.0;
+    for (std::size_t k = 1; k < healthy.amplitude.size(); ++k) {
+        above += std::max(0.0, sensor.amplitude[k] - healthy.amplitude[k]);
+        sum += healthy.amplitude[k];
     }
-    return above / healthy;
+    return above / sum;
 }
 
 }  // namespace gearpod::features

@@ -1,14 +1,16 @@
 // Crest factor of the averaged sensor signal: largest magnitude about the mean over the RMS about
 // it. Samuel and Pines (2005).
+#pragma once
+
 #include <algorithm>
 #include <cmath>
 
-#include "features/feature.hpp"
+#include "features/signals.hpp"
 
 namespace gearpod::features {
 
-double crest_factor(const FeatureInput& input) {
-    const std::span<const double> turn = input.sensor.turn;
+inline double crest_factor(const SensorTurn& sensor) {
+    const std::span<const double> turn = sensor.turn;
     const auto count = static_cast<double>(turn.size());
     double sum = 0.0;
     for (const double value : turn) {

@@ -2,13 +2,15 @@
 // of M earlier records; Zakrajsek, Townsend and Decker, NASA TM-105950 (1993). Here the earlier
 // records are those of M healthy gearboxes (mc/gearbox/healthy_reference.hpp). This is the NA4 of a
 // gearbox that resembled them when its record began; a healthy one has about 3.
-#include "features/feature.hpp"
+#pragma once
+
+#include "features/signals.hpp"
 #include "features/trending.hpp"
 
 namespace gearpod::features {
 
-double na4(const FeatureInput& input) {
-    return trended_kurtosis(input.sensor.residual, input.healthy.residual_variance);
+inline double na4(const SensorTurn& sensor, const HealthyRecords& healthy) {
+    return trended_kurtosis(sensor.residual, healthy.residual_variance);
 }
 
 }  // namespace gearpod::features

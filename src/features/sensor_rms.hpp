@@ -1,12 +1,14 @@
 // Root mean square of the sensor signal over the span, a standard indicator of condition monitors.
+#pragma once
+
 #include <cmath>
 
-#include "features/feature.hpp"
+#include "features/signals.hpp"
 
 namespace gearpod::features {
 
-double sensor_rms(const FeatureInput& input) {
-    return std::sqrt(input.sensor_mean_square);
+inline double sensor_rms(const SensorPower& sensor) {
+    return std::sqrt(sensor.mean_square);
 }
 
 }  // namespace gearpod::features

@@ -1,16 +1,18 @@
 // Root mean square of the averaged transmission error: Park et al. (2016), Table II.
+#pragma once
+
 #include <cmath>
 
-#include "features/feature.hpp"
+#include "features/signals.hpp"
 
 namespace gearpod::features {
 
-double te_rms(const FeatureInput& input) {
+inline double te_rms(const TeTurn& te) {
     double sum = 0.0;
-    for (const double value : input.te_turn) {
+    for (const double value : te.turn) {
         sum += value * value;
     }
-    return std::sqrt(sum / static_cast<double>(input.te_turn.size()));
+    return std::sqrt(sum / static_cast<double>(te.turn.size()));
 }
 
 }  // namespace gearpod::features
