@@ -352,11 +352,11 @@ class Measurement {
         limit.step_s = explicit_step_s(scenes_.of(own_setting(study_)));
         limit.meshes = report_.settings[0].meshes;
         limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
-            return r.setting.integrator() == "rk4" && r.refusal.empty();
+            return r.setting.numerics.integrator == lockstep::kUsualExplicit && r.refusal.empty();
         });
     }
 
-    // Compares the measured time of a step relative to rk4's with the cost model's table.
+    // Compares the measured times of steps with the cost model's table.
     void check_step_costs() {
         struct StepCosts {
             std::vector<double> measured;

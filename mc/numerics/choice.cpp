@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lockstep/integrators/facts.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/reference.hpp"
 #include "mc/numerics/solver_families.hpp"
@@ -56,7 +57,8 @@ class Search {
     NumericsChoice run() {
         std::vector<SolverFamily> all = solver_families(study_, kBeyondOwnRule);
         std::erase_if(all, [&](const SolverFamily& f) {
-            return f.size() == 0 || !step_cost(study_, f.common);
+            const bool never_chosen = lockstep::facts(*f.common.numerics.integrator).never_chosen;
+            return f.size() == 0 || (never_chosen && !study_.numerics.integrator);
         });
         // The least expensive families first: candidates that cost more than the best so far are
         // not tried.

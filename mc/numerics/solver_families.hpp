@@ -34,8 +34,7 @@ inline constexpr double kFewestGradedFraction = 1.0 / 8.0;
 const std::vector<double>& convergence_tolerances();
 
 // Cost of one step of one gearbox according to lockstep::StepCost of the integrator. Empty for
-// settings without a known cost, which are measured but never chosen: those whose integrator is not
-// given, and those that choose the strategy of integration.
+// settings whose integrator is not given, and for those that choose the strategy of integration.
 std::optional<double> step_cost(const Study& study, const SolverSetting& setting);
 
 }  // namespace gearpod::mc

@@ -34,7 +34,8 @@ void check_precision(StudyDraft& draft) {
             fmt::format("\"single\" is for the integrators {}, but numerics.integrator is \"{}\"",
                         lockstep::names_of(&lockstep::IntegratorFacts::has_single_precision),
                         lockstep::name(*n.integrator)),
-            "use precision = \"double\", or integrator = \"rk4\"");
+            fmt::format("use precision = \"double\", or integrator = \"{}\"",
+                        lockstep::name(lockstep::kUsualExplicit)));
     }
 }
 
