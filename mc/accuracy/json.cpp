@@ -29,14 +29,14 @@ Json errors(const AccuracyReport& report, const PilotError& error) {
 
 Json setting_json(const AccuracyReport& report, const SettingResult& r) {
     Json row{{"name", r.setting.text()},
-             {"integrator", r.setting.integrator},
+             {"integrator", r.setting.integrator()},
              {"overrides", r.setting.overrides()}};
     if (!r.refusal.empty()) {
         row["refused"] = r.refusal;
         return row;
     }
     row.update({{"steps", r.steps},
-                {"settle_tolerance", r.setting.convergence_tolerance},
+                {"settle_tolerance", r.setting.numerics.convergence_tolerance},
                 {"meshes_marched", r.meshes},
                 {"failed", r.failed},
                 {"gearbox_s", r.integration_s},

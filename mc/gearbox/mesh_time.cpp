@@ -61,10 +61,10 @@ double least_mesh_s(const Scene& scene, const lockstep::IntegrationPlan& plan, b
     return least;
 }
 
-// Integration plan of the scene with the classical Runge-Kutta method.
+// Integration plan of the scene with the usual explicit method.
 lockstep::IntegrationPlan explicit_plan(const Scene& scene, int steps) {
     lockstep::IntegrationPlan plan = scene.plan();
-    plan.integrator = lockstep::Integrator::rk4;
+    plan.integrator = lockstep::kUsualExplicit;
     plan.grid = lockstep::make_phase_grid(plan.grid.samples, steps, {});
     plan.grid.stage_nodes = lockstep::stage_nodes(plan.integrator);
     plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, scene.study().effects.mesh_damping);

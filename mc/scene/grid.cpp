@@ -23,15 +23,16 @@ lockstep::PhaseGrid with_nodes(lockstep::PhaseGrid grid, lockstep::Integrator in
                      "allow a larger one, or use grid = \"uniform\" and numerics.steps_per_mesh");
 }
 
-// Steps of bs3 from its own error estimate. Graded: in each cell between samples and transitions as
-// long as the estimate allows. Uniform: everywhere as short as the worst cell requires.
+// Steps of an integrator from its own error estimate. Graded: in each cell between samples and
+// transitions as long as the estimate allows. Uniform: everywhere as short as the worst cell
+// requires.
 SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int samples,
                          const std::vector<double>& transitions, const lockstep::Pilot& pilot) {
     // Twice as many steps as stability requires: at the stability limit the method damps the motion
     // whose error is to be estimated.
     lockstep::PhaseGrid uniform =
         lockstep::make_phase_grid(samples, 2 * stepping.steps, transitions);
-    uniform.stage_nodes = lockstep::stage_nodes(lockstep::Integrator::bs3);
+    uniform.stage_nodes = lockstep::stage_nodes(stepping.integrator);
     uniform.stage_nodes.push_back(1.0);  // requests the error estimate
     const lockstep::StepProfile profile =
         lockstep::estimated_profile(pilot, uniform, study.numerics.step_tolerance);
@@ -92,7 +93,7 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
     const Numerics& n = study.numerics;
     const bool moves = !study.effects.quasi_static();
     const bool graded = moves && n.grid == StepGrid::graded;
-    const bool estimated = moves && stepping.integrator == lockstep::Integrator::bs3 &&
+    const bool estimated = moves && lockstep::facts(stepping.integrator).estimates_error &&
                            (graded || n.steps_per_mesh == 0);
     if ((graded || estimated) && stepping.steps > kMostPilotSteps) {
         throw SceneError(

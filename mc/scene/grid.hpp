@@ -12,10 +12,11 @@ namespace gearpod::mc {
 
 // Result of calibrating the steps on a pilot sample.
 struct Calibration {
-    // For graded grids of all integrators but bs3: error of the signals and the grading.
+    // For graded grids of integrators that do not estimate their error: error of the signals and
+    // the grading.
     double signal_error = 0.0;
     lockstep::Grading grading;
-    bool estimated = false;  // true: calibrated by the error estimate of bs3
+    bool estimated = false;  // true: calibrated by the integrator's error estimate
 };
 
 struct SceneGrid {

@@ -173,6 +173,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     check_gears(draft);
     check_consistency(draft);
     check_fluctuations(draft);
+    check_numerics(draft);
     check_fault(draft);
     check_until(draft);
     check_records(draft);

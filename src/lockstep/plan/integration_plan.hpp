@@ -14,7 +14,7 @@ namespace gearpod::lockstep {
 // Data shared by all tiles of an ensemble; immutable during the integration.
 struct IntegrationPlan {
     dynamics::GearboxLayout layout;
-    Integrator integrator = Integrator::rk4;
+    Integrator integrator = kUsualExplicit;
     Precision precision = Precision::double_precision;
     PhaseGrid grid;
     dynamics::MeshLaw mesh_law = dynamics::MeshLaw::linear;

@@ -37,7 +37,7 @@ class StepProfile {
     std::vector<double> phases_, longest_;
 };
 
-// Profile estimated from steps on `grid` with an integrator that estimates its own error (bs3).
+// Profile estimated from steps on `grid` with an integrator that estimates its own error.
 // With these steps the estimate stays within `tolerance` of the largest position and of the largest
 // velocity. It is the largest over lanes, mesh periods and degrees of freedom. It grows with the
 // third power of the step.

@@ -214,8 +214,7 @@ Eigen::VectorXd lane_of(const machine::AlignedVector& values, std::size_t lane) 
 TEST_CASE("Tooth pairs without errors act as one mesh that separates") {
     const auto& train = LiangTrain::instance();
     const auto integrator =
-        GENERATE(Integrator::rk4, Integrator::bs3, Integrator::newmark, Integrator::sdirk3,
-                 Integrator::generalized_alpha, Integrator::central_difference);
+        GENERATE(from_range(all_integrators().begin(), all_integrators().end()));
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
         const auto faults = train.ring_side_cracks(kDepths);
