@@ -10,7 +10,6 @@
 #include "tests/lockstep/pair_of_masses.hpp"
 
 namespace test_mesh_laws {
-
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using dynamics::MeshLaw;
@@ -398,5 +397,4 @@ TEST_CASE("From a far start a loaded train converges to the periodic orbit reach
         CHECK(record.te[i] == Approx(periodic_orbit.records[0].te[i]).epsilon(1e-6));
     }
 }
-
 }  // namespace test_mesh_laws
