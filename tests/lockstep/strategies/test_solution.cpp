@@ -6,6 +6,8 @@
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_solution {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -184,3 +186,5 @@ TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
         }
     }
 }
+
+}  // namespace test_solution

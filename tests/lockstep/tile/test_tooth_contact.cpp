@@ -15,6 +15,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_tooth_contact {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -254,3 +256,5 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
     CHECK(run_tile<8>(linear, inputs, LiangTrain::instance().no_fault(8), PeriodicSolution{})
               .contact_loss.empty());
 }
+
+}  // namespace test_tooth_contact
