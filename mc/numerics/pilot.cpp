@@ -123,7 +123,7 @@ PilotRecord Pilot::run(const Scene& scene) const {
     const int lanes = lockstep::lanes_for(precision, full_lanes(precision));
     return record(scene, lanes, [&](std::span<const GearboxId> some) {
         return run_gearboxes(scene, sampler_, path_, filled(some, lanes), lanes,
-                             {.with_records = true});
+                             {.records = lockstep::RecordOptions{}});
     });
 }
 

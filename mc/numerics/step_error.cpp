@@ -48,7 +48,7 @@ class StepPilot {
         const int lanes =
             lockstep::lanes_for(scene.plan().precision, static_cast<int>(ids_.size()));
         return run_with_inputs(scene, path_grid(scene), ids_, inputs_, lanes,
-                               {.with_records = true});
+                               {.records = lockstep::RecordOptions{}});
     }
 
     std::size_t size() const { return ids_.size(); }

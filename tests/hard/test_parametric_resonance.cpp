@@ -204,11 +204,9 @@ TEST_CASE(
         CHECK(growth_per_mesh(plan, in) == Approx(expected).epsilon(2e-4));
         const bool grows = expected > 1.0;
         (grows ? unstable : stable) += 1;
-        TileSettings settings;
-        settings.tolerance = 1e-6;
-        settings.max_meshes = 20000;
+        const PeriodicSolution solution{.convergence = {1e-6, 20000}};
         const std::vector<dynamics::GearboxInputs> inputs{in};
-        const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), settings);
+        const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), solution);
         CHECK(tile.status[0] == (grows ? LaneStatus::diverged : LaneStatus::ok));
         CHECK((find_instability(plan, in) == Instability::parametric) == grows);
     }

@@ -8,7 +8,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 

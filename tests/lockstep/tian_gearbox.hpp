@@ -6,7 +6,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "stiffness/additive_mesh.hpp"
 
 namespace gearpod::test {

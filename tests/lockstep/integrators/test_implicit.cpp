@@ -55,11 +55,11 @@ std::vector<double> column(const machine::AlignedVector& values, std::size_t lan
 // The record of a tile of eight, recomputed from tiles of W.
 template <int W, class Faults>
 void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
-                 const Faults& faults, const TileSettings& settings, std::size_t record,
+                 const Faults& faults, const Solution& solution, std::size_t record,
                  const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
         const TileResult tile =
-            run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), settings);
+            run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), solution);
         for (std::size_t l = 0; l < W; ++l) {
             const MeshRecord &a = tile.records[record], &b = eight.records[record];
             CHECK(column(a.acceleration, l, W) == column(b.acceleration, first + l, 8));
@@ -223,15 +223,15 @@ TEST_CASE("Implicit integrators converge to the periodic orbit of Runge-Kutta") 
     const auto& train = LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> one{train.inputs(10.0)};
     const auto full = dynamics::Motion::translational_torsional;
-    const TileResult exact =
-        run_tile<1>(liang_plan(4800, full, Integrator::rk4), one, train.no_fault(1), {});
+    const TileResult exact = run_tile<1>(liang_plan(4800, full, Integrator::rk4), one,
+                                         train.no_fault(1), PeriodicSolution{});
     double largest = 0.0;
     for (const double a : exact.records[0].acceleration) {
         largest = std::max(largest, std::abs(a));
     }
     for (const Integrator integrator : kImplicitOnes) {
-        const TileResult tile =
-            run_tile<1>(liang_plan(4800, full, integrator), one, train.no_fault(1), {});
+        const TileResult tile = run_tile<1>(liang_plan(4800, full, integrator), one,
+                                            train.no_fault(1), PeriodicSolution{});
         REQUIRE(tile.status[0] == LaneStatus::ok);
         CHECK(largest_difference(tile.records[0].acceleration, exact.records[0].acceleration) <
               2e-3 * largest);
@@ -247,20 +247,18 @@ TEST_CASE(
     for (int l = 0; l < 8; ++l) {
         inputs.push_back(train.inputs(10.0 + l, 1e8 * (0.8 + 0.05 * l)));
     }
-    TileSettings settings;
-    settings.max_meshes = 4;
+    const FullSolution solution{.convergence = {.max_meshes = 4}, .span = {.meshes = 6}};
     for (const Integrator integrator : kImplicitOnes) {
         const IntegrationPlan plan =
             liang_plan(240, dynamics::Motion::translational_torsional, integrator);
-        settings.recorded_meshes = 6;
         const auto cracks = [&](std::size_t first, std::ptrdiff_t count) {
             const auto depth = depths.begin() + static_cast<std::ptrdiff_t>(first);
             return train.ring_side_cracks({depth, depth + count});
         };
         const auto faults = cracks(0, 8);
-        const TileResult wide = run_tile<8>(plan, inputs, faults, settings);
-        check_lanes<4>(plan, inputs, cracks, settings, 5, wide);
-        check_lanes<1>(plan, inputs, cracks, settings, 5, wide);
+        const TileResult wide = run_tile<8>(plan, inputs, faults, solution);
+        check_lanes<4>(plan, inputs, cracks, solution, 5, wide);
+        check_lanes<1>(plan, inputs, cracks, solution, 5, wide);
         const machine::InstructionSet best = machine::best_instruction_set();
         for (const auto set :
              {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
@@ -268,8 +266,8 @@ TEST_CASE(
                 continue;
             }
             machine::use_instruction_set(set);
-            const TileResult other = run_tile<8>(plan, inputs, faults, settings);
-            check_lanes<4>(plan, inputs, cracks, settings, 5, wide);
+            const TileResult other = run_tile<8>(plan, inputs, faults, solution);
+            check_lanes<4>(plan, inputs, cracks, solution, 5, wide);
             machine::use_instruction_set(best);
             CHECK(other.records[5].acceleration == wide.records[5].acceleration);
             CHECK(other.records[5].te == wide.records[5].te);
@@ -348,13 +346,11 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
     }
     for (const Integrator integrator : kImplicitOnes) {
         const IntegrationPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
-        TileSettings settings;
-        settings.max_meshes = 1;
-        settings.recorded_meshes = 3;
-        const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), settings);
+        const FullSolution solution{.convergence = {.max_meshes = 1}, .span = {.meshes = 3}};
+        const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), solution);
         const auto healthy = [&](std::size_t, int count) { return gearbox.no_fault(count); };
-        check_lanes<4>(plan, lanes, healthy, settings, 2, wide);
-        check_lanes<1>(plan, lanes, healthy, settings, 2, wide);
+        check_lanes<4>(plan, lanes, healthy, solution, 2, wide);
+        check_lanes<1>(plan, lanes, healthy, solution, 2, wide);
     }
 }
 

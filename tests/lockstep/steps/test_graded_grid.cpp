@@ -196,9 +196,11 @@ TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the to
     const auto& train = LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> one{train.inputs(2.0, 1.07e8)};
     const auto faults = train.ring_side_cracks({3e-3});
-    const TileResult ours = run_tile<1>(plan_of(choice.grid, Integrator::sdirk3), one, faults, {});
-    const TileResult exact = run_tile<1>(
-        plan_of(make_phase_grid(216, 8640, transitions), Integrator::rk4), one, faults, {});
+    const TileResult ours =
+        run_tile<1>(plan_of(choice.grid, Integrator::sdirk3), one, faults, PeriodicSolution{});
+    const TileResult exact =
+        run_tile<1>(plan_of(make_phase_grid(216, 8640, transitions), Integrator::rk4), one, faults,
+                    PeriodicSolution{});
     REQUIRE(ours.status[0] == LaneStatus::ok);
     for (std::size_t k = 0; k < ours.content.size(); ++k) {
         const auto& a = ours.records[static_cast<std::size_t>(ours.content[k])];

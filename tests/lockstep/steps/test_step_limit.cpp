@@ -161,7 +161,7 @@ TEST_CASE(
         const auto periodic_orbit = [&](Integrator integrator, double steps) {
             IntegrationPlan plan = gearbox.plan(50, static_cast<int>(std::ceil(steps)), integrator);
             plan.low_pass_rad_s = 2 * std::numbers::pi * low_pass_Hz;
-            return run_tile<1>(plan, stage, gearbox.no_fault(1), {}).records[0];
+            return run_tile<1>(plan, stage, gearbox.no_fault(1), PeriodicSolution{}).records[0];
         };
         const auto exact = periodic_orbit(Integrator::sdirk3, 10000);
         for (const auto integrator : test::integrators(false)) {
@@ -180,7 +180,8 @@ TEST_CASE(
     const std::vector<dynamics::GearboxInputs> planetary{train.inputs(10.0)};
     const auto full = dynamics::Motion::translational_torsional;
     const IntegrationPlan fine = train.plan(24, 2400, full);
-    const auto exact = run_tile<1>(fine, planetary, train.no_fault(1), {}).records[0];
+    const auto exact =
+        run_tile<1>(fine, planetary, train.no_fault(1), PeriodicSolution{}).records[0];
     const auto matrices =
         dynamics::assemble(fine.layout, planetary[0], std::vector<double>(8, 1e9));
     for (const auto integrator : test::integrators(false)) {
@@ -190,7 +191,8 @@ TEST_CASE(
         plan.integrator = integrator;
         plan.grid.stage_nodes = stage_nodes(integrator);
         plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
-        const auto ours = run_tile<1>(plan, planetary, train.no_fault(1), {}).records[0];
+        const auto ours =
+            run_tile<1>(plan, planetary, train.no_fault(1), PeriodicSolution{}).records[0];
         const auto [acceleration, te] = errors(ours, exact);
         INFO("steps " << steps);
         CHECK(acceleration < 1e-3);

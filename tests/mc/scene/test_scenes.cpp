@@ -21,7 +21,8 @@ namespace {
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
     return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
-                             std::span(&id, 1), 1, {.with_motion = true});
+                             std::span(&id, 1), 1,
+                             {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }
 
 // Text without the line that begins with `key`.

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "dynamics/gearbox_matrices.hpp"
-#include "lockstep/tile/quasi_static.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
-namespace test_quasi_static {
+namespace test_quasi_static_solution {
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -34,9 +34,9 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
                  const std::vector<double>& depths, const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
         const auto depth = depths.begin() + static_cast<std::ptrdiff_t>(first);
-        const TileResult tile =
-            run_quasi_static<W>(plan, std::span(inputs).subspan(first, W),
-                                LiangTrain::instance().ring_side_cracks({depth, depth + W}), {});
+        const TileResult tile = run_tile<W>(
+            plan, std::span(inputs).subspan(first, W),
+            LiangTrain::instance().ring_side_cracks({depth, depth + W}), QuasiStaticSolution{});
         for (std::size_t k = 0; k < 31; ++k) {
             const auto& own = tile.records[static_cast<std::size_t>(tile.content[k])].te;
             const auto& all = eight.records[static_cast<std::size_t>(eight.content[k])].te;
@@ -98,7 +98,7 @@ TEST_CASE("The torsional TE is that of springs in series and parallel at every p
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 24, kTorsional);
     const TileResult tile =
-        run_quasi_static<1>(plan, lanes_of(train.inputs(), 1), train.no_fault(1), {});
+        run_tile<1>(plan, lanes_of(train.inputs(), 1), train.no_fault(1), QuasiStaticSolution{});
     REQUIRE(tile.records.size() == 1);
     CHECK(tile.records[0].acceleration.empty());
     CHECK(tile.content == std::vector<int>{0});
@@ -112,9 +112,8 @@ TEST_CASE("The full model's equilibrium matches a dense orthogonal decomposition
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(12, 12, kFull, false);
     const auto inputs = spread_inputs();
-    TileSettings settings;
-    settings.with_motion = true;
-    const TileResult tile = run_quasi_static<8>(plan, inputs, train.no_fault(8), settings);
+    const TileResult tile = run_tile<8>(plan, inputs, train.no_fault(8),
+                                        QuasiStaticSolution{StaticPattern{.with_motion = true}});
     const std::size_t degrees = 21;
     for (int sample = 0; sample < 12; ++sample) {
         for (std::size_t l = 0; l < 8; ++l) {
@@ -155,7 +154,7 @@ TEST_CASE(
     plan.te_weight[dynamics::u_b] = -1.0;
     const std::vector<dynamics::GearboxInputs> inputs{in};
     const TileResult tile =
-        run_quasi_static<1>(plan, inputs, LiangTrain::instance().no_fault(1), {});
+        run_tile<1>(plan, inputs, LiangTrain::instance().no_fault(1), QuasiStaticSolution{});
     const double force = 11.9 / 0.0283;
     const double compliance =
         1.0 / 6e8 + 2.0 / 6.56e7 + 0.0283 * 0.0283 / 4.4e4 + 0.0716 * 0.0716 / 4.4e4;
@@ -172,7 +171,7 @@ TEST_CASE(
     set_pair(plan, 2, 0.0);  // both sides of planet 3: without support and without load
     set_pair(plan, 6, 0.0);
     const auto inputs = lanes_of(train.inputs(), 1);
-    const TileResult broken = run_quasi_static<1>(plan, inputs, train.no_fault(1), {});
+    const TileResult broken = run_tile<1>(plan, inputs, train.no_fault(1), QuasiStaticSolution{});
     CHECK(broken.status[0] == LaneStatus::ok);
     for (int sample = 0; sample < 6; ++sample) {
         CHECK(broken.records[0].te[static_cast<std::size_t>(sample)] ==
@@ -181,7 +180,7 @@ TEST_CASE(
     for (const int pair : {0, 3}) {
         set_pair(plan, pair, 0.0);
     }
-    const TileResult none = run_quasi_static<1>(plan, inputs, train.no_fault(1), {});
+    const TileResult none = run_tile<1>(plan, inputs, train.no_fault(1), QuasiStaticSolution{});
     CHECK(none.status[0] == LaneStatus::diverged);
     CHECK(std::isnan(none.records[0].te[0]));
 }
@@ -194,13 +193,13 @@ TEST_CASE(
         const IntegrationPlan plan = train.plan(24, 24, motion, false);
         auto inputs = spread_inputs();
         const auto faults = train.ring_side_cracks(depths);
-        const TileResult wide = run_quasi_static<8>(plan, inputs, faults, {});
+        const TileResult wide = run_tile<8>(plan, inputs, faults, QuasiStaticSolution{});
         CHECK(wide.content.size() == 31);
         CHECK(wide.status == std::vector(8, LaneStatus::ok));
         check_lanes<4>(plan, inputs, depths, wide);
         check_lanes<1>(plan, inputs, depths, wide);
         std::get<dynamics::PlanetaryInputs>(inputs[3]).support_stiffness_N_m = 0.0;
-        const TileResult unsupported = run_quasi_static<8>(plan, inputs, faults, {});
+        const TileResult unsupported = run_tile<8>(plan, inputs, faults, QuasiStaticSolution{});
         for (std::size_t r = 0; r < wide.records.size(); ++r) {
             for (std::size_t i = 0; i < wide.records[r].te.size(); ++i) {
                 if (i % 8 == 3) {
@@ -217,9 +216,10 @@ TEST_CASE(
 TEST_CASE("A crack increases the twist of the train while its tooth carries load, and only then") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 24, kTorsional);
-    const TileResult tile = run_quasi_static<8>(
-        plan, lanes_of(train.inputs(), 8),
-        train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3}), {});
+    const TileResult tile =
+        run_tile<8>(plan, lanes_of(train.inputs(), 8),
+                    train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3}),
+                    QuasiStaticSolution{});
     REQUIRE(tile.records.size() > 1);
     const auto& healthy = tile.records[0].te;
     double before = 0.0;
@@ -265,7 +265,7 @@ TEST_CASE("Static errors redistribute the load, separate meshes and load back fl
             auto in = train.inputs();
             in.backlash_m = two_sided ? backlash : dynamics::kNoBackContact;
             const TileResult tile =
-                run_quasi_static<1>(plan, lanes_of(in, 1), train.no_fault(1), {});
+                run_tile<1>(plan, lanes_of(in, 1), train.no_fault(1), QuasiStaticSolution{});
             REQUIRE(tile.status[0] == LaneStatus::ok);
             for (int sample = 0; sample < 6; ++sample) {
                 const auto k = at_sample(plan, sample);
@@ -284,4 +284,4 @@ TEST_CASE("Static errors redistribute the load, separate meshes and load back fl
     }
 }
 
-}  // namespace test_quasi_static
+}  // namespace test_quasi_static_solution

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/tile/quasi_static.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
 namespace test_gravity {
@@ -41,14 +41,11 @@ TEST_CASE("the bearings of a rotating train carry its weight, which rotates back
         train.plan(10, 10, dynamics::Motion::translational_torsional, false);
     const auto in = train.inputs();
     const std::vector<dynamics::GearboxInputs> inputs{in};
-    Excitation excitation;
-    excitation.gravity = Gravity{kGravity, -pi / 2, 1.0 / 81.0};
+    const VaryingForces weights{.torque = {}, .gravity = Gravity{kGravity, -pi / 2, 1.0 / 81.0}};
     const FaultCurves healthy = train.no_fault(1);
-    TileSettings settings;
-    settings.recorded_meshes = 81;
-    settings.with_motion = true;
-    settings.excitation = &excitation;
-    const TileResult tile = run_quasi_static<1>(plan, inputs, healthy, settings);
+    const TileResult tile = run_tile<1>(
+        plan, inputs, healthy,
+        QuasiStaticSolution{StaticSpan{.meshes = 81, .motion_meshes = 81, .forces = &weights}});
     REQUIRE(tile.content.size() == 81);
     double worst = 0.0;
     for (std::size_t k = 0; k < 81; ++k) {
@@ -84,14 +81,11 @@ TEST_CASE("in time integration, too, the bearings of a train carry its weight",
     Excitation excitation;
     excitation.gravity = Gravity{kGravity, -pi / 2, 1.0 / 81.0};
     const FaultCurves healthy = train.no_fault(1);
-    TileSettings settings;
-    settings.tolerance = 1e-6;
-    settings.max_meshes = 400;
-    settings.run_in_meshes = 100;
-    settings.recorded_meshes = 81;
-    settings.with_motion = true;
-    settings.excitation = &excitation;
-    const TileResult tile = run_tile<1>(plan, inputs, healthy, settings);
+    const TileResult tile = run_tile<1>(
+        plan, inputs, healthy,
+        FullSolution{.convergence = {1e-6, 400},
+                     .span = {.meshes = 81, .run_in_meshes = 100, .options = {.motion_meshes = 81}},
+                     .excitation = &excitation});
     REQUIRE(tile.status[0] == LaneStatus::ok);
     // The mean spring force over a mesh period is the weight, apart from the change of momentum.
     double worst = 0.0;
@@ -122,15 +116,14 @@ TEST_CASE("constant weight keeps the periodic orbit and the passage of a fault",
     const FaultCurves cracked = train.ring_side_cracks({3e-3});
     Excitation excitation;
     excitation.gravity = Gravity{kGravity, -pi / 2, 0.0};
-    TileSettings reuse;
-    reuse.tolerance = 1e-9;
-    reuse.max_meshes = 400;
-    reuse.with_motion = true;
-    reuse.excitation = &excitation;
-    TileSettings full_integration = reuse;
-    full_integration.recorded_meshes = 62;
-    const TileResult reused = run_tile<1>(plan, inputs, cracked, reuse);
-    const TileResult all = run_tile<1>(plan, inputs, cracked, full_integration);
+    const Convergence convergence{1e-9, 400};
+    const TileResult reused =
+        run_tile<1>(plan, inputs, cracked, PeriodicSolution{convergence, true, excitation.gravity});
+    const TileResult all =
+        run_tile<1>(plan, inputs, cracked,
+                    FullSolution{.convergence = convergence,
+                                 .span = {.meshes = 62, .options = {.motion_meshes = 62}},
+                                 .excitation = &excitation});
     REQUIRE(reused.status[0] == LaneStatus::ok);
     REQUIRE(reused.records.size() < all.records.size());
     for (std::size_t k = 31; k < 62; ++k) {
@@ -175,14 +168,10 @@ TEST_CASE("the displacement of a shaft's gear is its weight over its bearing's s
     in.mesh_period_s = 1e-3;
     const std::vector<dynamics::GearboxInputs> inputs{in};
     const double down = GENERATE(-pi / 2, -2.0);
-    Excitation excitation;
-    excitation.gravity = Gravity{kGravity, down, 0.0};
     PairSet pairs;
     const FaultCurves healthy{&pairs, {}, {}};
-    TileSettings settings;
-    settings.with_motion = true;
-    settings.excitation = &excitation;
-    const TileResult tile = run_quasi_static<1>(plan, inputs, healthy, settings);
+    const StaticPattern pattern{.with_motion = true, .gravity = ConstantGravity{kGravity, down}};
+    const TileResult tile = run_tile<1>(plan, inputs, healthy, QuasiStaticSolution{pattern});
     const auto& q = tile.records[0].motion;
     const double x = std::cos(down) * kGravity, y = std::sin(down) * kGravity;
     CHECK(q[dynamics::x_1] == Approx(1.5 * x / 1e8).margin(1e-16));

@@ -1,4 +1,4 @@
-#include "lockstep/tile/quasi_static.hpp"
+#include "lockstep/strategies/quasi_static_solution.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -38,65 +38,60 @@ int contacts_of(const IntegrationPlan& plan) {
 }
 
 template <int W>
-class QuasiStatic {
+class QuasiStaticTile {
   public:
-    QuasiStatic(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
-                const FaultCurves& faults, const TileSettings& settings)
-        : plan_(plan),
-          faults_(faults),
-          schedule_(plan, faults),
-          settings_(settings),
-          lanes_(make_static_lanes<W>(plan.layout, plan.mesh_law, inputs,
-                                      largest_stiffness(plan.nodes), contacts_of(plan))),
+    // `tooth_errors` and `forces` may be null.
+    QuasiStaticTile(const TileInputs& tile, const ToothErrors* tooth_errors,
+                    const VaryingForces* forces)
+        : plan_(tile.plan),
+          faults_(tile.faults),
+          schedule_(tile.plan, tile.faults, tooth_errors),
+          lanes_(make_static_lanes<W>(plan_.layout, plan_.mesh_law, tile.gearboxes,
+                                      largest_stiffness(plan_.nodes), contacts_of(plan_))),
           steady_force_(lanes_.force),
-          state_(lanes_) {
-        if (dynamics::separates(plan.mesh_law)) {
-            contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
-            const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
+          state_(lanes_),
+          mesh_forces_(plan_, tile.gearboxes) {
+        if (dynamics::separates(plan_.mesh_law)) {
+            contact_.emplace(plan_, dynamics::mesh_periods_s(tile.gearboxes));
+            const auto pairs = static_cast<std::size_t>(plan_.nodes.pairs);
             contact_time_.engaged.assign(pairs, 0.0);
             contact_time_.apart.assign(pairs * W, 0.0);
         }
-        if (settings_.with_motion) {
-            mesh_forces_.emplace(plan, inputs);
-        }
         result_.status.assign(W, LaneStatus::ok);
-        set_up_excitation(inputs);
-        if (plan.grid.stage_nodes.front() != 0.0) {
+        if (forces != nullptr) {
+            set_up_excitation(*forces, tile.gearboxes);
+        }
+        if (plan_.grid.stage_nodes.front() != 0.0) {
             throw std::invalid_argument(
                 "a quasi-static tile needs the stiffness at the start of every step");
         }
     }
 
-    TileResult run() {
-        const bool repeats = settings_.excitation == nullptr || settings_.excitation->repeats();
-        const bool one_by_one = faults_.tooth_errors || !repeats;
-        add_record(0, {}, !one_by_one);
-        if (one_by_one) {
-            for (int k = 0; k < settings_.recorded_meshes; ++k) {
-                result_.content.push_back(add_record(k, schedule_.all_overrides(k),
-                                                     counts_contact(k, settings_.contact_meshes)));
-            }
-        } else {
-            solve_pattern();
+    TileResult solve_pattern(bool with_motion) {
+        add_record(0, {}, with_motion, true);
+        for (int k = 0; k < faults_.pattern.length; ++k) {
+            const std::vector<PairOverride> passages = schedule_.overrides(k);
+            result_.content.push_back(
+                passages.empty() ? 0 : add_record(0, {passages, {}}, with_motion, false));
         }
-        result_.contact_loss = contact_time_.ratio();
-        mark_unsupported_lanes();
-        return std::move(result_);
+        return finish();
+    }
+
+    TileResult solve_span(const StaticSpan& span) {
+        add_record(0, {}, span.motion_meshes > 0, false);
+        for (int k = 0; k < span.meshes; ++k) {
+            result_.content.push_back(add_record(k, schedule_.all_overrides(k),
+                                                 k < span.motion_meshes,
+                                                 counts_contact(k, span.motion_meshes)));
+        }
+        return finish();
     }
 
   private:
-    void solve_pattern() {
-        const int length = faults_.pattern.length;
-        for (int k = 0; k < length; ++k) {
-            const std::vector<PairOverride> passages = schedule_.overrides(k);
-            result_.content.push_back(passages.empty() ? 0 : add_record(0, {passages, {}}, false));
-        }
-        for (int k = length; k < settings_.recorded_meshes; ++k) {
-            result_.content.push_back(result_.content[static_cast<std::size_t>(k % length)]);
-        }
-        if (settings_.recorded_meshes > 0) {
-            result_.content.resize(static_cast<std::size_t>(settings_.recorded_meshes));
-        }
+    TileResult finish() {
+        result_.contact_loss = contact_time_.ratio();
+        mark_unsupported_lanes();
+        return std::move(result_);
     }
 
     void load_meshes(const MeshOverrides& overrides, int step) {
@@ -167,16 +162,11 @@ class QuasiStatic {
                                  W;
     }
 
-    // Sets up the time-varying forces; without inertia there is no effect of the speed.
-    void set_up_excitation(std::span<const dynamics::GearboxInputs> inputs) {
-        if (settings_.excitation == nullptr) {
-            return;
-        }
-        if (settings_.excitation->speed) {
-            throw std::invalid_argument("a quasi-static gearbox feels no change of speed");
-        }
-        forces_ = make_excitation_forces<W>(plan_, *settings_.excitation, inputs, false);
-        rows_ = std::make_unique<ExcitationRows>(plan_, *settings_.excitation, inputs);
+    void set_up_excitation(const VaryingForces& forces,
+                           std::span<const dynamics::GearboxInputs> inputs) {
+        static_cast<VaryingForces&>(excitation_) = forces;
+        forces_ = make_excitation_forces<W>(plan_, excitation_, inputs, false);
+        rows_ = std::make_unique<ExcitationRows>(plan_, excitation_, inputs);
         forces_.rows = rows_->rows().data();
         for (std::size_t l = 0; l < W; ++l) {
             for (int e = 0; e < forces_.first[forces_.columns]; ++e) {
@@ -195,12 +185,12 @@ class QuasiStatic {
 
     // Solves and records one mesh period, and returns the index of its record. `counted` adds it to
     // the contact loss.
-    int add_record(int mesh, const MeshOverrides& overrides, bool counted) {
+    int add_record(int mesh, const MeshOverrides& overrides, bool with_motion, bool counted) {
         machine::throw_if_cancelled();
         if (rows_ != nullptr) {
             rows_->fill(mesh);
         }
-        MeshRecord record = make_record(plan_, W, settings_.with_motion);
+        MeshRecord record = make_record(plan_, W, with_motion);
         record.acceleration.clear();
         const int steps = static_cast<int>(plan_.grid.steps.size());
         for (int i = 0; i < steps; ++i) {
@@ -210,9 +200,9 @@ class QuasiStatic {
                 load_forces(i);
                 solve_static(lanes_, state_);
                 write(static_cast<std::size_t>(sample), record);
-                if (mesh_forces_) {
-                    mesh_forces_->at(i, overrides, state_.q, std::vector<double>(state_.q.size()),
-                                     record.mesh_force.data() + sample * plan_.nodes.pairs * W);
+                if (with_motion) {
+                    mesh_forces_.at(i, overrides, state_.q, std::vector<double>(state_.q.size()),
+                                    record.mesh_force.data() + sample * plan_.nodes.pairs * W);
                 }
                 note_status();
                 if (counted && contact_) {
@@ -273,38 +263,53 @@ class QuasiStatic {
     const IntegrationPlan& plan_;
     const FaultCurves& faults_;
     FaultSchedule schedule_;
-    const TileSettings& settings_;
     StaticLanes<W> lanes_;
     const machine::AlignedVector steady_force_;
+    Excitation excitation_;                 // the varying forces
     ExcitationForces<W> forces_;            // used only with
-    std::unique_ptr<ExcitationRows> rows_;  // an excitation
+    std::unique_ptr<ExcitationRows> rows_;  // varying forces
     StaticState<W> state_;
-    std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
-    std::optional<ToothContact> contact_;       // present if teeth can separate
+    MeshForces<W> mesh_forces_;
+    std::optional<ToothContact> contact_;  // present if teeth can separate
     ContactTime contact_time_;
     TileResult result_;
 };
 
+// Repeats the pattern of a result over the mesh periods of a span.
+TileResult over_span(TileResult result, int meshes) {
+    const std::vector<int> pattern = std::move(result.content);
+    result.content.clear();
+    for (int k = 0; k < meshes; ++k) {
+        result.content.push_back(pattern[static_cast<std::size_t>(k) % pattern.size()]);
+    }
+    return result;
+}
+
 }  // namespace
 
 template <int W>
-TileResult run_quasi_static(const IntegrationPlan& plan,
-                            std::span<const dynamics::GearboxInputs> inputs,
-                            const FaultCurves& faults, const TileSettings& settings) {
-    assert(inputs.size() == W);
-    check_tooth_errors(plan, faults.tooth_errors, settings.recorded_meshes);
-    check_excitation(settings.excitation, settings.recorded_meshes);
-    return QuasiStatic<W>(plan, inputs, faults, settings).run();
+TileResult QuasiStaticSolution::run(const TileInputs& tile) const {
+    if constexpr (W > 8) {
+        throw std::invalid_argument("quasi-static tiles have at most 8 lanes");
+    } else if (const auto* const pattern = std::get_if<StaticPattern>(&meshes)) {
+        VaryingForces weight;
+        if (pattern->gravity) {
+            weight.gravity = Gravity{*pattern->gravity};
+        }
+        return QuasiStaticTile<W>(tile, nullptr, pattern->gravity ? &weight : nullptr)
+            .solve_pattern(pattern->with_motion);
+    } else {
+        const StaticSpan& span = std::get<StaticSpan>(meshes);
+        QuasiStaticTile<W> own(tile, span.tooth_errors, span.forces);
+        return span.tooth_errors == nullptr && (span.forces == nullptr || span.forces->repeat())
+                   ? over_span(own.solve_pattern(span.motion_meshes > 0), span.meshes)
+                   : own.solve_span(span);
+    }
 }
 
-template TileResult run_quasi_static<1>(const IntegrationPlan&,
-                                        std::span<const dynamics::GearboxInputs>,
-                                        const FaultCurves&, const TileSettings&);
-template TileResult run_quasi_static<4>(const IntegrationPlan&,
-                                        std::span<const dynamics::GearboxInputs>,
-                                        const FaultCurves&, const TileSettings&);
-template TileResult run_quasi_static<8>(const IntegrationPlan&,
-                                        std::span<const dynamics::GearboxInputs>,
-                                        const FaultCurves&, const TileSettings&);
+template TileResult QuasiStaticSolution::run<1>(const TileInputs&) const;
+template TileResult QuasiStaticSolution::run<4>(const TileInputs&) const;
+template TileResult QuasiStaticSolution::run<8>(const TileInputs&) const;
+template TileResult QuasiStaticSolution::run<16>(const TileInputs&) const;
 
 }  // namespace gearpod::lockstep

@@ -1,56 +1,54 @@
-// Tile whose healthy mesh periods are superposed (superposed_motion.hpp) in the lanes in which all
-// tooth pairs stay in contact. The perturbation due to a fault is integrated from the superposed
-// states.
-#pragma once
+#include "lockstep/strategies/superposed_solution.hpp"
 
 #include <optional>
 #include <ranges>
 
-#include "lockstep/tile/integrated_tile.hpp"
+#include "lockstep/tile/span_tile.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
 
 namespace gearpod::lockstep {
+namespace {
 
 template <int W>
-class SuperposedTile : IntegratedTile<W> {
+class SuperposedTile : SpanTile<W> {
   public:
-    // The gearboxes must have tooth errors and a steady excitation.
-    using IntegratedTile<W>::IntegratedTile;
+    SuperposedTile(const TileInputs& tile, const SuperposedSolution& solution)
+        : Base(tile, solution.convergence, solution.span, &solution.tooth_errors, nullptr),
+          tooth_errors_(solution.tooth_errors),
+          superpose_faulty_(solution.superpose_faulty) {}
 
     TileResult run() {
-        converge_to_periodic_orbit();
+        converged_ = this->start();
         superpose_span();
-        add_contact_loss_of_span();
+        this->add_contact_loss_of_span();
         return std::move(result_);
     }
 
   private:
-    using Base = IntegratedTile<W>;
-    using Base::add_contact_loss_of_span, Base::add_record, Base::contact_, Base::distance,
-        Base::diverged, Base::faults_, Base::faulty, Base::clear_contact_loss,
-        Base::record_sensor_response, Base::integrate_mesh, Base::integrate_counting_contact,
-        Base::integrate_span, Base::new_record, Base::periodic_orbit_, Base::plan_, Base::record_of,
-        Base::result_, Base::mark_diverged, Base::schedule_, Base::settings_,
-        Base::converge_to_periodic_orbit, Base::converged_, Base::state_;
+    using Base = SpanTile<W>;
+    using Base::add_record, Base::contact_, Base::convergence_, Base::distance, Base::diverged,
+        Base::faulty, Base::integrate_counting_contact, Base::integrate_mesh, Base::integrate_span,
+        Base::mark_diverged, Base::new_record, Base::periodic_orbit_, Base::plan_, Base::record_of,
+        Base::result_, Base::schedule_, Base::span_, Base::state_, Base::with_motion;
 
     // Integrates mesh period k with its step states, and returns lower bounds of the contact
     // compression in it.
     machine::AlignedVector integrate_part_mesh(int k, const MeshOverrides& overrides,
                                                const MeshRecord* periodic_orbit,
                                                MeshRecord& record) {
-        record = new_record();
-        size_step_states(this->plan_, W, record);
+        record = new_record(with_motion());
+        size_step_states(plan_, W, record);
         integrate_mesh(k, overrides, record);
         return contact_->least_compression(record, overrides.gaps, periodic_orbit);
     }
 
     SuperpositionPart integrate_part(const SuperposedMotion& whole, int teeth,
                                      LaneMask<W>& periodic) {
-        const ToothErrors errors = errors_of_part(*faults_.tooth_errors, teeth);
-        MeshRecord scratch = new_record();
+        const ToothErrors errors = errors_of_part(tooth_errors_, teeth);
+        MeshRecord scratch = new_record(false);
         SuperpositionPart part;
         state_ = whole.periodic_orbit_state;
-        for (int k = -settings_.run_in_meshes; k < 0; ++k) {
+        for (int k = -span_.run_in_meshes; k < 0; ++k) {
             integrate_mesh(k, {{}, tooth_gaps(plan_, errors, k)}, scratch);
         }
         for (int k = 0; k < teeth; ++k) {
@@ -64,7 +62,7 @@ class SuperposedTile : IntegratedTile<W> {
             periodic[static_cast<std::size_t>(l)] =
                 periodic[static_cast<std::size_t>(l)] &&
                 distance(state_, part.states.front(), part.records.back(), l) <=
-                    settings_.tolerance;
+                    convergence_.tolerance;
         }
         return part;
     }
@@ -88,7 +86,7 @@ class SuperposedTile : IntegratedTile<W> {
 
     void integrate_parts(SuperposedMotion& whole, LaneMask<W>& periodic) {
         periodic = converged_;
-        for (const int teeth : part_periods(*faults_.tooth_errors)) {
+        for (const int teeth : part_periods(tooth_errors_)) {
             whole.parts.push_back(integrate_part(whole, teeth, periodic));
         }
         whole.periodic_orbit.step_states = {};
@@ -97,7 +95,7 @@ class SuperposedTile : IntegratedTile<W> {
 
     bool may_superpose(int lane) const {
         return result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok &&
-               (settings_.superpose_faulty || !faulty(lane));
+               (superpose_faulty_ || !faulty(lane));
     }
 
     // Computes the mesh periods of the span: superposed in lanes that keep contact, fully
@@ -107,31 +105,31 @@ class SuperposedTile : IntegratedTile<W> {
         std::optional<SuperposedMotion> periodic_orbit = integrate_periodic_orbit();
         if (!periodic_orbit) {
             state_ = periodic_orbit_;
-            integrate_span(settings_.on_record != nullptr);
+            integrate_span(span_.on_record != nullptr);
             return;
         }
         SuperposedMotion& whole = *periodic_orbit;
         LaneMask<W> kept;
         integrate_parts(whole, kept);
         const std::vector<char> in_contact =
-            whole.keeps_contact(-settings_.run_in_meshes, settings_.recorded_meshes, W);
+            whole.keeps_contact(-span_.run_in_meshes, span_.meshes, W);
         bool all = true;
         for (std::size_t l = 0; l < W; ++l) {
             kept[l] = kept[l] && in_contact[l] && may_superpose(static_cast<int>(l));
             all = all && kept[l];
         }
         result_.superposed.assign(kept.begin(), kept.end());
-        if (all && settings_.on_record && !settings_.keep_states) {
+        if (all && span_.on_record && !span_.options.states) {
             record_superposed_response(whole, kept);
             return;
         }
         if (!all) {
             state_ = periodic_orbit_;
             integrate_span(false);
-            clear_contact_loss(kept);
+            this->clear_contact_loss(kept);
         }
-        MeshRecord superposed = new_record();
-        for (int k = 0; k < settings_.recorded_meshes; ++k) {
+        MeshRecord superposed = new_record(with_motion());
+        for (int k = 0; k < span_.meshes; ++k) {
             if (all) {
                 whole.record(k, add_record(k));
             } else {
@@ -139,39 +137,51 @@ class SuperposedTile : IntegratedTile<W> {
                 copy_lanes<W>(superposed, record_of(k), kept);
             }
         }
-        if (settings_.keep_states) {
-            TileState state = state_;
-            for (int k = -settings_.run_in_meshes; k <= settings_.recorded_meshes; ++k) {
-                whole.state(k, state);
-                if (all) {
-                    result_.states.push_back(state);
-                } else {
-                    copy_lanes<W>(
-                        state,
-                        result_.states[static_cast<std::size_t>(k + settings_.run_in_meshes)],
-                        kept);
-                }
-            }
+        if (span_.options.states) {
+            keep_superposed_states(whole, kept, all);
         }
-        FaultPerturbation perturbation(*this, whole, kept);
-        for (int k = -settings_.run_in_meshes; k < settings_.recorded_meshes; ++k) {
+        LanePerturbation perturbation(*this, whole, kept);
+        for (int k = -span_.run_in_meshes; k < span_.meshes; ++k) {
             perturbation.integrate_record(k, k >= 0 ? &record_of(k) : nullptr);
         }
-        if (settings_.on_record) {
+        if (span_.on_record) {
             record_sensor_response();
         }
     }
 
+    // Sets TileResult::states; replaces those of the lanes `kept` unless `all` are superposed.
+    void keep_superposed_states(const SuperposedMotion& whole, const LaneMask<W>& kept, bool all) {
+        result_.states.run_in_meshes = span_.run_in_meshes;
+        TileState state = state_;
+        for (int k = -span_.run_in_meshes; k <= span_.meshes; ++k) {
+            whole.state(k, state);
+            if (all) {
+                result_.states.all.push_back(state);
+            } else {
+                copy_lanes<W>(state, result_.states.before(k), kept);
+            }
+        }
+    }
+
+    // Passes the kept records to span_.on_record and discards them.
+    void record_sensor_response() {
+        for (int k = 0; k < span_.meshes; ++k) {
+            span_.on_record(k, record_of(k));
+        }
+        result_.records.resize(1);
+        std::ranges::fill(result_.content, kUnchanged);
+    }
+
     // Perturbation due to faults in superposed lanes, integrated mesh period by mesh period from
     // the start of the run-in.
-    class FaultPerturbation {
+    class LanePerturbation {
       public:
-        FaultPerturbation(SuperposedTile& tile, const SuperposedMotion& whole,
-                          const LaneMask<W>& kept)
+        LanePerturbation(SuperposedTile& tile, const SuperposedMotion& whole,
+                         const LaneMask<W>& kept)
             : tile_(tile),
               whole_(whole),
               kept_(kept),
-              record_(tile.new_record()),
+              record_(tile.new_record(tile.with_motion())),
               healthy_(tile.state_) {}
 
         // Replaces the perturbed lanes in the record of mesh period k; `into` is null during the
@@ -214,7 +224,7 @@ class SuperposedTile : IntegratedTile<W> {
                     own = false;
                 } else if (own && !tile_.schedule_.continues_after(k)) {
                     own = tile_.distance(tile_.state_, healthy_, record_, l) >
-                          tile_.settings_.tolerance;
+                          tile_.convergence_.tolerance;
                 }
             }
         }
@@ -227,21 +237,37 @@ class SuperposedTile : IntegratedTile<W> {
         LaneMask<W> perturbed_{};
     };
 
-    // Passes superposed mesh periods to the callback settings_.on_record without keeping them;
+    // Passes superposed mesh periods to the callback span_.on_record without keeping them;
     // requires that all lanes keep contact.
     void record_superposed_response(const SuperposedMotion& whole, const LaneMask<W>& kept) {
-        FaultPerturbation perturbation(*this, whole, kept);
-        MeshRecord superposed = new_record();
-        for (int k = -settings_.run_in_meshes; k < settings_.recorded_meshes; ++k) {
+        LanePerturbation perturbation(*this, whole, kept);
+        MeshRecord superposed = new_record(with_motion());
+        for (int k = -span_.run_in_meshes; k < span_.meshes; ++k) {
             if (k >= 0) {
                 whole.record(k, superposed);
             }
             perturbation.integrate_record(k, k >= 0 ? &superposed : nullptr);
             if (k >= 0) {
-                settings_.on_record(k, superposed);
+                span_.on_record(k, superposed);
             }
         }
     }
+
+    const ToothErrors& tooth_errors_;
+    const bool superpose_faulty_;
+    LaneMask<W> converged_{};  // lanes that converged to the periodic orbit
 };
+
+}  // namespace
+
+template <int W>
+TileResult SuperposedSolution::run(const TileInputs& tile) const {
+    return SuperposedTile<W>(tile, *this).run();
+}
+
+template TileResult SuperposedSolution::run<1>(const TileInputs&) const;
+template TileResult SuperposedSolution::run<4>(const TileInputs&) const;
+template TileResult SuperposedSolution::run<8>(const TileInputs&) const;
+template TileResult SuperposedSolution::run<16>(const TileInputs&) const;
 
 }  // namespace gearpod::lockstep

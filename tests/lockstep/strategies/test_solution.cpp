@@ -6,7 +6,7 @@
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
-namespace test_tile {
+namespace test_solution {
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -57,9 +57,9 @@ void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::Gearbo
                  const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
         const auto depth = kDepths.begin() + static_cast<std::ptrdiff_t>(first);
-        const TileResult tile =
-            run_tile<W>(plan, std::span(inputs).subspan(first, W),
-                        LiangTrain::instance().ring_side_cracks({depth, depth + W}), {});
+        const TileResult tile = run_tile<W>(
+            plan, std::span(inputs).subspan(first, W),
+            LiangTrain::instance().ring_side_cracks({depth, depth + W}), PeriodicSolution{});
         for (std::size_t l = 0; l < W; ++l) {
             CHECK(unrolled(tile, l, W) == unrolled(eight, first + l, 8));
         }
@@ -72,7 +72,8 @@ TEST_CASE("Eight lanes, four and one give the same bits, on every instruction se
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 1200, kFull);
     const auto inputs = spread_inputs();
-    const TileResult wide = run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), {});
+    const TileResult wide =
+        run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), PeriodicSolution{});
     CHECK(wide.status == std::vector(8, LaneStatus::ok));
     check_lanes<4>(plan, inputs, wide);
     check_lanes<1>(plan, inputs, wide);
@@ -82,7 +83,8 @@ TEST_CASE("Eight lanes, four and one give the same bits, on every instruction se
             continue;
         }
         machine::use_instruction_set(set);
-        const TileResult other = run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), {});
+        const TileResult other =
+            run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), PeriodicSolution{});
         check_lanes<4>(plan, inputs, wide);
         machine::use_instruction_set(best);
         for (std::size_t l = 0; l < 8; ++l) {
@@ -96,10 +98,10 @@ TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
     const IntegrationPlan plan = train.plan(24, 1200, kFull);
     auto inputs = spread_inputs();
     const auto faults = train.ring_side_cracks(kDepths);
-    const TileResult before = run_tile<8>(plan, inputs, faults, {});
+    const TileResult before = run_tile<8>(plan, inputs, faults, PeriodicSolution{});
     std::get<dynamics::PlanetaryInputs>(inputs[3]).mass_kg[dynamics::sun] =
         1e-7;  // far too light for this step
-    const TileResult after = run_tile<8>(plan, inputs, faults, {});
+    const TileResult after = run_tile<8>(plan, inputs, faults, PeriodicSolution{});
     for (std::size_t l = 0; l < 8; ++l) {
         if (l == 3) {
             CHECK(after.status[l] == LaneStatus::diverged);
@@ -119,12 +121,10 @@ TEST_CASE("Reused periodic orbits and passages agree with integration of every m
         const IntegrationPlan plan = train.plan(24, 1200, kFull);
         const std::vector<dynamics::GearboxInputs> one{train.inputs(speedup)};
         const auto faults = train.ring_side_cracks({4.28e-3});
-        TileSettings reuse;
-        reuse.max_meshes = 2000;
-        TileSettings full_integration = reuse;
-        full_integration.recorded_meshes = 31 * 12;
-        const TileResult a = run_tile<1>(plan, one, faults, reuse);
-        const TileResult b = run_tile<1>(plan, one, faults, full_integration);
+        const Convergence convergence{.max_meshes = 2000};
+        const TileResult a = run_tile<1>(plan, one, faults, PeriodicSolution{convergence});
+        const TileResult b =
+            run_tile<1>(plan, one, faults, FullSolution{convergence, {.meshes = 31 * 12}});
         REQUIRE(a.status[0] == LaneStatus::ok);
         double difference = 0.0, scale = 0.0;
         // Compares after full integration has converged as well.
@@ -146,7 +146,7 @@ TEST_CASE("A gearbox without a fault has one mesh period, with zero mean displac
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 1200, kFull);
     const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
-    const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), {});
+    const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), PeriodicSolution{});
     CHECK(tile.records.size() == 1);
     CHECK(tile.content == std::vector<int>{0});
     // The periodic orbit repeats, so the vibration's mean acceleration is that of the frame alone:
@@ -172,9 +172,8 @@ TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
             plan.grid.stage_nodes = facts(integrator).stage_nodes;
             plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
             const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
-            TileSettings settings;
-            settings.with_motion = true;
-            const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), settings);
+            const TileResult tile =
+                run_tile<1>(plan, one, train.no_fault(1), PeriodicSolution{.with_motion = true});
             const machine::AlignedVector& force = tile.records[0].mesh_force;
             REQUIRE(force.size() == 400 * 8);
             double sun = 0.0, ring = 0.0;  // the planets' sums, means over the period
@@ -188,4 +187,4 @@ TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
     }
 }
 
-}  // namespace test_tile
+}  // namespace test_solution
