@@ -33,11 +33,9 @@ SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int f
     SolverSetting finer = setting;
     finer.convergence_tolerance = std::min(kConverged, setting.convergence_tolerance);
     double steps = setting.steps;
-    if (scene.study().numerics.grid == StepGrid::graded) {
+    if (scene.calibration()) {
         finer.other.push_back("numerics.grid=uniform");
-        if (scene.calibration() && scene.calibration()->grading.first > 0.0) {
-            steps = std::ceil(1.0 / scene.calibration()->grading.first);
-        }
+        steps = std::ceil(1.0 / scene.calibration()->grading.first);
     }
     finer.steps = static_cast<int>(std::min(1e6, factor * steps));
     return finer;

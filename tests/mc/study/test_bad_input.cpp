@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
@@ -114,8 +113,8 @@ const BadFile kBadFiles[] = {
      "precision", "numerics.precision",
      "\"single\" is for the integrators rk4 and central-difference, but numerics.integrator is "
      "\"sdirk3\""},
-    {"[operation]", "[numerics]\nstep_tolerance = 0\n[operation]", "step_tolerance",
-     "numerics.step_tolerance", "must be > 0 and < 1"},
+    {"[operation]", "[numerics]\ngrid_tolerance = 0\n[operation]", "grid_tolerance",
+     "numerics.grid_tolerance", "must be > 0 and < 1"},
     {"low_pass_Hz = 800", "low_pass_Hz = 2500", "low_pass", "sensor.low_pass_Hz",
      "not below half of sampling_Hz"},
     // Missing.
