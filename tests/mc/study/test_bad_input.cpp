@@ -5,26 +5,16 @@
 
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_problems.hpp"
 
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::Problems;
 using gearpod::mc::read_study;
 using gearpod::mc::read_study_text;
-using gearpod::tests::example_with;
-using gearpod::tests::kExampleStudy;
+using namespace gearpod::tests;
 
 namespace {
-
-// Line number of `marker`, 1 for the first line; 0 if the text does not hold it.
-int line_of(const std::string& text, const std::string& marker) {
-    const std::size_t at = text.find(marker);
-    if (at == std::string::npos) {
-        return 0;
-    }
-    return 1 + static_cast<int>(
-                   std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
 
 struct BadFile {
     const char* from;    // text of the example to replace
@@ -200,10 +190,6 @@ const BadFile kBadFiles[] = {
     {"[operation]", "[[[operation]]]", "[[[operation", "", "not valid TOML"},
     {"[operation]", "[[operation]]", "[[operation", "operation", "must be a section"},
 };
-
-bool mentions(const Problem& problem, const std::string& words) {
-    return (problem.what + "; " + problem.remedy).find(words) != std::string::npos;
-}
 
 }  // namespace
 
