@@ -15,6 +15,8 @@
 #include "dynamics/helical_pair.hpp"
 #include "dynamics/planetary.hpp"
 
+namespace test_helical_pair {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -196,3 +198,5 @@ TEST_CASE("In the plane the pair equals the planetary model's spur pair at the t
     CHECK(transverse_pressure_angle(kPhi, 0.0) == kPhi);
     CHECK(transverse_stiffness_factor(kPhi, 0.0) == 1.0);
 }
+
+}  // namespace test_helical_pair

@@ -7,6 +7,8 @@
 
 #include "analysis/detection/splitting.hpp"
 
+namespace test_splitting {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -189,3 +191,5 @@ TEST_CASE("Interval coverage of rates by splitting", "[.rare-coverage][splitting
 }
 
 }  // namespace
+
+}  // namespace test_splitting

@@ -7,6 +7,8 @@
 #include "analysis/statistics/wilson.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_input_effects {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -209,3 +211,5 @@ TEST_CASE("Bounds of the a90 map cover the truth; the test keeps its level", "[.
 }
 
 }  // namespace
+
+}  // namespace test_input_effects

@@ -6,6 +6,8 @@
 
 #include "analysis/inputs/sobol_indices.hpp"
 
+namespace test_sobol_indices {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -214,3 +216,5 @@ TEST_CASE("Bounds of both indices cover the truth", "[.coverage]") {
 }
 
 }  // namespace
+
+}  // namespace test_sobol_indices

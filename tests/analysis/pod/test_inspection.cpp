@@ -7,6 +7,8 @@
 #include "analysis/inspection.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_inspection {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -294,3 +296,5 @@ TEST_CASE("Inspections without a flaw determine the floor of hit/miss curves") {
 }
 
 }  // namespace
+
+}  // namespace test_inspection

@@ -5,6 +5,8 @@
 
 #include "analysis/statistics/distributions.hpp"
 
+namespace test_distributions {
+
 using namespace gearpod::analysis;
 
 namespace {
@@ -51,3 +53,5 @@ TEST_CASE("Small probabilities of common exceedance keep their digits") {
 }
 
 }  // namespace
+
+}  // namespace test_distributions

@@ -8,6 +8,8 @@
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_explicit_order {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::integrate_meshes;
@@ -143,3 +145,5 @@ TEST_CASE("A step of nearly zero length leaves an explicit integration unchanged
         }
     }
 }
+
+}  // namespace test_explicit_order

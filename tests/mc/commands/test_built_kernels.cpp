@@ -3,6 +3,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_built_kernels {
+
 using namespace gearpod;
 using test::Outcome;
 using test::study;
@@ -48,3 +50,5 @@ TEST_CASE("Single-precision gearboxes that do not converge are counted with sixt
         CHECK(run.mentions(" of 16 failed (0 diverged, "));
     }
 }
+
+}  // namespace test_built_kernels

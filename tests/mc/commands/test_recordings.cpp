@@ -12,6 +12,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_recordings {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -387,3 +389,5 @@ TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
 }
 
 }  // namespace
+
+}  // namespace test_recordings

@@ -10,6 +10,8 @@
 #include "mc/files/isolated_signal.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_isolated_signal {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -82,3 +84,5 @@ TEST_CASE("No child process remains") {
 }
 
 }  // namespace
+
+}  // namespace test_isolated_signal

@@ -3,6 +3,8 @@
 
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_park_studies {
+
 using namespace gearpod;
 using test::feature_index;
 using test::run_one;
@@ -330,3 +332,5 @@ TEST_CASE(
     CHECK(rises(quiet.kurtosis));
     CHECK(quiet.kurtosis[0] == Approx(still.kurtosis[0]).epsilon(0.05));
 }
+
+}  // namespace test_park_studies

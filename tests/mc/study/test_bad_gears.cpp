@@ -7,6 +7,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_problems.hpp"
 
+namespace test_bad_gears {
+
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;
@@ -72,3 +74,5 @@ TEST_CASE("Gears without tooth contact at some phase are refused") {
     CHECK(problems[1].key == "gearbox.planet_teeth");
     CHECK(mentions(problems[1], "planet and ring do not mesh (the contact ratio of 31 against 81"));
 }
+
+}  // namespace test_bad_gears
