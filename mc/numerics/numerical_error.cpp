@@ -32,12 +32,10 @@ SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int f
     Numerics& n = finer.numerics;
     n.convergence_tolerance = std::min(kConverged, n.convergence_tolerance);
     double steps = n.steps_per_mesh;
-    if (scene.study().numerics.grid == StepGrid::graded) {
+    if (scene.calibration()) {
         n.grid = StepGrid::uniform;
         finer.options.emplace_back("grid");
-        if (scene.calibration() && scene.calibration()->grading.first > 0.0) {
-            steps = std::ceil(1.0 / scene.calibration()->grading.first);
-        }
+        steps = std::ceil(1.0 / scene.calibration()->grading.first);
     }
     n.steps_per_mesh = static_cast<int>(std::min(1e6, factor * steps));
     return finer;

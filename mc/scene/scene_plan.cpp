@@ -80,7 +80,8 @@ class PlanBuilder {
             lockstep::add_tooth_pairs(stiffness_.pairs(), integration.grid, integration.nodes);
         } catch (const std::invalid_argument& error) {
             throw SceneError("gearbox.addendum_coefficient", error.what(),
-                             "use teeth with a lower contact ratio, or fewer face_slices");
+                             "use teeth with a lower contact ratio, or fewer face_slices",
+                             ProblemKind::tooth_pairs);
         }
     }
 

@@ -12,6 +12,8 @@ namespace test_window_features {
 
 namespace test_window_features {
 
+namespace test_window_features {
+
 using namespace gearpod;
 using namespace gearpod::features;
 

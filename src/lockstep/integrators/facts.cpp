@@ -37,9 +37,6 @@ IntegratorFacts facts_of(std::string_view kernels) {
     if constexpr (requires { Method::kLeastMargin; }) {
         facts.least_margin = Method::kLeastMargin;
     }
-    facts.estimates_error = requires {
-        Method::kEstimateNode;
-    };
     if constexpr (requires { Method::kNeverChosen; }) {
         facts.never_chosen = Method::kNeverChosen;
     }

@@ -32,7 +32,6 @@ struct IntegratorFacts {
     FilterMap (*filter)(const FilterSystem&);
     double (*stable_step)(const dynamics::GearboxMatrices&);  // of explicit ones without growth()
     double least_margin;                                      // of explicit ones
-    bool estimates_error;                                     // of its steps
     bool never_chosen;                                        // by the program
 };
 

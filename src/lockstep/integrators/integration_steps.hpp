@@ -290,12 +290,6 @@ GEARPOD_INLINE void integrate_steps(const IntegrationPlan& plan, const typename 
                 write_interpolated_samples<Model>(plan, lanes, step, before, state, record);
             }
         }
-        if constexpr (requires { stages.estimate; }) {
-            if (!record.estimate.empty()) {
-                constexpr int kRow = kEstimateRows * Model::kWidth;
-                std::copy_n(stages.estimate, kRow, record.estimate.data() + i * kRow);
-            }
-        }
     }
     if (!record.step_states.empty()) {
         write_step_state<Integrator, Model>(plan, lanes, steps, state, record);

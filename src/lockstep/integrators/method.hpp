@@ -15,8 +15,6 @@
 //                  matrices m grows
 //   kLeastMargin   optional, explicit methods: smallest margin of the number of steps over that of
 //                  the stability limit; kStepMargin for methods that damp motion near the limit
-//   kEstimateNode  optional: index of node 1 among the stage nodes, which the method uses only to
-//                  estimate the error of its steps (MeshRecord::estimate)
 //   kNeverChosen   optional: true for methods that `accuracy` measures for comparison, but that the
 //                  program never takes by itself
 //   filter(s)      a step of the sensor's low-pass filter by the same method (filter_system.hpp)

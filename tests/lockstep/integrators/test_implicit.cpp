@@ -1,7 +1,6 @@
 // Checks the implicit integrators against a much finer integration by another method, a conserved
 // energy and each other's bits.
 #include <catch2/catch.hpp>
-#include <numeric>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"

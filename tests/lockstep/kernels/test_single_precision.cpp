@@ -1,6 +1,5 @@
 // Checks single precision: its loss of accuracy, and equal bits for any number of lanes.
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"

@@ -1,13 +1,13 @@
 // Checks scenes of every kind of gearbox and degrees of freedom, from study text to recorded
 // response.
 #include <algorithm>
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/step_limit.hpp"
 #include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_scenes {
@@ -136,6 +136,14 @@ TEST_CASE("A pilot grades the steps of a study, the same in every run") {
         FAIL("accepted");
     } catch (const mc::SceneError& error) {
         CHECK(error.key() == "numerics.grid_tolerance");
+    }
+    try {
+        const Scene scene(test::study_of_text(kExampleStudy,
+                                              {"numerics.integrator=rk4", "numerics.grid=graded"}));
+        FAIL("accepted");
+    } catch (const mc::SceneError& error) {
+        CHECK(error.key() == "numerics.grid");
+        CHECK(error.remedy().find("sdirk3") != std::string::npos);
     }
 }
 

@@ -1,6 +1,5 @@
 // Checks the shipped studies of Park's figures (2016): transmission errors over a planet turn,
 // their orders and features, quasi-static and with inertia.
-#include <numbers>
 
 #include "tests/mc/liang_signals.hpp"
 
