@@ -90,11 +90,13 @@ Columns choose_columns(const TextTable& table, const PodOptions& options, Refusa
     if (!sizes.empty()) {
         chosen.size = sizes.front();
     } else if (size.empty()) {
-        refusals.add(
-            fmt::format("no column size; its columns are {}; choose with --size", table.names()));
+        refusals.add(fmt::format(
+            "has no column named size; name the column of the flaw sizes with --size; its columns "
+            "are {}",
+            table.names()));
     }
     if (!options.hits.empty() && !options.values.empty()) {
-        refusals.add("--hit and --response exclude each other");
+        refusals.add("--hit and --response cannot be used together; give one of them");
     }
     chosen.responses = !options.values.empty();
     chosen.values = columns(table, chosen.responses ? options.values : options.hits,
@@ -252,7 +254,8 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals
         refuse(options.fit_ceiling, "--fit-ceiling");
         refuse(options.firth, "--firth");
         if (options.threshold && options.false_call_rate) {
-            refusals.add("--threshold and --false-call-rate exclude each other");
+            refusals.add(
+                "--threshold and --false-call-rate cannot be used together; give one of them");
         }
     } else {
         refuse(options.threshold.has_value(), "--threshold");
@@ -265,7 +268,7 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals
             refusals.add("--fit-ceiling needs --bounds likelihood-ratio");
         }
         if (options.fit_ceiling && options.firth) {
-            refusals.add("--firth and --fit-ceiling exclude each other");
+            refusals.add("--firth and --fit-ceiling cannot be used together; give one of them");
         }
     }
 }
