@@ -29,10 +29,11 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
                 std::vector<ListedSetting>& all) {
     const double over = kFewestGradedFraction * own_cost(study, family) / least_cost;
     if (over > kWorthGrading) {
-        all.push_back({{family.integrator, 0, study.numerics.convergence_tolerance, family.other},
-                       fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
-                                   "times as much as the steps of the least expensive integrator",
-                                   family.own_steps, over)});
+        all.push_back(
+            {{family.integrator, 0, study.numerics.convergence_tolerance, family.other},
+             fmt::format("not measured: even with an eighth of its {} uniform steps it would "
+                         "cost {:.0f} times as much as the least expensive integrator",
+                         family.own_steps, over)});
         return;
     }
     for (std::size_t i = 0; i < family.size(); ++i) {

@@ -119,7 +119,7 @@ std::string counting_text(const MissRateResult& result) {
     const std::string error =
         fmt::format("relative error {:.2g}; ", std::sqrt(result.misses->variance));
     return times > 1.0 ? error + fmt::format(
-                                     "simple counting needs {:.3g} records for the same "
+                                     "counting misses in `run` needs {:.3g} records for the same "
                                      "error, {:.3g} times as many",
                                      result.counted, times)
                        : error +
