@@ -6,6 +6,8 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_wrapped_study {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 
@@ -39,3 +41,5 @@ TEST_CASE("Short lines and long strings of a study stay as they are") {
                                                                "\", \"\\\\\",\n    \"" +
                                                                std::string(40, ']') + "\",\n]\n");
 }
+
+}  // namespace test_wrapped_study

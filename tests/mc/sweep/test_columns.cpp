@@ -3,6 +3,8 @@
 
 #include "mc/sweep/columns.hpp"
 
+namespace test_columns {
+
 using namespace gearpod::mc;
 
 TEST_CASE("All columns but the last are right-aligned") {
@@ -16,3 +18,5 @@ TEST_CASE("A wide table is split, and its parts begin with the same columns") {
           "key  " + wide + "\n  2  " + std::string(69, ' ') + "a\n\nkey  " + wide +
               "  last\n  2  " + std::string(69, ' ') + "b  c\n");
 }
+
+}  // namespace test_columns
