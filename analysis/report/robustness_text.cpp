@@ -116,10 +116,11 @@ void add_sensitivity(std::string& out, const LevelSensitivity& sensitivity, cons
     }
     add_wrapped(
         out,
-        fmt::format("share of the variance of {}'s misses at {} ({} gearboxes; Sobol indices, "
-                    "first order and total):{}; all inputs {:.2f}, the rest is noise",
-                    sensitivity.feature, range_text(sensitivity.sizes, unit), misses.count,
-                    list.empty() ? " no input above 0.01" : list, misses.explained),
+        fmt::format(
+            "share of the variance of {}'s misses at {} ({} gearboxes; Sobol indices, "
+            "first order and total):{}; all inputs together {:.2f}; the rest is due to noise",
+            sensitivity.feature, range_text(sensitivity.sizes, unit), misses.count,
+            list.empty() ? " no input above 0.01" : list, misses.explained),
         4);
 }
 

@@ -29,8 +29,9 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
     const double over = kFewestGradedFraction * own_cost(study, family) / least_cost;
     if (over > kWorthGrading) {
         all.push_back({family.common,
-                       fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
-                                   "times as much as the steps of the least expensive integrator",
+                       fmt::format("not measured: even with an eighth of its {} uniform steps it "
+                                   "would cost {:.0f} times as much as the least expensive "
+                                   "integrator",
                                    family.own_steps, over)});
         return;
     }

@@ -131,7 +131,7 @@ class AccuracyMeasurement {
     // Measures looser convergence tolerances; settings with the same steps use one scene in turn.
     void loosen_convergence() {
         if (!time_.enough()) {
-            return record_omission("settings with a looser settle_tolerance");
+            return record_omission("settings with a larger settle_tolerance");
         }
         finish_times();
         std::vector<SolverSetting> loose;
@@ -153,7 +153,7 @@ class AccuracyMeasurement {
             }
         }
         times_.resize(report_.settings.size());
-        request_.progress(fmt::format("{} settings with a looser settle_tolerance",
+        request_.progress(fmt::format("measuring {} settings with a larger settle_tolerance",
                                       report_.settings.size() - first));
         measure_new(first);
     }
@@ -241,12 +241,12 @@ class AccuracyMeasurement {
 
     // Finds the setting that numerics.tolerance chooses, and measures it if it is new.
     void choose(double tolerance) {
-        request_.progress(fmt::format("choice for a tolerance of {:g}", tolerance));
+        request_.progress(fmt::format("setting for numerics.tolerance = {:g}", tolerance));
         ChoiceCheck check;
         check.tolerance = tolerance;
         if (!time_.enough()) {
-            check.refusal = "not tried: the time had run out";
-            record_omission(fmt::format("the choice for numerics.tolerance = {:g}", tolerance));
+            check.refusal = kNotTried;
+            record_omission(fmt::format("the setting for numerics.tolerance = {:g}", tolerance));
             report_.choices.push_back(check);
             return;
         }

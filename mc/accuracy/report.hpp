@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 
 // Message for a setting that was not tried for lack of time.
-inline constexpr const char* kNotTried = "not tried: the time had run out";
+inline constexpr const char* kNotTried = "not measured: the time given was used up";
 
 struct SettingResult {
     SolverSetting setting;

@@ -64,7 +64,7 @@ void add_heading(Text out) {
 void add_row(const AccuracyReport& report, const SettingResult& r, const char* mark, Text out) {
     if (!r.refusal.empty()) {
         fmt::format_to(out, "{}{}\n", mark, r.setting.integrator());
-        add_words("refused: " + r.refusal, 4, out);
+        add_words("not possible: " + r.refusal, 4, out);
         return;
     }
     fmt::format_to(out, "{}{}\n{:>7} {:>6.0f} {:>8.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n",

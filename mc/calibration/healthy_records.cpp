@@ -53,7 +53,8 @@ class TableReading {
             any_ = any_ || std::ranges::find(known, column.name) != known.end();
         }
         if (!any_) {
-            problems_.push_back({table_.path, 0, "", "has no column named after a sensor feature",
+            problems_.push_back({table_.path, 0, "",
+                                 "has no column with the name of a sensor feature",
                                  "its columns are " + table_.names()});
         }
         std::vector<HealthyRecord> records;

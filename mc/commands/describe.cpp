@@ -17,6 +17,7 @@
 #include "mc/description/describe_life.hpp"
 #include "mc/description/effect_costs.hpp"
 #include "mc/description/entries.hpp"
+#include "mc/description/wrapped_study.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
@@ -192,7 +193,7 @@ int describe_command(const DescribeOptions& options) {
     if (!study) {
         return kBadInput;
     }
-    fmt::print("# the resolved study, with all defaults\n{}", resolved_text(*study));
+    fmt::print("# the resolved study, with all defaults\n{}", wrapped_study(resolved_text(*study)));
     if (!has_gears(*study)) {
         fmt::print("\nthe study has no tooth numbers: only `gearpod modes` can use it\n");
         return kDone;

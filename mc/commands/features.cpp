@@ -151,8 +151,8 @@ bool check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
         fmt::print(stderr, "{}: no feature can be computed: {}\n", path, all.front().missing);
     } else {
         fmt::print(stderr,
-                   "{}: too short: {} mesh periods of sensor signal and {} of transmission "
-                   "error; at least {} are needed\n",
+                   "{}: too short for every feature: {} mesh periods of sensor signal and {} of "
+                   "transmission error; record at least {}\n",
                    path, signal.sensor_meshes, signal.te_meshes, shortest);
     }
     return false;

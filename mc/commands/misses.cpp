@@ -105,13 +105,13 @@ std::string rate_text(const Prepared& prepared, const MissRateResult& result) {
         "{} exponentially tilted records of each of {} gearboxes", q.records, result.gearboxes);
     if (!result.misses) {
         return fmt::format(
-            "unknown from {}: too few of them contribute misses. Use more records or gearboxes; "
-            "if the misses are due to variation between gearboxes, use `rare`",
+            "cannot be estimated from {}: too few of them are misses. Use more records or "
+            "gearboxes; if variation between gearboxes causes the misses, use `rare`",
             records);
     }
     return fmt::format(
-        "{:.3g} [{:.3g}, {:.3g}] at {:g} % confidence, from {}, of which effectively {:.0f} "
-        "contribute",
+        "{:.3g} [{:.3g}, {:.3g}] at {:g} % confidence, from {} (effective number of records that "
+        "contribute: {:.0f})",
         result.misses->expected, result.misses->rate.lower, result.misses->rate.upper,
         100.0 * prepared.confidence, records, result.misses->contributing);
 }
@@ -122,7 +122,7 @@ std::string counting_text(const MissRateResult& result) {
     const std::string error =
         fmt::format("relative error {:.2g}; ", std::sqrt(result.misses->variance));
     return times > 1.0 ? error + fmt::format(
-                                     "simple counting needs {:.3g} records for the same "
+                                     "counting misses in `run` needs {:.3g} records for the same "
                                      "error, {:.3g} times as many",
                                      result.counted, times)
                        : error +

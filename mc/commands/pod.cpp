@@ -68,11 +68,13 @@ Columns choose_columns(const TextTable& table, const PodOptions& options, Proble
         chosen.size = sizes.front();
     } else if (size.empty()) {
         problems.push_back(
-            {.what = fmt::format("no column size; its columns are {}; choose with --size",
+            {.what = fmt::format("has no column named size; name the column of the flaw sizes with "
+                                 "--size; its columns are {}",
                                  table.names())});
     }
     if (!options.hits.empty() && !options.values.empty()) {
-        problems.push_back({.what = "--hit and --response exclude each other"});
+        problems.push_back(
+            {.what = "--hit and --response cannot be used together; give one of them"});
     }
     chosen.responses = !options.values.empty();
     chosen.values = columns(table, chosen.responses ? options.values : options.hits,
@@ -235,7 +237,8 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Problems
         refuse(options.fit_ceiling, "--fit-ceiling");
         refuse(options.firth, "--firth");
         if (options.threshold && options.false_call_rate) {
-            problems.push_back({.what = "--threshold and --false-call-rate exclude each other"});
+            problems.push_back({.what = "--threshold and --false-call-rate cannot be used "
+                                        "together; give one of them"});
         }
     } else {
         refuse(options.threshold.has_value(), "--threshold");
@@ -248,7 +251,8 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Problems
             problems.push_back({.what = "--fit-ceiling needs --bounds likelihood-ratio"});
         }
         if (options.fit_ceiling && options.firth) {
-            problems.push_back({.what = "--firth and --fit-ceiling exclude each other"});
+            problems.push_back(
+                {.what = "--firth and --fit-ceiling cannot be used together; give one of them"});
         }
     }
 }

@@ -122,12 +122,13 @@ std::string cost_text(const RareRateRequest& question, const RareRateResult& res
         const double times = result.counted / static_cast<double>(result.computed);
         text += fmt::format("; effectively {:.0f} independent families, relative error {:.2g}",
                             result.estimate->families, std::sqrt(result.estimate->variance));
-        text += times > 1.0 ? fmt::format(
-                                  "; simple counting needs {:.3g} gearboxes for the same error, "
-                                  "{:.2g} times as many",
-                                  result.counted, times)
-                            : "; not rare enough for this method: counting with `run` needs "
-                              "fewer gearboxes";
+        text += times > 1.0
+                    ? fmt::format(
+                          "; counting misses in `run` needs {:.3g} gearboxes for the same error, "
+                          "{:.2g} times as many",
+                          result.counted, times)
+                    : "; not rare enough for this method: counting with `run` needs "
+                      "fewer gearboxes";
     }
     return text;
 }

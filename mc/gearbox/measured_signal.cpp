@@ -365,9 +365,9 @@ class SignalReader {
         }
         if (sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
             reject(
-                fmt::format("{:.6g} samples per mesh period, {:.6g} Hz, do not cover the study's "
-                            "band up to {:.6g} Hz; lower sensor.low_pass_Hz",
-                            per_mesh, per_mesh * mesh_Hz, low_pass));
+                fmt::format("{:.6g} Hz ({:.6g} samples per mesh period) is too low for signals up "
+                            "to {:.6g} Hz; set sensor.low_pass_Hz to at most half of it",
+                            per_mesh * mesh_Hz, per_mesh, low_pass));
         }
     }
 

@@ -175,8 +175,8 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     if (given > 0 && given < least) {
         throw SceneError(
             "numerics.steps_per_mesh",
-            fmt::format("{} steps are too few (below {}, {} is unstable for this study's stiffest "
-                        "gearbox, or the sensor's low-pass is inaccurate)",
+            fmt::format("{} steps are too few (with fewer than {}, {} is unstable for the stiffest "
+                        "gearbox of this study, or the sensor's low-pass filter is inaccurate)",
                         given, least, name(integrator)),
             "remove the key, so that the steps are chosen automatically");
     }
@@ -204,11 +204,13 @@ lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
         lockstep::choose_integrator(needs.stable(lockstep::kUsualExplicit));
     if (study.numerics.precision == Precision::single_precision && !is_explicit(chosen)) {
         const lockstep::StiffPart stiff = needs.stiffest_part();
-        throw SceneError("numerics.precision",
-                         fmt::format("\"single\" is for explicit integrators, and this gearbox is "
-                                     "too stiff for one ({} moves {} at a rate of {:.3g} 1/s)",
-                                     stiff.part, stiff.motion, stiff.rate_1_s),
-                         "use precision = \"double\"");
+        throw SceneError(
+            "numerics.precision",
+            fmt::format("\"single\" needs an explicit integrator, which would take too "
+                        "many steps for this gearbox ({} moves {} at a rate of {:.3g} "
+                        "1/s)",
+                        stiff.part, stiff.motion, stiff.rate_1_s),
+            "use precision = \"double\"");
     }
     return chosen;
 }

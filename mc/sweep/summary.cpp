@@ -156,7 +156,7 @@ std::string sweep_text(const std::vector<VariedKey>& keys,
            fmt::format(
                "smallest fault found with 90 % probability at {:g} % confidence, by noise level\n",
                points.empty() ? 0.0 : 100.0 * points[0].confidence) +
-           aligned_columns(lines) +
+           aligned_columns(lines, keys.size()) +
            "none: no tested fault is found; ?: too few healthy gearboxes for a threshold\n";
 }
 

@@ -28,6 +28,8 @@ namespace test_condition_indicators {
 
 namespace test_condition_indicators {
 
+namespace test_condition_indicators {
+
 using namespace gearpod;
 using namespace gearpod::features;
 

@@ -29,9 +29,9 @@ void check_gravity(StudyDraft& draft) {
                           "effects.gravity"}) &&
         s.gearbox.kind == GearboxKind::planetary) {
         draft.reject("effects.gravity",
-                     "would have no effect (in a torsional model only the planets' weights act, "
-                     "and they balance each other about the carrier's axis: effects.motion)",
-                     "remove it, or use a motion in x and y");
+                     "would have no effect (effects.motion has rotations only, and the torques of "
+                     "the planets' weights about the carrier's axis cancel)",
+                     "remove the key, or choose an effects.motion with translations in x and y");
     }
 }
 

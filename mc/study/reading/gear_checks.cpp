@@ -284,10 +284,10 @@ void check_blank(StudyDraft& draft, Member member) {
     const double given_mm = *body.rim_m * kMmPerM;
     if (body_mm > 0.0 && given_mm >= body_mm) {
         draft.reject(key,
-                     fmt::format("{:.6g} mm leaves no web (from the root circle to the bore there "
-                                 "are {:.6g} mm)",
+                     fmt::format("{:.6g} mm leaves no room for the web (the gear body is {:.6g} mm "
+                                 "thick from the root circle to the bore)",
                                  given_mm, body_mm),
-                     "give a thinner rim, or for a solid disc neither rim nor web");
+                     "give a thinner rim; for a solid gear body remove the keys of rim and web");
     }
 }
 

@@ -65,7 +65,7 @@ const Key kRunKeys[] = {
     {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on the noise of accelerometer and encoders, ascending"},
 
     {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z. change_... and own_... compare with a healthy baseline record of the same gearbox"},
-    {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the mesh window"},
+    {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the window that selects the mesh periods of a tooth (0: rectangular)"},
     {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "number of mesh harmonics in te_fm0"},
     {"features", "baseline_torque_scatter", number<&Features::baseline_torque_scatter>, kNone, from_to(0, 1), with_baseline, kShared, "rms relative difference of torque between a gearbox's healthy baseline record and its test record (standard deviation of the logarithm)"},
 
@@ -111,7 +111,7 @@ const Key kRunKeys[] = {
     {"numerics", "grid_tolerance", number<&Numerics::grid_tolerance>, kNone, inside(0, 1), integration, kShared, "rms error of the signals of pilot gearboxes, from which graded steps are chosen"},
     {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: chosen on pilot gearboxes of the ensemble"},
     {"numerics", "settle_tolerance", number<&Numerics::convergence_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit counts as converged to the periodic steady state"},
-    {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "fraction of the largest value that may be omitted from the terms of the stiffness curves; 0: 1e-13, for a faulty tooth pair 4e-10"},
+    {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "error accepted when the series of a stiffness curve is cut off, relative to the largest term; 0: 1e-13, for a faulty tooth pair 4e-10"},
     {"numerics", "face_slices", integer<&Numerics::face_slices>, kNone, from_to(0, 16), flank_gaps, kShared, "number of slices of a tooth across the face, each with its own gap, for helical or crowned teeth with relief, crowning or an extended contact; 0: 8"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "largest number of mesh periods for converging to the periodic orbit; 0: derived from the damping"},
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "strategy of time integration: repeat the mesh period of the periodic orbit, superpose the effects of each gear's tooth errors, or integrate all mesh periods"},

@@ -17,16 +17,6 @@
 namespace gearpod::lockstep {
 namespace {
 
-void solve_static(const StaticLanes<1>& lanes, StaticState<1>& state) {
-    solve_static_1(lanes, state);
-}
-void solve_static(const StaticLanes<4>& lanes, StaticState<4>& state) {
-    solve_static_4(lanes, state);
-}
-void solve_static(const StaticLanes<8>& lanes, StaticState<8>& state) {
-    solve_static_8(lanes, state);
-}
-
 double largest_stiffness(const StiffnessNodes& nodes) {
     return *std::max_element(nodes.stiffness.begin(), nodes.stiffness.end());
 }

@@ -232,7 +232,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
                       folder.file("peers.csv") + " --json " + folder.file("accuracy.json"));
     INFO(run.output);
     REQUIRE(run.code == kDone);
-    CHECK(run.mentions("refused: the explicit method would need"));
+    CHECK(run.mentions("not possible: the explicit method would need"));
     const auto json = nlohmann::json::parse(test::bytes_of(folder.file("accuracy.json")));
     CHECK(json["reference"]["agreement"]["sensor"].get<double>() < 1e-7);
     CHECK(json["explicit_limit"]["refused"].get<bool>());
@@ -290,8 +290,8 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
     const std::string text = accuracy_text(report);
     const std::vector<std::string> expected_text{
         "omitted because the time had run out", std::to_string(untried) + " solver settings",
-        "the choice for numerics.tolerance = 0.001", "settings with a looser settle_tolerance",
-        "detection rates"};
+        "the setting for numerics.tolerance = 0.001",
+        "settings with a larger settle_tolerance", "detection rates"};
     for (const std::string& what : expected_text) {
         INFO(what);
         CHECK(text.find(what) != std::string::npos);

@@ -175,7 +175,7 @@ TEST_CASE("describe shows the law of inputs per record") {
                                         options + " --set '" + kTorque + "'");
     INFO(description.output);
     CHECK(description.code == 0);
-    CHECK(description.mentions("operation.torque_N_m = { distribution = \"uniform\""));
+    CHECK(description.mentions("operation.torque_N_m.distribution = \"uniform\"\n"));
     CHECK(description.mentions("times the study's value"));
 }
 

@@ -190,6 +190,8 @@ TEST_CASE("The study written by new is described and run unchanged") {
     INFO(written.output);
     REQUIRE(written.code == 0);
     CHECK(written.mentions("gearpod run " + file));
+    CHECK(test::bytes_of(file).find("/studies/study.schema.json\n# A planetary gearbox") !=
+          std::string::npos);
     CHECK(test::bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
     const auto again = program(command);
     CHECK(again.code == 2);

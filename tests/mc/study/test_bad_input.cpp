@@ -11,6 +11,8 @@ namespace test_bad_input {
 
 namespace test_bad_input {
 
+namespace test_bad_input {
+
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::Problems;
@@ -226,7 +228,7 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     reading = read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 3]\n", "bad.toml");
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].line == line_of(text, "seed") + 2);
-    CHECK(mentions(reading.problems[0], "does not cover all sizes, 0 to 4 mm"));
+    CHECK(mentions(reading.problems[0], "does not cover all fault sizes of the study, 0 to 4 mm"));
 
     CHECK(read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 4]\n", "good.toml").study);
 }
