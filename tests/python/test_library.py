@@ -15,7 +15,7 @@ import threading
 import unittest
 import warnings
 
-PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:3])
+PROGRAM, SOURCES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 sys.path.insert(0, str(SOURCES / "analysis" / "python"))
 os.environ["GEARPOD_PROGRAM"] = str(PROGRAM)
 
