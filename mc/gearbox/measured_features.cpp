@@ -169,13 +169,13 @@ int meshes_of(const Feature& feature, const Scene& scene) {
                : scene.span().planet_teeth;
 }
 
-std::optional<MeasuredBaseline> measured_baseline(const std::string& path,
+std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
                                                   const SignalColumns& columns,
                                                   const Scene& scene) {
-    if (path.empty()) {
+    if (source.empty()) {
         return std::nullopt;
     }
-    return MeasuredBaseline{path, read_measured_signal(path, columns, scene)};
+    return MeasuredBaseline{source.name, read_measured_signal(source, columns, scene)};
 }
 
 std::span<const Feature> measurable(const MeasuredBaseline* baseline) {
@@ -267,16 +267,17 @@ std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& si
     return values;
 }
 
-HealthyReference measured_reference(const std::vector<std::string>& paths,
+HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
                                     const SignalColumns& columns, const Scene& scene, int turns) {
     HealthyRecordsMean mean(1);
-    for (const std::string& path : paths) {
-        const MeasuredSignal signal = read_measured_signal(path, columns, scene);
+    for (const SignalSource& recording : recordings) {
+        const MeasuredSignal signal = read_measured_signal(recording, columns, scene);
         if (planet_turns(signal, scene) < std::max(1, turns)) {
             throw SignalError(fmt::format(
                 "{}: {} mesh periods of sensor signal, but a healthy record must have at least {}, "
                 "as many planet turns as the signal",
-                path, signal.sensor_meshes, std::max(1, turns) * scene.span().planet_teeth));
+                recording.name, signal.sensor_meshes,
+                std::max(1, turns) * scene.span().planet_teeth));
         }
         MeasuredInput input(scene, features::SignalSet::of<features::SensorTurn>());
         mean.add(0, input.of(signal));

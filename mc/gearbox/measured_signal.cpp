@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "features/feature.hpp"
-#include "mc/files/signal_file.hpp"
 #include "mc/gearbox/sample_times.hpp"
 #include "mc/gearbox/signal_units.hpp"
 #include "mc/input/printable.hpp"
@@ -36,8 +35,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 class SignalReader {
   public:
-    SignalReader(const std::string& path, const SignalColumns& columns, const Scene& scene)
-        : path_(path), columns_(columns), scene_(scene) {}
+    SignalReader(const SignalSource& source, const SignalColumns& columns, const Scene& scene)
+        : source_(source), columns_(columns), scene_(scene) {}
 
     MeasuredSignal read() {
         // The libraries that read files are not thread-safe.
@@ -47,7 +46,7 @@ class SignalReader {
             std::unique_ptr<SignalFile>& file;
             ~Closed() { file.reset(); }
         } closed{file_};
-        file_ = open_signal_file(path_, columns_.row);
+        file_ = source_.open(columns_.row);
         std::vector<double> sensor = chosen(columns_.sensor, kSensor, Quantity::acceleration);
         std::vector<double> te = chosen(columns_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
@@ -103,7 +102,8 @@ class SignalReader {
         }
     }
     void reject(const std::string& what) {
-        problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", path_, printable(what));
+        problems_ +=
+            fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", source_.name, printable(what));
     }
     void reject_column(const std::string& name, const std::string& why) {
         if (!why.empty()) {
@@ -381,7 +381,7 @@ class SignalReader {
     static constexpr double kFewestSamples = 2.0;  // per mesh period
     static constexpr double kRateTolerance = 1.02;
 
-    const std::string& path_;
+    const SignalSource& source_;
     const SignalColumns& columns_;
     const Scene& scene_;
     std::unique_ptr<SignalFile> file_;
@@ -392,9 +392,9 @@ class SignalReader {
 
 }  // namespace
 
-MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
+MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const Scene& scene) {
-    return SignalReader(path, columns, scene).read();
+    return SignalReader(source, columns, scene).read();
 }
 
 }  // namespace gearpod::mc

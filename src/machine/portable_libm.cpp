@@ -4,7 +4,7 @@
 // multiply-adds, and their last bits differ. Its 80-bit functions have one variant only. The
 // functions below round the 80-bit results, which makes nearly all of them correctly rounded. No hot
 // loop calls them. Calls of sin(), exp(), ... in this project's code, header libraries included, reach
-// them by the linker's option --wrap (src/CMakeLists.txt); shared libraries and programs that link the
+// them by the linker's option --wrap (CMakeLists.txt); shared libraries and programs that link the
 // installed libraries keep the C library's functions.
 #include <cmath>
 
