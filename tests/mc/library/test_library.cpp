@@ -11,6 +11,8 @@
 #include "mc/library/simulated_row.hpp"
 #include "mc/library/stiffness_columns.hpp"
 
+namespace test_library {
+
 using namespace gearpod;
 
 namespace {
@@ -94,3 +96,5 @@ TEST_CASE("A table in memory is inspected like one of a file") {
     CHECK(mentions(message, "--convention: must be handbook or"));
     CHECK(mentions(message, "\ntable: --link: must be logit or"));
 }
+
+}  // namespace test_library
