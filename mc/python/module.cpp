@@ -41,7 +41,7 @@ std::unique_ptr<mc::OpenStudy> open_study(const std::string& name,
                                           bool with_lines) {
     auto study = std::make_unique<mc::OpenStudy>(name, text, overrides, with_lines);
     if (!study->notices().empty() &&
-        PyErr_WarnEx(PyExc_UserWarning, study->notices().c_str(), 3) != 0) {
+        PyErr_WarnEx(PyExc_UserWarning, study->notices().c_str(), 2) != 0) {
         throw py::error_already_set();
     }
     return study;

@@ -30,6 +30,8 @@ namespace test_condition_indicators {
 
 namespace test_condition_indicators {
 
+namespace test_condition_indicators {
+
 using namespace gearpod;
 using namespace gearpod::features;
 

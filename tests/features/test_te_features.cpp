@@ -17,6 +17,8 @@ namespace test_te_features {
 
 namespace test_te_features {
 
+namespace test_te_features {
+
 using namespace gearpod;
 using namespace gearpod::features;
 

@@ -16,6 +16,8 @@ namespace test_window_features {
 
 namespace test_window_features {
 
+namespace test_window_features {
+
 using namespace gearpod;
 using namespace gearpod::features;
 

@@ -14,6 +14,8 @@ namespace test_explicit_order {
 
 namespace test_explicit_order {
 
+namespace test_explicit_order {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::integrate_meshes;
