@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/report/text_lines.hpp"
+#include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 namespace {

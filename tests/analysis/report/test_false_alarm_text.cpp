@@ -4,7 +4,6 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/reliability_text.hpp"
 
 using namespace gearpod;
 using namespace gearpod::analysis;
