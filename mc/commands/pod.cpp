@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/inspection_text.hpp"
+#include "analysis/report/inspection_json.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
@@ -319,7 +319,7 @@ int pod_command(const PodOptions& options) {
         if (!options.json.empty()) {
             return write_text_to(options.json, json_text(all, 2) + "\n") ? kDone : kBadInput;
         }
-        fmt::print("{}", inspection_text(request, result, words));
+        fmt::print("{}", report_text(inspection_report(request, result, words)));
         if (!options.html.empty()) {
             fmt::print("\npage: {}\n", options.html);
         }
