@@ -95,8 +95,7 @@ def false_alarm_curves(report, page):
                  f"{noise(report.levels[n])}",
                  "; ".join(f"{report.names[f]}" for f in shown), page.names)
     how = (f"Shaded: bounds at {percent(report.confidence)} that include the uncertainty of the "
-           "threshold. Sizes and bounds outside the tested sizes are not drawn. The healthy "
-           "sample is too small for rarer false alarms than shown.")
+           "threshold. Sizes and bounds outside the tested sizes are not drawn.")
     return page.figure("Detectable size by false-alarm rate, at "
                        f"{noise(report.levels[n])}", [svg], how,
                        report.table(f"false_alarms.{n}"))

@@ -115,9 +115,13 @@ std::string input_name(const std::string& name, const std::string& unit) {
     return out;
 }
 
+std::string quantity_unit(const std::string& unit) {
+    return unit == "1" || unit == "order" ? "" : unit;
+}
+
 std::string quantity_text(double value, const std::string& unit, int digits) {
-    const bool pure = unit.empty() || unit == "1" || unit == "order";
-    return number_text(value, digits) + (pure ? "" : " " + unit);
+    const std::string shown = quantity_unit(unit);
+    return number_text(value, digits) + (shown.empty() ? "" : " " + shown);
 }
 
 std::string with_unit(double size, const SizeUnit& unit, int digits) {

@@ -33,7 +33,9 @@ std::string capitalised(std::string text);
 // Name of a random input without its unit: planet_bearing_stiffness_N_m gives planet bearing
 // stiffness.
 std::string input_name(const std::string& name, const std::string& unit);
-// Number with its unit, none for a pure number.
+// Unit as shown: none for a pure number.
+std::string quantity_unit(const std::string& unit);
+// Number with its unit.
 std::string quantity_text(double value, const std::string& unit, int digits = 3);
 
 std::string with_unit(double size, const SizeUnit& unit, int digits = 3);  // "1.24 mm"

@@ -138,7 +138,8 @@ void add_false_alarms(Section& section, const Findings& findings, std::size_t n)
     const SizeUnit& unit = findings.request.size;
     Table table{fmt::format("false_alarms.{}", n),
                 fmt::format("a90 by false-alarm rate{}, with bounds at {} that include the "
-                            "uncertainty of the threshold",
+                            "uncertainty of the threshold; the healthy sample is too small for "
+                            "rarer false alarms",
                             findings.at_noise(n), findings.percent()),
                 {"feature", "false-alarm rate", "alarm beyond", "rarer than one in the sample",
                  in_unit("a90", unit), "lower bound", "upper bound"},
@@ -166,12 +167,20 @@ void add_false_alarms(Section& section, const Findings& findings, std::size_t n)
                                   text(point.a90.upper)});
         }
     }
-    const std::string& refusal = findings.reliable(findings.order[n].front(), n).by_rate.refusal;
+    const std::size_t best = findings.order[n].front();
+    const FalseAlarmCurve& curve = findings.reliable(best, n).by_rate;
+    std::vector<std::string> unfitted;
+    for (const double rate : curve.unfitted) {
+        unfitted.push_back(number_text(rate));
+    }
     section.state(fmt::format("no_false_alarms.{}", n),
-                  features > 0 || refusal.empty()
-                      ? ""
-                      : fmt::format("No a90 of {} by false-alarm rate: {}.",
-                                    findings.name(findings.order[n].front()), refusal));
+                  !curve.refusal.empty() && features == 0
+                      ? fmt::format("No a90 of {} by false-alarm rate: {}.", findings.name(best),
+                                    curve.refusal)
+                  : !unfitted.empty()
+                      ? fmt::format("No curve of {} fits at a false-alarm rate of {}.",
+                                    findings.name(best), joined(unfitted))
+                      : "");
     section.add(std::move(table));
 }
 

@@ -80,13 +80,14 @@ Table effect_table(const Findings& findings, std::size_t f, std::size_t n) {
     };
     for (const InputEffect* effect : effects_of(level.inputs)) {
         if (effect->p_value < kTestLevel) {
-            table.rows.push_back({input_name(effect->name, effect->unit),
-                                  quantity_text(effect->bins.front().middle, effect->unit),
-                                  quantity_text(effect->bins.back().middle, effect->unit),
-                                  bin_text(effect->bins.front()), bin_text(effect->bins.back()),
-                                  a90(effect->a90.front()),
-                                  a90(effect->a90[effect->a90.size() / 2]), a90(effect->a90.back()),
-                                  p_text(effect->p_value)});
+            const std::string unit_shown = quantity_unit(effect->unit);
+            table.rows.push_back(
+                {input_name(effect->name, effect->unit) +
+                     (unit_shown.empty() ? "" : ", " + unit_shown),
+                 number_text(effect->bins.front().middle), number_text(effect->bins.back().middle),
+                 bin_text(effect->bins.front()), bin_text(effect->bins.back()),
+                 a90(effect->a90.front()), a90(effect->a90[effect->a90.size() / 2]),
+                 a90(effect->a90.back()), p_text(effect->p_value)});
         }
     }
     return table;
