@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/comparison/resampling.hpp"
@@ -103,7 +102,7 @@ PairedCounts paired_counts(const Detected& a, const Detected& b,
     return counts;
 }
 
-// Sets the rates, for paired samples from the counts of pairs.
+// Sets the detection rates of both; if both have the same gearboxes, from the counts of pairs.
 void add_rates(RateDifference& rate, const DetectionCell& a, const DetectionCell& b,
                const ComparisonRequest& request, const Interval& resampled) {
     long found_a = a.detected, found_b = b.detected;

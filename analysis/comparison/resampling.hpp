@@ -29,8 +29,8 @@ class Resampling {
                std::span<const double> graded, const std::vector<SizeGroup>& groups,
                double false_alarm_rate);
 
-    // Detection of one resample, given the number of times each gearbox is drawn. Fits the curve of
-    // `form`; none if null.
+    // Detection of one resample, given the number of times each gearbox is drawn. Fits the
+    // POD curve `form`, or no curve if it is null.
     ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& graded,
                               const PodForm* form) const;
 

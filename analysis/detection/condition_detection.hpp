@@ -41,7 +41,7 @@ struct ConditionColumn {
     std::string unit;
     std::span<const double> healthy;  // one value per gearbox
     std::span<const double> graded;
-    // Gearbox of each value of `healthy`; empty: one each.
+    // Index of the gearbox of each value of `healthy`; empty if every value has its own gearbox.
     std::span<const std::size_t> gearbox = {};
 };
 

@@ -27,8 +27,8 @@ long hits_in_a_row(double pd, double confidence);
 double size_beyond_misses(std::span<const double> sizes, std::span<const int> hit, double pd,
                           double confidence);
 
-// Smaller of the sizes by groups (with two-sided intervals) and by individual gearboxes, each with
-// half of the error probability. NaN if neither is reached.
+// Smaller of two demonstrated sizes: that of the size groups (with two-sided intervals), and that
+// of the individual gearboxes. Each has half of the error probability. NaN if there is neither.
 double demonstrated_size(const LevelDetection& level, std::span<const double> sizes,
                          std::span<const int> hit, double pd, double confidence);
 

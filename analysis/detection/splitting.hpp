@@ -69,8 +69,8 @@ class SplitTail {
 
     std::size_t levels() const { return levels_.size(); }
     long computed() const { return computed_; }  // number of values
-    // Last level: the rate of gearboxes represented by its members, the effective number of
-    // families, and the members.
+    // Last level: rate of the gearboxes that its members represent, effective number of families
+    // (members with the same ancestor), and the members themselves.
     double last_rate() const { return levels_.back().rate; }
     double last_families() const;
     std::span<const SplitMember> last() const { return members_; }

@@ -58,14 +58,15 @@ HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_
 
 namespace {
 
-// Smallest rank whose probability beyond stays below the rate with the confidence; with `below`,
-// the largest rank whose probability exceeds the rate with the confidence. n + 1 or 0 if there is
-// none.
+// Smallest rank of a healthy value for which, with the confidence 1 - tail, fewer than `rate` of
+// all gearboxes lie beyond that value. With `below`, the largest rank for which more than `rate`
+// do. n + 1 or 0 if there is none.
 long rank_within(long sample, double rate, double tail, bool below) {
     long low = 0, high = sample + 1;
     while (high - low > 1) {
         const long middle = low + (high - low) / 2;
-        // P(beyond the middle-th of n <= rate), which grows with the rank.
+        // Probability that at most `rate` of all gearboxes lie beyond the value of rank `middle`.
+        // It increases with the rank.
         const double p =
             beta_cdf(static_cast<double>(sample + 1 - middle), static_cast<double>(middle), rate);
         ((below ? p <= tail : p < 1.0 - tail) ? low : high) = middle;

@@ -23,7 +23,7 @@ InputBins equal_count_bins(std::span<const double> values, std::size_t bins) {
         while (end < order.size() && values[order[end]] == values[order[first]]) {
             ++end;
         }
-        // A run of equal values takes the bin of its middle.
+        // Equal values share the bin of the middle one.
         const std::size_t share = (first + end - 1) * bins / (2 * order.size());
         if (result.bins == 0 || each || share != last_share) {
             ++result.bins;

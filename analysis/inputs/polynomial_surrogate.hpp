@@ -14,7 +14,7 @@
 namespace gearpod::analysis {
 
 struct SurrogateTerm {
-    // Degrees in one or two inputs; the second input is -1 for a term of one.
+    // Index of one or two inputs and the degree in each. `second` is -1 if the term has one input.
     int input = 0, degree = 0;
     int second = -1, second_degree = 0;
     double coefficient = 0.0;

@@ -60,7 +60,7 @@ Json effect_json(const LevelReliability& level, const std::string& input) {
               {"statistic", nullptr},
               {"degrees", 0},
               {"p_value", nullptr},
-              {"refusal", "no gearboxes with a value"}};
+              {"refusal", "no gearbox has a value of the feature"}};
     if (const InputEffect* effect = effect_of(level, input)) {
         json["bins"] = bins_json(effect->bins);
         json["statistic"] = number(effect->statistic);
@@ -75,7 +75,7 @@ Json a90_json(const LevelReliability& level, const std::string& input) {
     const InputEffect* effect = effect_of(level, input);
     Json json{{"values", Json::array()},
               {"a90", Json::array()},
-              {"refusal", "no gearboxes with a value"}};
+              {"refusal", "no gearbox has a value of the feature"}};
     if (effect == nullptr) {
         return json;
     }

@@ -57,12 +57,12 @@ long pilot_size(const Study& study, const AccuracyRequest& request, const TimeBu
         return all;
     }
     const long some = static_cast<long>(std::max(0.0, time.seconds()) / gearbox_s);
-    report.left_out.push_back(
-        fmt::format("detection rates of {} gearboxes with {} settings{} (use --gearboxes {}: about "
-                    "{:.0f} processor seconds)",
-                    all, places.size(),
-                    some >= kFewestGearboxes ? fmt::format(", except for {} gearboxes", some) : "",
-                    all, needed_s));
+    report.left_out.push_back(fmt::format(
+        "detection rates of {} gearboxes with each of {} settings{} (to get them, use "
+        "--gearboxes {}: about {:.0f} s on one processor)",
+        all, places.size(),
+        some >= kFewestGearboxes ? fmt::format("; {} gearboxes are used instead", some) : "", all,
+        needed_s));
     return some >= kFewestGearboxes ? some : 0;
 }
 

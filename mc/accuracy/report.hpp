@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 
 // Message for a setting that was not tried for lack of time.
-inline constexpr const char* kNotTried = "not tried: the time had run out";
+inline constexpr const char* kNotTried = "not measured: the time given was used up";
 
 struct SettingResult {
     SolverSetting setting;
@@ -31,7 +31,7 @@ struct SettingResult {
     std::optional<DetectionChange> detection;
 };
 
-// rk4 at its stability limit, whether it can be used or not.
+// lockstep::kUsualExplicit at its stability limit, whether it can be used or not.
 struct ExplicitLimit {
     double steps = 0.0;   // per mesh period
     double step_s = 0.0;  // per gearbox and step, measured

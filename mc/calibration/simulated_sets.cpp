@@ -50,8 +50,8 @@ class Simulator {
             // gain and tone level are applied for each background
             inputs.back().gain = inputs.back().tone_level = 1.0;
         }
-        const GearboxTile tile =
-            run_with_inputs(scene_, path_, ids, inputs, lanes(), {.with_records = true});
+        const GearboxTile tile = run_with_inputs(scene_, path_, ids, inputs, lanes(),
+                                                 {.records = lockstep::RecordOptions{}});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             if (tile.status[lane] == Status::ok) {

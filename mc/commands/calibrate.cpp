@@ -210,11 +210,11 @@ class Command {
 
     std::vector<std::string> intro(const Study& study, const CalibrationResult& result) const {
         std::vector<std::string> lines{
-            fmt::format("Calibrated on {} record(s) of {} healthy gearbox(es) by approximate",
+            fmt::format("Calibrated to {} record(s) of {} healthy gearbox(es) by approximate",
                         set_.records, set_.lengths.size()),
             fmt::format("Bayesian computation: {} simulated sets ({} failed), seed {}.",
                         result.sets, result.failed, study.ensemble.seed),
-            "Each distribution is the uncertainty of one value that all gearboxes share.",
+            "Each distribution is the uncertainty of one value, the same for all gearboxes.",
             "A run with this study includes that uncertainty."};
         for (const FeatureCheck& check : result.checks) {
             if (check.outside()) {
@@ -244,8 +244,9 @@ class Command {
             fmt::print("{}\n", wrapped_text(both, 2));
         }
         fmt::print(
-            "width: of the 90 % interval, relative to that of the prior\n"
-            "determined by: features with their rank correlations\n\n{:<22}{:>12}{:>26}\n",
+            "width: width of the 90 % interval divided by that of the prior\n"
+            "determined by: features that determine the input, with their rank "
+            "correlations\n\n{:<22}{:>12}{:>26}\n",
             "feature", "measured", "simulated, 98 %");
         for (const FeatureCheck& check : result.checks) {
             fmt::print("{:<22}{:>12.5g}{:>13.5g} to{:>10.5g}  {}\n", check.name, check.measured,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mc/gearbox/measured_signal.hpp"
+#include "mc/library/inspection_table.hpp"
 #include "mc/new_study/planetary_datasheet.hpp"
 #include "mc/run/run_options.hpp"
 
@@ -167,21 +168,9 @@ struct CalibrateOptions {
 };
 int calibrate_command(const CalibrateOptions& options);
 
-struct PodOptions {
+struct PodOptions : InspectionOptions {
     std::string table;
-    std::string size;                 // size column; "": found by its usual names
-    std::vector<std::string> hits;    // hit/miss columns; several are repeated inspections
-    std::vector<std::string> values;  // response columns
-    std::string specimen;
-    std::vector<std::string> links;  // empty: all
-    std::string size_scale;          // "linear", "log"; "": both
-    std::string response_scale;      // "linear", "log", "box-cox" or a power; "": linear and log
-    std::string convention = "handbook", bounds;
-    std::string alarm = "high";
-    std::optional<double> threshold, false_call_rate, left, right, floor, target;
-    double confidence = 0.95;
-    bool fit_ceiling = false, firth = false;
-    std::string json, html;
+    std::string json, html;  // "": none; JSON "-": standard output
 };
 int pod_command(const PodOptions& options);
 

@@ -1,17 +1,14 @@
 // Command `features SIGNAL --study STUDY`: features of one measured signal.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
 
 #include "mc/commands/commands.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/files/signal_file.hpp"
-#include "mc/gearbox/measured_features.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/wrapped_text.hpp"
-#include "mc/recordings/population.hpp"
+#include "mc/library/signal_features.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
@@ -53,58 +50,19 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal, const
     }
 }
 
-nlohmann::ordered_json measured_json(const std::vector<MeasuredFeature>& all,
-                                     const MeasuredSignal& signal, const Scene& scene) {
-    nlohmann::ordered_json json;
-    json["mesh_phase"] = signal.tracking;
-    json["losses_noticed"] = signal.losses_detectable;
-    json["sensor_meshes"] = signal.sensor_meshes;
-    json["te_meshes"] = signal.te_meshes;
-    json["span_meshes"] = scene.span_meshes();
-    json["planet_turns"] = planet_turns(signal, scene);
-    json["features"] = nlohmann::ordered_json::object();
-    json["unavailable"] = nlohmann::ordered_json::object();
-    for (const MeasuredFeature& one : all) {
-        const std::string name(one.feature->name);
-        if (!one.missing.empty()) {
-            json["unavailable"][name] = one.missing;
-        } else {
-            json["features"][name] = one.value;
-        }
-    }
-    return json;
-}
-
-// Tests the features against the healthy gearboxes of --against. Returns the text and adds the
-// result to the JSON.
-std::string compare(const FeaturesOptions& options, const Measurement& measured,
-                    const MeasuredSignal& signal, const Scene& scene,
-                    nlohmann::ordered_json& json) {
-    const Population population =
-        read_population(options.against, options.noise_level, scene.study());
-    const auto verdicts =
-        compare_with_population(population, values_of(measured.features), options.feature);
-    const std::string sentence =
-        verdict_sentence(options.signals.front(), population, verdicts.front(), measured.teeth);
+// Comparison of the features with the healthy gearboxes of --against.
+std::string verdict_text(const PopulationVerdicts& against, const MeasuredSignal& signal,
+                         const Scene& scene) {
     std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
                                    "threshold", "", "healthy less extreme");
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Verdict& one : verdicts) {
-        const auto healthy = static_cast<double>(one.population->healthy.size());
+    for (const Verdict& one : against.verdicts) {
         text += fmt::format("{:<22}{:>13.6g}{:>13.6g}{:>8}{:>14} of {}\n", one.population->name,
                             one.value, one.population->threshold, one.alarm ? "ALARM" : "",
                             one.less_extreme, one.population->healthy.size());
-        list.push_back({{"feature", one.population->name},
-                        {"value", one.value},
-                        {"threshold", one.population->threshold},
-                        {"alarm", one.alarm},
-                        {"margin", one.margin},
-                        {"quantile", static_cast<double>(one.less_extreme) / healthy},
-                        {"healthy", one.population->healthy.size()}});
     }
-    text += "\n" + wrapped_text(sentence, 0) + "\n";
+    text += "\n" + wrapped_text(against.sentence, 0) + "\n";
     const int turns = planet_turns(signal, scene);
-    if (!population.recordings && turns < scene.span().ring_teeth && signal.has_sensor) {
+    if (!against.population.recordings && turns < scene.span().ring_teeth && signal.has_sensor) {
         text += wrapped_text(
                     fmt::format("The simulated gearboxes have {} planet turns, the recording has "
                                 "{}: it averages less, so its features scatter more.",
@@ -112,50 +70,7 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
                     0) +
                 "\n";
     }
-    nlohmann::ordered_json teeth = nlohmann::ordered_json::array();
-    for (const WorstTooth& tooth : measured.teeth) {
-        teeth.push_back({{"gear", tooth.gear},
-                         {"tooth", tooth.tooth},
-                         {"teeth", tooth.teeth},
-                         {"ratio", tooth.ratio}});
-    }
-    json["against"] = {{"file", options.against},
-                       {"alarm", verdicts.front().alarm},
-                       {"feature", verdicts.front().population->name},
-                       {"sentence", sentence},
-                       {"features", list},
-                       {"teeth", teeth}};
     return text;
-}
-
-// Returns false and prints the reason if no feature could be computed; a signal that is too short
-// is reported with the smallest number of mesh periods needed.
-bool check_any_feature(const std::vector<MeasuredFeature>& all, const std::string& path,
-                       const Scene& scene, const MeasuredSignal& signal) {
-    const auto good = [](const MeasuredFeature& one) { return one.missing.empty(); };
-    if (std::any_of(all.begin(), all.end(), good)) {
-        return true;
-    }
-    int shortest = 0;
-    for (const MeasuredFeature& one : all) {
-        const bool there = (one.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
-                           !(one.feature->from_sensor && scene.study().effects.quasi_static());
-        const bool central = (one.feature->needs & (features::kSun | features::kRing)) != 0;
-        const int needed = central ? 0 : meshes_of(*one.feature, scene);
-        const int has = one.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
-        if (there && has < needed) {
-            shortest = shortest == 0 ? needed : std::min(shortest, needed);
-        }
-    }
-    if (shortest == 0) {
-        fmt::print(stderr, "{}: no feature can be computed: {}\n", path, all.front().missing);
-    } else {
-        fmt::print(stderr,
-                   "{}: too short: {} mesh periods of sensor signal and {} of transmission "
-                   "error; at least {} are needed\n",
-                   path, signal.sensor_meshes, signal.te_meshes, shortest);
-    }
-    return false;
 }
 
 }  // namespace
@@ -183,41 +98,24 @@ int features_command(const FeaturesOptions& options) {
         return kBadInput;
     }
     try {
-        const MeasuredSignal signal =
-            read_measured_signal(options.signals.front(), options.columns, *scene);
-        const bool long_enough =
-            !signal.sensor.empty() && signal.sensor_meshes >= scene->span_meshes();
-        HealthyReference healthy;
-        if (!options.healthy.empty()) {
-            healthy = measured_reference(options.healthy, options.columns, *scene,
-                                         planet_turns(signal, *scene));
-        } else if (long_enough) {
-            healthy = simulated_reference_at(options.noise_level, *scene);
+        SignalRequest request;
+        request.signal = options.signals.front();
+        request.columns = options.columns;
+        request.healthy = {options.healthy.begin(), options.healthy.end()};
+        request.baseline = options.baseline;
+        request.noise_level = options.noise_level;
+        request.against = options.against;
+        request.feature = options.feature;
+        const SignalFeatures found = signal_features(request, *scene);
+        if (!options.json.empty()) {
+            const std::string text = json_text(signal_features_json(found, request, *scene), 2);
+            return write_text_to(options.json, text + "\n") ? kDone : kBadInput;
         }
-        const auto baseline = measured_baseline(options.baseline, options.columns, *scene);
-        const Measurement measured =
-            measure(*scene, signal, healthy, baseline ? &*baseline : nullptr);
-        const auto& all = measured.features;
-        if (!check_any_feature(all, options.signals.front(), *scene, signal)) {
-            return kBadInput;
+        print_text(found.measured, found.signal, *scene);
+        if (found.against) {
+            fmt::print("{}", verdict_text(*found.against, found.signal, *scene));
         }
-        nlohmann::ordered_json json = measured_json(all, signal, *scene);
-        if (measured.change) {
-            json["baseline"] = {{"file", options.baseline},
-                                {"turned_on_meshes", measured.change->meshes},
-                                {"correlation", measured.change->correlation},
-                                {"planet_turns", planet_turns(measured.change->signal, *scene)}};
-        }
-        std::string verdict;
-        if (!options.against.empty()) {
-            verdict = compare(options, measured, signal, *scene, json);
-        }
-        if (options.json.empty()) {
-            print_text(measured, signal, *scene);
-            fmt::print("{}", verdict);
-            return kDone;
-        }
-        return write_text_to(options.json, json_text(json, 2) + "\n") ? kDone : kBadInput;
+        return kDone;
     } catch (const SignalError& error) {
         fmt::print(stderr, "{}\n", error.what());
     } catch (const std::exception& error) {

@@ -182,7 +182,8 @@ int merge_command(const MergeOptions& options) {
     run.quiet = options.quiet;
     const Ranks ranks;
     if (ranks.size() > 1) {
-        fmt::print(stderr, "merge: needs one process, but {} were started; run it without MPI\n",
+        fmt::print(stderr,
+                   "merge: runs in one process, but {} were started; start it without mpiexec\n",
                    ranks.size());
         return kBadInput;
     }

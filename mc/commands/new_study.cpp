@@ -1,12 +1,23 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string>
 
 #include "mc/commands/commands.hpp"
 #include "mc/new_study/planetary.hpp"
+#include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+// Comment from which editors take the JSON schema of the study.
+std::string schema_line() {
+    const std::string schema = schema_path().string();
+    return schema.empty() ? "" : "#:schema " + schema + "\n";
+}
+
+}  // namespace
 
 int new_command(const NewOptions& options) {
     const bool exists = options.out != "-" && std::filesystem::exists(options.out);
@@ -19,7 +30,8 @@ int new_command(const NewOptions& options) {
     if (!made.problems.empty()) {
         print_problems(made.problems);
     }
-    if (!made.problems.empty() || !writable || !write_text_to(options.out, made.text)) {
+    if (!made.problems.empty() || !writable ||
+        !write_text_to(options.out, schema_line() + made.text)) {
         return kBadInput;
     }
     if (options.out != "-") {

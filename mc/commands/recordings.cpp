@@ -131,7 +131,8 @@ int recordings_command(const FeaturesOptions& options) {
         const HealthyReference healthy =
             options.healthy.empty()
                 ? HealthyReference()
-                : measured_reference(options.healthy, options.columns, *scene, 1);
+                : measured_reference({options.healthy.begin(), options.healthy.end()},
+                                     options.columns, *scene, 1);
         const auto baseline = measured_baseline(options.baseline, options.columns, *scene);
         const MeasuredBaseline* const earlier = baseline ? &*baseline : nullptr;
         const auto features = measurable(earlier);

@@ -7,9 +7,9 @@
 #include "mc/commands/commands.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
-#include "mc/gearbox/simulation.hpp"
+#include "mc/input/bad_input.hpp"
 #include "mc/input/exception_text.hpp"
-#include "mc/results/batch_rows.hpp"
+#include "mc/library/simulated_row.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/run/support.hpp"
@@ -102,25 +102,18 @@ int simulate_command(const SimulateOptions& options) {
     if (!good) {
         return kBadInput;
     }
-    const Study& study = scene->study();
-    const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
-    const long meshes = options.meshes > 0 ? options.meshes : scene->span().planet_teeth;
-    if (options.instance < 0 || options.instance >= rows || meshes > scene->signal_meshes()) {
-        fmt::print(stderr,
-                   "--instance must be a row of the results, 0 to {}; --meshes must be at most "
-                   "{}\n",
-                   rows - 1, scene->signal_meshes());
-        return kBadInput;
-    }
     try {
-        const Simulation simulation = simulate(*scene, id_of_row(study, options.instance), meshes);
+        const Simulation simulation = simulate_row(*scene, options.instance, options.meshes);
         if (csv) {
             const std::string text = csv_text(simulation);
             write_file(options.out, std::as_bytes(std::span(text)));
         } else if (!options.out.empty()) {
-            write_hdf5(options.out, simulation, study);
+            write_hdf5(options.out, simulation, scene->study());
         }
         print_summary(simulation, options.out);
+    } catch (const BadInput& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return kBadInput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
         return kSomeFailed;

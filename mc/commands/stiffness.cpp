@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <string>
+#include <vector>
 
 #include "mc/commands/commands.hpp"
+#include "mc/library/stiffness_columns.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/stiffness_curves.hpp"
 #include "mc/study/gears.hpp"
@@ -12,82 +13,18 @@
 namespace gearpod::mc {
 namespace {
 
-// CSV column of a faulty tooth pair over one mesh period.
-struct FaultColumn {
-    std::string name;
-    int pair = 0;
-    int period = 0;  // mesh periods after the one in which the tooth engages
-    std::shared_ptr<const stiffness::FaultyMesh> mesh;
-};
-
-// "3mm", or "0.1" for a pure number.
-std::string size_name(const Study& study, double size) {
-    const Unit& unit = fault_size_key(study).unit;
-    return fmt::format("{:g}{}", size / unit.to_si, unit.suffix);
-}
-
-std::vector<FaultColumn> fault_columns(const Scene& scene) {
-    std::vector<FaultColumn> columns;
-    const std::vector<int> pairs = faulty_pairs(scene);
-    for (int curve = 0; curve < scene.fault().curves(); ++curve) {
-        const int pair = pairs[static_cast<std::size_t>(curve)];
-        const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
-        for (const double size : fault_sizes(scene.study())) {
-            const auto mesh = scene.fault().mesh(curve, size);
-            const int periods = static_cast<int>(std::ceil(start + mesh->duration()));
-            for (int period = 0; period < periods; ++period) {
-                columns.push_back(
-                    {fmt::format("{}_{}_{}_period{}", scene.drivetrain().pair_name(pair),
-                                 choice_text(scene.study(), "fault", "kind"),
-                                 size_name(scene.study(), size), period + 1),
-                     pair, period, mesh});
-            }
+std::string csv_text(const std::vector<SignalColumn>& columns) {
+    std::string text;
+    for (const SignalColumn& column : columns) {
+        text += (text.empty() ? "" : ",") + column.name;
+    }
+    for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+        for (const SignalColumn& column : columns) {
+            text +=
+                fmt::format("{}{:.9g}", &column == columns.data() ? "\n" : ",", column.values[row]);
         }
     }
-    return columns;
-}
-
-std::string csv_text(const Scene& scene, int points) {
-    const auto columns = fault_columns(scene);
-    std::string text = "phase";
-    for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-        text += fmt::format(",{}", scene.drivetrain().pair_name(pair));
-    }
-    for (const FaultColumn& column : columns) {
-        text += fmt::format(",{}", column.name);
-    }
-    text += "\n";
-    for (int i = 0; i < points; ++i) {
-        const double phase = static_cast<double>(i) / points;
-        text += fmt::format("{:.9g}", phase);
-        for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-            text += fmt::format(",{:.9g}", scene.pairs().total(pair, phase));
-        }
-        for (const FaultColumn& column : columns) {
-            const double since =
-                phase + column.period - scene.pairs().start[static_cast<std::size_t>(column.pair)];
-            text += fmt::format(",{:.9g}", faulty_total(scene, column.pair, *column.mesh, since));
-        }
-        text += "\n";
-    }
-    return text;
-}
-
-std::string te_text(const Scene& scene, int points) {
-    std::string text = "phase";
-    for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-        text += fmt::format(",{}_te_um", scene.drivetrain().pair_name(pair));
-    }
-    text += "\n";
-    for (int i = 0; i < points; ++i) {
-        const double phase = static_cast<double>(i) / points;
-        text += fmt::format("{:.9g}", phase);
-        for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-            text += fmt::format(",{:.9g}", 1e6 * loaded_approach(scene, pair, phase));
-        }
-        text += "\n";
-    }
-    return text;
+    return text + "\n";
 }
 
 void print_te(const Scene& scene) {
@@ -136,9 +73,10 @@ int stiffness_command(const StiffnessOptions& options) {
         options.te ? print_te(*scene) : print_summary(*scene);
         return kDone;
     }
-    const std::string text =
-        options.te ? te_text(*scene, options.points) : csv_text(*scene, options.points);
-    return write_text_to(options.csv, text) ? kDone : kBadInput;
+    const std::vector<SignalColumn> columns =
+        options.te ? transmission_error_columns(*scene, options.points)
+                   : stiffness_columns(*scene, options.points);
+    return write_text_to(options.csv, csv_text(columns)) ? kDone : kBadInput;
 }
 
 }  // namespace gearpod::mc

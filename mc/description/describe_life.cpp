@@ -15,9 +15,10 @@ std::string load_text(const RecordDistribution& law, int count) {
     const std::vector<double> factors = law.integrated_factors(count);
     return law.text() +
            (factors.size() > 1
-                ? fmt::format("; interpolated between solutions at {:.3g} times {}",
-                              fmt::join(factors, ", "),
-                              law.given() ? "the study's value" : "the gearbox's value")
+                ? fmt::format(
+                      "; records between are interpolated from solutions at {:.3g} times {}",
+                      fmt::join(factors, ", "),
+                      law.given() ? "the study's value" : "the gearbox's value")
                 : "");
 }
 

@@ -14,7 +14,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -157,7 +156,7 @@ void limit_memory(std::size_t more) {
             text = error.what();
         } catch (const std::bad_alloc&) {
             reply = Reply::refused;
-            text = path + ": needs more memory than allowed, or is damaged";
+            text = path + ": is damaged, or needs more memory than reading a file may use";
         }
         if (!send_message(fd, static_cast<char>(reply), text) || !file ||
             !receive_message(fd, kind, name, -1)) {

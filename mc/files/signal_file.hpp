@@ -5,7 +5,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "mc/files/signal_column.hpp"
 
 namespace gearpod::mc {
 
@@ -50,6 +53,21 @@ class SignalFile {
 // `row`, from 0: index of the record in an HDF5 file that has one record per row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row = std::nullopt);
+
+// Recording in a file or in memory.
+struct SignalSource {
+    std::string name;  // path of the file; of a recording in memory the name for messages
+    // Columns of a recording in memory, each once; null: a file.
+    std::shared_ptr<const std::vector<SignalColumn>> columns = nullptr;
+
+    SignalSource() = default;
+    SignalSource(std::string path) : name(std::move(path)) {}  // implicit, like a path
+    SignalSource(std::string message_name, std::vector<SignalColumn> in_memory);
+
+    bool empty() const { return name.empty(); }
+    // Opens the file (open_signal_file) or gives the columns. Throws SignalError.
+    std::unique_ptr<SignalFile> open(std::optional<std::size_t> row) const;
+};
 
 // Readers for the kinds of file.
 std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
-
-bool integrates_perturbation_only(const Scene& scene) {
-    return scene.study().numerics.horizon != Horizon::periodic &&
-           scene.recorded_meshes() == scene.span_meshes();
-}
 
 namespace {
 
@@ -58,8 +54,11 @@ HealthySolution::HealthySolution(const Scene& scene, const signals::PathGrid& pa
         one.gain = 1.0;
     }
     const bool keep = integrates_perturbation_only(scene);
-    GearboxTile tile =
-        run_with_inputs(scene, path, ids, inputs_of(0.0), fewest, {.keep_states = keep});
+    TileOptions options;
+    if (keep) {
+        options.records.emplace().states = true;
+    }
+    GearboxTile tile = run_with_inputs(scene, path, ids, inputs_of(0.0), fewest, options);
     healthy_ = signals_of(tile);
     inputs_.resize(tile.inputs.size(), inputs_.back());
     if (keep) {
@@ -85,7 +84,7 @@ HealthySolution::Signals HealthySolution::signals_of(const GearboxTile& tile) co
 }
 
 HealthySolution::Signals HealthySolution::with_fault(double size) const {
-    if (states_.empty()) {
+    if (states_.all.empty()) {
         return signals_of(run_with_inputs(scene_, path_, ids_, inputs_of(size),
                                           static_cast<int>(inputs_.size())));
     }

@@ -1,6 +1,6 @@
-// Integrates gearboxes once without a fault, then again for any fault size. If every mesh period is
-// integrated separately, a fault changes only its passages and the mesh periods of decay after
-// them. Only these are integrated again.
+// Integrates gearboxes once without a fault, then again for any fault size. A fault changes only
+// its passages and the mesh periods of decay after them. Only these are integrated again if
+// integrates_perturbation_only (solution_choice.hpp).
 #pragma once
 
 #include <span>
@@ -9,9 +9,6 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 
 namespace gearpod::mc {
-
-// True if only the perturbation from the healthy solution has to be integrated.
-bool integrates_perturbation_only(const Scene& scene);
 
 // Healthy reference solution of a tile, and its solutions with a fault. The scene, the path and the
 // ids must outlive it.
@@ -43,7 +40,7 @@ class HealthySolution {
     const signals::PathGrid& path_;
     const std::span<const GearboxId> ids_;
     std::vector<InstanceInputs> inputs_;  // one per lane
-    std::vector<lockstep::TileState> states_;
+    lockstep::SpanStates states_;
     std::vector<machine::AlignedVector> te_;  // MeshRecord::te of every mesh period
     Signals healthy_;
 };

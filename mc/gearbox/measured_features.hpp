@@ -40,8 +40,8 @@ struct MeasuredBaseline {
     MeasuredSignal signal;
 };
 
-// Empty if `path` is "". Throws SignalError.
-std::optional<MeasuredBaseline> measured_baseline(const std::string& path,
+// Empty if `source` is empty. Throws SignalError.
+std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
                                                   const SignalColumns& columns, const Scene& scene);
 
 // Features that can be measured: all of them with a baseline, only those of one record without it.
@@ -64,7 +64,7 @@ std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& si
 
 // Mean over recordings of healthy gearboxes; each must have at least `turns` planet turns. Throws
 // SignalError.
-HealthyReference measured_reference(const std::vector<std::string>& paths,
+HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
                                     const SignalColumns& columns, const Scene& scene, int turns);
 
 // Simulated healthy reference at a noise level; empty if the study does not have this level.

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "features/feature.hpp"
-#include "mc/files/signal_file.hpp"
 #include "mc/gearbox/sample_times.hpp"
 #include "mc/gearbox/signal_units.hpp"
 #include "mc/input/printable.hpp"
@@ -23,7 +22,7 @@ constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
-constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
+constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     if (factor != 1.0) {
@@ -36,8 +35,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 class SignalReader {
   public:
-    SignalReader(const std::string& path, const SignalColumns& columns, const Scene& scene)
-        : path_(path), columns_(columns), scene_(scene) {}
+    SignalReader(const SignalSource& source, const SignalColumns& columns, const Scene& scene)
+        : source_(source), columns_(columns), scene_(scene) {}
 
     MeasuredSignal read() {
         // The libraries that read files are not thread-safe.
@@ -47,7 +46,7 @@ class SignalReader {
             std::unique_ptr<SignalFile>& file;
             ~Closed() { file.reset(); }
         } closed{file_};
-        file_ = open_signal_file(path_, columns_.row);
+        file_ = source_.open(columns_.row);
         std::vector<double> sensor = chosen(columns_.sensor, kSensor, Quantity::acceleration);
         std::vector<double> te = chosen(columns_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
@@ -103,7 +102,8 @@ class SignalReader {
         }
     }
     void reject(const std::string& what) {
-        problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", path_, printable(what));
+        problems_ +=
+            fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", source_.name, printable(what));
     }
     void reject_column(const std::string& name, const std::string& why) {
         if (!why.empty()) {
@@ -327,9 +327,9 @@ class SignalReader {
         }
         std::vector<double> frequency_Hz;
         for (const double rpm : speed_rpm) {
-            frequency_Hz.push_back(
-                std::abs(scene_.drivetrain().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
-                (2.0 * std::numbers::pi));
+            frequency_Hz.push_back(std::abs(scene_.drivetrain().mesh_frequency_rad_s(
+                                       std::abs(rpm) * kRadPerSecondPerRpm)) /
+                                   (2.0 * std::numbers::pi));
         }
         return rising(integral(time, frequency_Hz));
     }
@@ -365,9 +365,9 @@ class SignalReader {
         }
         if (sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
             reject(
-                fmt::format("{:.6g} samples per mesh period, {:.6g} Hz, do not cover the study's "
-                            "band up to {:.6g} Hz; lower sensor.low_pass_Hz",
-                            per_mesh, per_mesh * mesh_Hz, low_pass));
+                fmt::format("{:.6g} Hz ({:.6g} samples per mesh period) is too low for signals up "
+                            "to {:.6g} Hz; set sensor.low_pass_Hz to at most half of it",
+                            per_mesh * mesh_Hz, per_mesh, low_pass));
         }
     }
 
@@ -375,13 +375,13 @@ class SignalReader {
     int most_meshes() const {
         const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
         return meshes_needed(scene_.study(), scene_.span(),
-                             planetary ? features::kSun | features::kRing : 0U);
+                             planetary ? features::kCentralGears : features::SignalSet());
     }
 
     static constexpr double kFewestSamples = 2.0;  // per mesh period
     static constexpr double kRateTolerance = 1.02;
 
-    const std::string& path_;
+    const SignalSource& source_;
     const SignalColumns& columns_;
     const Scene& scene_;
     std::unique_ptr<SignalFile> file_;
@@ -392,9 +392,9 @@ class SignalReader {
 
 }  // namespace
 
-MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
+MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const Scene& scene) {
-    return SignalReader(path, columns, scene).read();
+    return SignalReader(source, columns, scene).read();
 }
 
 }  // namespace gearpod::mc

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/files/signal_file.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
@@ -42,8 +43,8 @@ struct MeasuredSignal {
     bool losses_detectable = true;
 };
 
-// Reads a file (signal_file.hpp) and resamples it unless it is on the grid already. The mesh phase
-// of a sample comes from
+// Reads a recording (signal_file.hpp) and resamples it unless it is on the grid already. The mesh
+// phase of a sample comes from
 //
 //     samples_per_mesh     a constant number of samples per mesh period; whole planet turns
 //                          count as averages and are continued periodically
@@ -57,7 +58,7 @@ struct MeasuredSignal {
 // Units are converted (signal_units.hpp). Problems are unknown units, missing and clipped samples
 // (sample_times.hpp, signals/spectra/lost_samples.hpp), and a speed that does not fit the mesh
 // lines. Throws SignalError with one line per problem. Thread-safe: one thread reads at a time.
-MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
+MeasuredSignal read_measured_signal(const SignalSource& source, const SignalColumns& columns,
                                     const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -60,12 +60,13 @@ std::string spacing_problem(const std::vector<double>& time, double unit, double
         const double samples = usual > 0.0 ? std::round(steps[i] / usual) - 1.0 : 0.0;
         return samples >= 1.0
                    ? fmt::format(
-                         "{:.6g} s from sample {} to the next instead of {:.6g} s: {:.0f} "
-                         "sample(s) are missing; cut the recording there",
+                         "there are {:.6g} s between sample {} and the next, and {:.6g} s between "
+                         "most samples: {:.0f} sample(s) are missing; use only the part before or "
+                         "after",
                          steps[i], i + 1, usual, samples)
                    : fmt::format(
-                         "{:.6g} s from sample {} to the next, but {:.6g} s usually; the "
-                         "samples must be evenly spaced",
+                         "there are {:.6g} s between sample {} and the next, and {:.6g} s between "
+                         "most samples; the samples must be evenly spaced",
                          steps[i], i + 1, usual);
     }
     const auto worst = std::max_element(steps.begin(), steps.end(), [&](double a, double b) {

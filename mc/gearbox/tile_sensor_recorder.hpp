@@ -27,7 +27,7 @@ class TileSensorRecorder {
                        std::span<const GearboxId> ids, std::span<const InstanceInputs> inputs,
                        int kept_meshes);
 
-    // Takes the record of mesh period k; matches lockstep::TileSettings::record_mesh. If fewer mesh
+    // Takes the record of mesh period k; matches lockstep::RecordedSpan::on_record. If fewer mesh
     // periods are recorded than the signal has, the signal repeats them.
     void operator()(int k, const lockstep::MeshRecord& record);
 

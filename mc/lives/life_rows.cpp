@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-// Columns after the random inputs.
+// Columns that follow those of the random inputs.
 struct OwnColumn {
     const char *name, *unit;
 };

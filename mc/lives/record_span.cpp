@@ -57,10 +57,11 @@ std::string record_text(const Scene& scene) {
     }
     return text +
            (record.turns >= record.all_turns
-                ? fmt::format(": each of the {} teeth in all its {} meetings", teeth,
+                ? fmt::format(": each of the {} teeth with all {} mating teeth", teeth,
                               record.all_turns)
-                : fmt::format(": each of the {} teeth in {} of its {} meetings, chosen at random",
-                              teeth, record.turns, record.all_turns));
+                : fmt::format(
+                      ": each of the {} teeth with {} of its {} mating teeth, chosen at random",
+                      teeth, record.turns, record.all_turns));
 }
 
 void check_superposable(const Scene& scene) {
@@ -73,7 +74,7 @@ void check_superposable(const Scene& scene) {
     }
     for (const features::Feature* feature : used_features(study)) {
         const bool own = feature->baseline_use == features::BaselineUse::baseline;
-        if (own || (feature->needs & ~features::kChange) != 0) {
+        if (own || !feature->needs.within(features::kBasicSignals)) {
             reject("features.use",
                    "\"" + std::string(feature->name) +
                        (own ? "\" compares with a baseline record, but a life has its own baseline "

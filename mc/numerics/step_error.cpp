@@ -48,7 +48,7 @@ class StepPilot {
         const int lanes =
             lockstep::lanes_for(scene.plan().precision, static_cast<int>(ids_.size()));
         return run_with_inputs(scene, path_grid(scene), ids_, inputs_, lanes,
-                               {.with_records = true});
+                               {.records = lockstep::RecordOptions{}});
     }
 
     std::size_t size() const { return ids_.size(); }
@@ -126,8 +126,9 @@ std::optional<StepError> find_step_error_of_run(const Scene& scene, std::size_t 
 
 std::string step_error_text(const StepError& error) {
     return fmt::format(
-        "{:.1e} of the acceleration in the sensor's band, {:.1e} of the transmission error (rms; "
-        "{} against {} steps per mesh period; {} gearboxes, {} mesh periods)",
+        "relative rms {:.1e} of the acceleration in the sensor's band and {:.1e} of the "
+        "transmission error (difference between {} and {} steps per mesh period; {} gearboxes, "
+        "{} mesh periods)",
         error.sensor, error.te, error.steps, error.finer_steps, error.gearboxes, error.meshes);
 }
 

@@ -112,6 +112,18 @@ std::string build_page_output(const std::string& json, const std::vector<std::st
 
 }  // namespace
 
+std::filesystem::path schema_path() {
+    std::error_code none;
+    const auto report = std::filesystem::canonical(report_folder(), none);
+    for (const char* folder : {"../studies", "../../studies"}) {
+        const auto path = (report / folder / "study.schema.json").lexically_normal();
+        if (!report.empty() && std::filesystem::exists(path, none)) {
+            return path;
+        }
+    }
+    return {};
+}
+
 std::string report_page(const std::string& json, const std::string& figures) {
     return build_page_output(json, figures.empty()
                                        ? std::vector<std::string>{}

@@ -1,6 +1,7 @@
 // HTML page and one-page PDF summary of a report, made by the Python program in analysis/report.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace gearpod::mc {
@@ -12,6 +13,10 @@ namespace gearpod::mc {
 //
 // Also writes the figures as SVG and PNG into the folder `figures`, unless it is "".
 std::string report_page(const std::string& json, const std::string& figures = "");
+
+// Returns the path of the JSON schema of study files that belongs to this program, in the sources
+// or installed; empty if there is none.
+std::filesystem::path schema_path();
 
 // Returns a one-page PDF: the result, its dependence on noise, its limits. `json` must come from
 // report_json(). Throws like report_page().

@@ -324,7 +324,7 @@ BatchRows Checkpoint::read(std::size_t batch) const {
     const std::string_view record = view(buffer);
     if (got < static_cast<ssize_t>(buffer.size()) ||
         number_at(record, record.size() - 8) != record_sum(batch, record)) {
-        fail(fmt::format("batch {} was damaged after it had been written", batch));
+        fail(fmt::format("batch {} is damaged or incomplete", batch));
     }
     BatchRows rows;
     const std::size_t count = plan_.batch(batch).rows();

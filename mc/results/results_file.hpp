@@ -33,6 +33,7 @@
 
 #include "analysis/detection/detection.hpp"
 #include "mc/files/atomic_file.hpp"  // why_not_writable(path), to check before a long run
+#include "mc/files/signal_column.hpp"
 
 namespace gearpod::mc {
 
@@ -96,13 +97,6 @@ struct Timing {
     std::string name;
     double seconds = 0.0;
     const char* unit = "s";  // or "1" for a count
-};
-
-// Signal with one value per sample.
-struct SignalColumn {
-    std::string name;
-    std::string unit;
-    std::vector<double> values;
 };
 
 // Signals of one row.

@@ -1,5 +1,6 @@
 #include "mc/scene/sampling.hpp"
 
+#include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
@@ -84,17 +85,11 @@ void resolve_fixed_shaft(const Study& study, InstanceInputs& inputs) {
         study.operation.load_torque_N_m.value_or(study.operation.torque_N_m * ratio);
 }
 
-double mesh_damping(const Study& study) {
-    const Gearbox& g = study.gearbox;
-    switch (study.effects.mesh_damping) {
-        case MeshDamping::ratio:
-            return g.mesh_damping_ratio.value_or(0.0);
-        case MeshDamping::proportional:
-            return g.mesh_damping_time_s.value_or(0.0);
-        case MeshDamping::constant:
-            return g.mesh_damping_N_s_m.value_or(0.0);
-    }
-    return 0.0;
+dynamics::DampingParameters mesh_damping(const Study& study) {
+    dynamics::DampingParameters all{};
+    const auto& given = study.gearbox.mesh_damping[study.effects.mesh_damping];
+    std::ranges::transform(given, all.begin(), [](const auto& one) { return one.value_or(0.0); });
+    return all;
 }
 
 FluctuationInstance fluctuations(const Fluctuations& f) {

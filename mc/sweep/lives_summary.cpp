@@ -115,7 +115,7 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
         lines.push_back(std::move(line));
     }
     return fmt::format("by {}, which finds most cracks over all points\n", name_of(best)) +
-           aligned_columns(lines);
+           aligned_columns(lines, keys.size());
 }
 
 nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,

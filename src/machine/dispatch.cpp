@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <string>
 
 namespace gearpod::machine {
 namespace {
@@ -42,8 +43,8 @@ void use_instruction_set(InstructionSet set) {
     active().store(set, std::memory_order_relaxed);
 }
 
-void throw_kernel_not_built() {
-    throw std::logic_error("this program was built without kernels of so few lanes");
+void throw_kernel_not_built(int lanes) {
+    throw std::logic_error("this build has no kernels for " + std::to_string(lanes) + " lanes");
 }
 
 std::string_view name(InstructionSet set) {

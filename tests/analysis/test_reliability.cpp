@@ -12,6 +12,8 @@
 #include "analysis/report/text_lines.hpp"
 #include "analysis/smallest_fault.hpp"
 
+namespace test_reliability {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -191,8 +193,8 @@ TEST_CASE("The JSON maps detection over every input and does not depend on the n
     REQUIRE(good["bins"].size() == 2);  // torque 0 and 1
     CHECK(good["bins"][0]["pd"] < good["bins"][1]["pd"]);
     CHECK(good["p_value"] < 0.05);
-    CHECK(torque[1]["levels"][0]["refusal"] == "no gearboxes with a value");  // failed
-    CHECK(torque[3]["levels"][0]["p_value"].is_null());                       // detects all
+    CHECK(torque[1]["levels"][0]["refusal"] == "no gearbox has a value of the feature");  // failed
+    CHECK(torque[3]["levels"][0]["p_value"].is_null());  // detects all
     const auto& map = json["a90_maps"]["torque"]["features"][0]["levels"][0];
     // Torque adds as much to the logarithm as 0.3 mm do.
     CHECK(map["a90"][0]["estimate"]["size"].get<double>() -
@@ -225,3 +227,5 @@ TEST_CASE("Studies without healthy or without faulty gearboxes are reported, not
 }
 
 }  // namespace
+
+}  // namespace test_reliability

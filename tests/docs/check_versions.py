@@ -10,7 +10,6 @@ PLACES = {
     "CHANGELOG.md": r"^## (\S+)",
     "README.md": r"gearpod, version (\d+\.\d+\.\d+)",
     "analysis/python/pyproject.toml": r'^version = "([^"]+)"',
-    "analysis/python/wheel_backend.py": r'^VERSION = "([^"]+)"',
 }
 
 

@@ -2,10 +2,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/working_pair.hpp"
+
+namespace test_working_pair {
 
 using namespace gearpod::gears;
 
@@ -38,10 +39,6 @@ struct Set {
     double tip(int which) const { return 2e3 * mesh.gear(which).tip_radius(); }
     double root(int which) const { return 2e3 * mesh.gear(which).root_radius(); }
     double working(int which) const { return 2e3 * mesh.working_pitch_radius(which); }
-    double tip_thickness(int which) const {
-        const Gear& gear = mesh.gear(which);
-        return 1e3 * gear.thickness_at(gear.tip_radius());
-    }
 
     WorkingShifts shifts;
     MeshGeometry mesh;
@@ -267,3 +264,5 @@ TEST_CASE("the second stage of a 5 MW wind turbine, 18/36/93 teeth, matches KISS
     CHECK(thickness_mm(sun.gear(2)) == Approx(14.858).margin(kLast));
     CHECK(thickness_mm(ring.gear(2)) == Approx(18.937).margin(kLast));
 }
+
+}  // namespace test_working_pair

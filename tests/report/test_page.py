@@ -357,7 +357,7 @@ class Program(unittest.TestCase):
         for words_ in ("Holds for identical teeth", "the lives of other gearboxes"):
             self.assertIn(words_, data["assumptions"])
         for words_ in (data["assumptions"], f"of {ended} cracks before the tooth breaks",
-                       "Depth at detection against", "each of the 31 teeth in all its 81 meetings"):
+                       "Depth at detection against", "each of the 31 teeth with all 81 mating teeth"):
             self.assertIn(words_, parsed.text())
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())

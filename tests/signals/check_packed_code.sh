@@ -11,7 +11,7 @@ objdump -dr --no-show-raw-insn "$object" | awk -v kernels="$*" '
     /^[0-9a-f]+ </ {
         kernel = ""
         for (i = 1; i <= count; ++i)
-            if ($2 ~ ("[0-9]" names[i] "_x86_64_v[34]")) kernel = names[i] " v" ($2 ~ /_v4/ ? 4 : 3)
+            if ($2 ~ ("8Compiled.*[0-9]" names[i] "E.*x86_64_v[34]")) kernel = names[i] " v" ($2 ~ /_v4/ ? 4 : 3)
         if (kernel != "") ++found[kernel]
     }
     kernel != "" && $0 ~ /vfn?m(add|sub)[0-9]+pd/ && $0 ~ (kernel ~ /v4/ ? "zmm" : "ymm") { ++packed[kernel] }

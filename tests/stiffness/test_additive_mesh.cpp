@@ -1,9 +1,10 @@
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+
+namespace test_additive_mesh {
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -146,3 +147,5 @@ TEST_CASE("each pair carries the load in proportion to its stiffness") {
     mesh.share(gone, 1.9, {first, 1});
     CHECK(first[0] == 0);
 }
+
+}  // namespace test_additive_mesh

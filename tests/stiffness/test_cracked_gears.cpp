@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -17,6 +16,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+
+namespace test_cracked_gears {
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -246,3 +247,5 @@ TEST_CASE("largest loss of the ring mesh in planet-crack.toml by law and profile
                     largest(Profile::root_circle, CrackLaw::fracture_mechanics, depth_m),
                     largest(Profile::fillet, CrackLaw::fracture_mechanics, depth_m));
 }
+
+}  // namespace test_cracked_gears

@@ -1,6 +1,5 @@
 // Checks faults of the tooth pair and of the mesh, on independent tooth pairs and on a square wave.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/broken.hpp"
@@ -9,6 +8,8 @@
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+
+namespace test_faulty_mesh {
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -127,3 +128,5 @@ TEST_CASE("a crack on gear 1 or 2 weakens the pair according to the curve of its
         }
     }
 }
+
+}  // namespace test_faulty_mesh

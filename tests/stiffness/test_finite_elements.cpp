@@ -1,7 +1,6 @@
 // Checks Liang (2016), section 3.7: 23/23 aluminium gears, healthy and with a crack of 4.7 mm,
 // against finite elements. Table and its computation: tests/peers/fem-liang-table-3-5/README.md.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -9,6 +8,8 @@
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+
+namespace test_finite_elements {
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -188,3 +189,5 @@ TEST_CASE("A load-dependent contact is 12 % softer than the finite elements") {
         CHECK(pair.mesh(row) / row.gears == Approx(0.888).margin(0.01));
     }
 }
+
+}  // namespace test_finite_elements

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
@@ -14,6 +13,8 @@
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
+
+namespace test_helical_mesh {
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -262,3 +263,5 @@ TEST_CASE("the factors of helical teeth are those of the inclined section") {
 TEST_CASE("an overlap ratio must be positive") {
     CHECK_THROWS_WITH(HelicalMesh(additive(), 0), Catch::Contains("must be positive"));
 }
+
+}  // namespace test_helical_mesh

@@ -1,6 +1,5 @@
 // Checks the level of the mesh stiffness by every model of the gear bodies against ISO 6336-1 and
 // finite elements: docs/validation/mesh-stiffness-level.md.
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <string>
@@ -8,6 +7,8 @@
 
 #include "stiffness/iso_6336.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
+
+namespace test_mesh_stiffness_level {
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -112,3 +113,5 @@ TEST_CASE("mesh stiffness by every model of the bodies", "[.level]") {
                     l.sainsot / l.iso, l.sainsot_load / l.iso, l.ring / l.iso,
                     l.untwisted_ring / l.iso);
 }
+
+}  // namespace test_mesh_stiffness_level

@@ -1,17 +1,28 @@
-"""gearpod in Python: results as numpy and pandas, runs of the program, figures on matplotlib axes.
+"""gearpod in Python: computations in process, results as numpy and pandas, runs, figures.
 
     import gearpod
+    study = gearpod.Study("studies/planet-crack.toml")    # or a dict, or TOML text
+    study.stiffness()["sp1"]              # mesh stiffness over a mesh period
+    study.simulate(rows=[0, 1]).signals["sensor"]         # numpy, gearboxes x samples
+    study.features(measured, sampling_Hz=20000)           # of a recording
+    gearpod.pod({"size": sizes, "hit": hits}).a90         # of an inspection table
+
+    results = gearpod.run("studies/planet-crack.toml", set={"sensor.noise_levels": [2]})
     results = gearpod.open("planet-crack.h5")
     results.frame(noise=1.0)              # one row per gearbox: inputs and features (pandas)
-    results.signals(17)                   # signals of row 17, stored or computed again
-    louder = gearpod.run("studies/planet-crack.toml", set={"sensor.noise_levels": [2]})
+    results.pod(values)                   # your own feature, graded like the program's
     gearpod.figures.detection(results, "window_ratio")    # matplotlib axes
 
-numpy and h5py are needed; pandas for frames, matplotlib for figures, the program for runs.
+numpy and h5py are needed; pandas for frames, xarray for datasets, matplotlib for figures, the
+program for runs.
 """
 
 from . import figures
+from .columns import Columns
+from .library import Features, Pod, Simulation, Study, features, modes, pod, simulate, stiffness
 from .program import Failed, find_program, run
-from .results import Results, open
+from .results import Lives, Results, open
 
-__all__ = ["Failed", "Results", "figures", "find_program", "open", "run"]
+__all__ = ["Columns", "Failed", "Features", "Lives", "Pod", "Results", "Simulation", "Study",
+           "features", "figures", "find_program", "modes", "open", "pod", "run", "simulate",
+           "stiffness"]

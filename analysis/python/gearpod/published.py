@@ -24,8 +24,8 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 import h5py
 import numpy as np
 
+from .columns import Array
 from .program import Failed, call, find_program, run
-from .results import Array
 
 INK, PUBLISHED = "0.15", "#c24e00"
 COLOURS = ["#0072b2", "#00795b", "#a23f7d", "#806000", "#4b4fb8", "#5b6066"]

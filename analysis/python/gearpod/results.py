@@ -6,20 +6,23 @@ import json
 import os
 import pathlib
 import tempfile
+from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
-import numpy.typing as npt
 
 try:
     import h5py
 except ImportError as error:
     raise ImportError("gearpod reads its results with h5py (Debian: python3-h5py)") from error
 
+from . import library
+from .columns import Array, import_pandas
 from .program import PathLike, call
 
-Array = npt.NDArray[Any]
 FORMAT, NEWEST = "gearpod results", 2
+LIFE_COLUMNS = {"crack_depth": "crack_depth", "record_torque": "torque", "record_speed": "speed",
+                "record_gain": "gain", "record_noise": "noise"}
 GROUPS = {"threshold": 0, "graded": 1, "neither": 2}
 
 
@@ -29,9 +32,23 @@ def open(path: PathLike) -> "Results":
     return Results(path)
 
 
+@dataclass
+class Lives:
+    """Lives of gearboxes, results of `gearpod lives`. Rows of all arrays are lives."""
+
+    hours: Array          # of the records
+    end_h: Array          # time at which the tooth broke; NaN where it survived
+    records: Array        # number of records of each life
+    crack_depth: Array    # m, lives x records; NaN after the end of a life, as in the others
+    torque: Array         # factors of each record, lives x records
+    speed: Array
+    gain: Array
+    noise: Array
+
+
 class Results:
-    """Results of `gearpod run`, read on demand. Each row is a gearbox; those that set the
-    thresholds come first, then the graded ones."""
+    """Results of `gearpod run` or `gearpod lives`, read on demand. Each row is a gearbox or a life;
+    those that set the thresholds come first, then the graded ones."""
 
     def __init__(self, path: PathLike) -> None:
         self.path = pathlib.Path(path)
@@ -42,10 +59,10 @@ class Results:
                 raise ValueError(f"{self.path}: not a results file of gearpod")
             if int(self.attributes["format_version"]) > NEWEST:
                 raise ValueError(f"{self.path}: written by a newer gearpod")
-            if self.attributes.get("kind") == "lives":
-                raise ValueError(f"{self.path}: contains lives; read it with h5py (/features: "
-                                 "gearboxes x records, /hours: their times)")
-            self.noise_levels: Array = file["noise_levels"][()]
+            self.kind: str = self.attributes.get("kind", "run")
+            # Lives have values per record instead.
+            self.noise_levels: Array = (np.empty(0) if self.kind == "lives"
+                                        else file["noise_levels"][()])
             self.group: Array = file["instances/group"][()]
             self.status: Array = file["status"][()]
             self.inputs: List[str] = [name for name in file["instances"] if name != "group"]
@@ -59,6 +76,8 @@ class Results:
             # Alarm side of the threshold for each feature: "high" or "low".
             self.alarms: Dict[str, str] = {
                 name: _text(file["features"][name].attrs["alarm"]) for name in self.features}
+            if self.kind == "lives":
+                self.features = [name for name in self.features if name not in LIFE_COLUMNS]
             self.size_name: str = _text(file["detection"].attrs["size_name"])
 
     def __repr__(self) -> str:
@@ -83,8 +102,8 @@ class Results:
         return self.input(self.size_name) if self.size_name in self.inputs else np.zeros(len(self))
 
     def feature(self, name: str, noise: Optional[float] = None) -> Array:
-        """Values of a feature, gearboxes x noise levels, or one per gearbox at one noise level; NaN
-        where there is no value."""
+        """Values of a feature, gearboxes x noise levels, or one per gearbox at one noise level; of
+        lives, lives x records. NaN where there is no value."""
         values = self._read("features", name, self.features)
         return values if noise is None else values[:, self.level(noise)]
 
@@ -107,6 +126,8 @@ class Results:
         """Noise level that reports show first: 1 if available, otherwise the smallest above 0,
         otherwise the first."""
         levels = self.noise_levels
+        if not levels.size:
+            raise ValueError(f"{self.path}: contains lives, which have one noise level")
         above = levels[levels > 0]
         return 1.0 if 1.0 in levels else float(above[0] if above.size else levels[0])
 
@@ -123,8 +144,7 @@ class Results:
 
     def frame(self, noise: Optional[float] = None) -> Any:
         """columns() as a pandas DataFrame, indexed by row; needs pandas."""
-        pandas = _pandas()
-        frame = pandas.DataFrame(self.columns(noise))
+        frame = import_pandas().DataFrame(self.columns(noise))
         frame.index.name = "row"
         return frame
 
@@ -147,7 +167,31 @@ class Results:
 
     def detection(self) -> Any:
         """detection_columns() as a pandas DataFrame; needs pandas."""
-        return _pandas().DataFrame(self.detection_columns())
+        return import_pandas().DataFrame(self.detection_columns())
+
+    def pod(self, values: Any, *, name: str = "values", alarm: str = "high", unit: str = "1",
+            noise: Optional[float] = None) -> library.Pod:
+        """Grades values of your own, one per gearbox in the order of the rows, as the program
+        grades its features: threshold at the study's false-alarm rate from the threshold group,
+        detection rates, POD curve. `alarm` is the side of the threshold that is an alarm, `noise`
+        the noise level of the values, for the report only.
+
+        report["detection"]["level"] has the threshold and the rates by size. Raises Failed if the
+        number of values is not that of the rows.
+        """
+        return library.grade(self.path, values, name=name, alarm=alarm, unit=unit,
+                             noise_level=self.reference if noise is None else noise)
+
+    @property
+    def lives(self) -> Lives:
+        """Lives: times, crack depths and ends. Raises ValueError for results of `run`."""
+        if self.kind != "lives":
+            raise ValueError(f"{self.path}: contains no lives (gearpod lives writes them)")
+        with h5py.File(self.path, "r") as file:
+            return Lives(hours=file["hours"][()], end_h=file["instances/end_h"][()],
+                         records=file["instances/records"][()].astype(int),
+                         **{field: file["features"][name][()]
+                            for name, field in LIFE_COLUMNS.items()})
 
     def signals(self, row: int) -> Dict[str, Array]:
         """Signals of the gearbox in a row, by name. Read from the file if stored (`run --signals`),
@@ -193,12 +237,3 @@ class Results:
 
 def _text(value: Union[bytes, str, Any]) -> str:
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
-
-
-def _pandas() -> Any:
-    try:
-        import pandas
-    except ImportError as error:
-        raise ImportError("frames need pandas (Debian: python3-pandas); columns() and "
-                          "detection_columns() give numpy arrays") from error
-    return pandas

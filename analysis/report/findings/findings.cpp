@@ -12,7 +12,8 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr long kFewest = 10;  // fewest healthy and faulty gearboxes for statements on detection
+constexpr long kFewestReported =
+    10;  // fewest healthy and faulty gearboxes for statements on detection
 
 void count_sample(Findings& findings) {
     for (const FeatureDetection& feature : findings.detection) {
@@ -55,12 +56,12 @@ std::string unassessable_text(const Findings& findings) {
     if (!any) {
         return sample_shortage(findings.detection, findings.request, findings.subject);
     }
-    if (std::min(findings.healthy, findings.faulty) < kFewest) {
+    if (std::min(findings.healthy, findings.faulty) < kFewestReported) {
         return fmt::format(
             "Only {} healthy and {} faulty {} have values; at least {} of each are needed to "
             "assess "
             "detection.",
-            findings.healthy, findings.faulty, many(findings.subject), kFewest);
+            findings.healthy, findings.faulty, many(findings.subject), kFewestReported);
     }
     return "";
 }

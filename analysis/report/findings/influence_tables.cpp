@@ -11,7 +11,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kShare = 0.01;  // smallest share of the variance for which an input is named
+constexpr double kNamedShare = 0.01;  // smallest share of the variance for which an input is named
 
 std::string miss_count(const MissSensitivity& misses) {
     return fmt::format("{} of {}", misses.misses, misses.misses + misses.hits);
@@ -175,14 +175,14 @@ void add_shares(Section& section, const Findings& findings, std::size_t n) {
     if (const SobolIndices& misses = given.misses; misses.refusal.empty()) {
         std::vector<std::string> named;
         for (const SobolIndex& index : misses.inputs) {
-            if (index.first.bounds.lower > kShare || index.total_bounds.lower > kShare) {
+            if (index.first.bounds.lower > kNamedShare || index.total_bounds.lower > kNamedShare) {
                 named.push_back(index_text(index));
             }
         }
         section.state(
             fmt::format("shares.{}", n),
             fmt::format("Share of the variance of the misses of {} at {} ({} {}; Sobol indices): "
-                        "{}; all inputs {}, the rest is noise.",
+                        "{}; all inputs together {}; the rest is due to noise.",
                         given.feature, range_text(given.sizes, findings.request.size), misses.count,
                         many(findings.subject),
                         named.empty() ? "no input above 0.01" : joined(named),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "mc/input/spelling.hpp"
 #include "mc/study/copula.hpp"
@@ -132,9 +131,9 @@ void read_correlations(StudyDraft& draft, const Entry& list) {
     }
     if (good && !Copula(draft.study).exists()) {
         draft.reject(list.position, "random.correlations",
-                     "these correlations are impossible together (their matrix, with 0 for missing "
-                     "pairs, is not positive definite)",
-                     "reduce them, or add the missing pairs");
+                     "no random inputs can have all these correlations (their matrix, with 0 for "
+                     "pairs that are not listed, is not positive definite)",
+                     "use smaller correlations, or list the missing pairs");
     }
 }
 

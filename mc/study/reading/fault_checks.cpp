@@ -118,8 +118,9 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
         const std::string unit = key.unit.suffix.empty() ? "" : " " + std::string(key.unit.name);
         draft.reject(
             edges_key,
-            fmt::format("does not cover all sizes, {} to {}{}", support.low, support.high, unit),
-            "the first edge must not be above the smallest size, nor the last one below the "
+            fmt::format("does not cover all fault sizes of the study, {} to {}{}", support.low,
+                        support.high, unit),
+            "start with an edge at or below the smallest size and end with one at or above the "
             "largest");
     }
 }

@@ -29,28 +29,9 @@ void check_gravity(StudyDraft& draft) {
                           "effects.gravity"}) &&
         s.gearbox.kind == GearboxKind::planetary) {
         draft.reject("effects.gravity",
-                     "would have no effect (in a torsional model only the planets' weights act, "
-                     "and they balance each other about the carrier's axis: effects.motion)",
-                     "remove it, or use a motion in x and y");
-    }
-}
-
-void check_superposition(StudyDraft& draft) {
-    const std::string why = reason_not_superposed(draft.study);
-    if (draft.study.numerics.horizon == Horizon::superposed && !why.empty() &&
-        draft.all_usable({"numerics.horizon", "effects.gravity", "effects.motion"})) {
-        draft.reject("numerics.horizon", fmt::format("is \"superpose\", but {}", why),
-                     "leave the key out");
-    }
-}
-
-void check_horizon(StudyDraft& draft) {
-    check_superposition(draft);
-    const std::string why = reason_not_periodic(draft.study);
-    if (draft.study.numerics.horizon == Horizon::periodic && !why.empty() &&
-        draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {
-        draft.reject("numerics.horizon", fmt::format("is \"reuse\", but {}", why),
-                     "use horizon = \"full\", or leave the key out");
+                     "would have no effect (effects.motion has rotations only, and the torques of "
+                     "the planets' weights about the carrier's axis cancel)",
+                     "remove the key, or choose an effects.motion with translations in x and y");
     }
 }
 
@@ -59,7 +40,6 @@ void check_horizon(StudyDraft& draft) {
 void check_fluctuations(StudyDraft& draft) {
     check_torque_sine(draft);
     check_gravity(draft);
-    check_horizon(draft);
 }
 
 }  // namespace gearpod::mc

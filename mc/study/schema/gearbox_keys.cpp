@@ -49,27 +49,27 @@ const Key kGearboxKeys[] = {
     {"gearbox", "sun_tip_relief_length_mm", number<Member::sun, &B::tip_relief_length_m>, kMm, kPositive, planetary<tip_relief_length<Member::sun>>, kGeometry, "length of the sun's tip relief along the line of action, from the end of contact"},
     {"gearbox", "sun_root_relief_um", number<Member::sun, &B::root_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "root relief of the sun's flanks, at the end of contact near the root, along the line of action"},
     {"gearbox", "sun_root_relief_length_mm", number<Member::sun, &B::root_relief_length_m>, kMm, kPositive, planetary<root_relief_length<Member::sun>>, kGeometry, "length of the sun's root relief along the line of action, from the end of contact"},
-    {"gearbox", "sun_crowning_um", number<Member::sun, &B::crowning_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "crowning of the sun's flanks: a parabola along the face width, this deep at both ends"},
+    {"gearbox", "sun_crowning_um", number<Member::sun, &B::crowning_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "crowning of the sun's flanks: depth removed at both ends of the face, by a parabola along the face width"},
     {"gearbox", "planet_tip_relief_um", number<Member::planet, &B::tip_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "tip relief of the planets' flanks, along the line of action"},
     {"gearbox", "planet_tip_relief_length_mm", number<Member::planet, &B::tip_relief_length_m>, kMm, kPositive, planetary<tip_relief_length<Member::planet>>, kGeometry, "length of the planets' tip relief along the line of action, from the end of contact"},
     {"gearbox", "planet_root_relief_um", number<Member::planet, &B::root_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "root relief of the planets' flanks, at the end of contact near the root, along the line of action"},
     {"gearbox", "planet_root_relief_length_mm", number<Member::planet, &B::root_relief_length_m>, kMm, kPositive, planetary<root_relief_length<Member::planet>>, kGeometry, "length of the planets' root relief along the line of action, from the end of contact"},
-    {"gearbox", "planet_crowning_um", number<Member::planet, &B::crowning_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "crowning of the planets' flanks: a parabola along the face width, this deep at both ends"},
+    {"gearbox", "planet_crowning_um", number<Member::planet, &B::crowning_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "crowning of the planets' flanks: depth removed at both ends of the face, by a parabola along the face width"},
     {"gearbox", "ring_tip_relief_um", number<Member::ring, &B::tip_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "tip relief of the ring's flanks, along the line of action"},
     {"gearbox", "ring_tip_relief_length_mm", number<Member::ring, &B::tip_relief_length_m>, kMm, kPositive, planetary<tip_relief_length<Member::ring>>, kGeometry, "length of the ring's tip relief along the line of action, from the end of contact"},
     {"gearbox", "ring_root_relief_um", number<Member::ring, &B::root_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "root relief of the ring's flanks, at the end of contact near the root, along the line of action"},
     {"gearbox", "ring_root_relief_length_mm", number<Member::ring, &B::root_relief_length_m>, kMm, kPositive, planetary<root_relief_length<Member::ring>>, kGeometry, "length of the ring's root relief along the line of action, from the end of contact"},
-    {"gearbox", "ring_crowning_um", number<Member::ring, &B::crowning_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "crowning of the ring's flanks: a parabola along the face width, this deep at both ends"},
+    {"gearbox", "ring_crowning_um", number<Member::ring, &B::crowning_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "crowning of the ring's flanks: depth removed at both ends of the face, by a parabola along the face width"},
     {"gearbox", "pinion_tip_relief_um", number<Member::pinion, &B::tip_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "tip relief of the pinion's flanks, along the line of action"},
     {"gearbox", "pinion_tip_relief_length_mm", number<Member::pinion, &B::tip_relief_length_m>, kMm, kPositive, fixed_shaft<tip_relief_length<Member::pinion>>, kGeometry, "length of the pinion's tip relief along the line of action, from the end of contact"},
     {"gearbox", "pinion_root_relief_um", number<Member::pinion, &B::root_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "root relief of the pinion's flanks, at the end of contact near the root, along the line of action"},
     {"gearbox", "pinion_root_relief_length_mm", number<Member::pinion, &B::root_relief_length_m>, kMm, kPositive, fixed_shaft<root_relief_length<Member::pinion>>, kGeometry, "length of the pinion's root relief along the line of action, from the end of contact"},
-    {"gearbox", "pinion_crowning_um", number<Member::pinion, &B::crowning_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "crowning of the pinion's flanks: a parabola along the face width, this deep at both ends"},
+    {"gearbox", "pinion_crowning_um", number<Member::pinion, &B::crowning_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "crowning of the pinion's flanks: depth removed at both ends of the face, by a parabola along the face width"},
     {"gearbox", "gear_tip_relief_um", number<Member::gear, &B::tip_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "tip relief of the gear's flanks, along the line of action"},
     {"gearbox", "gear_tip_relief_length_mm", number<Member::gear, &B::tip_relief_length_m>, kMm, kPositive, fixed_shaft<tip_relief_length<Member::gear>>, kGeometry, "length of the gear's tip relief along the line of action, from the end of contact"},
     {"gearbox", "gear_root_relief_um", number<Member::gear, &B::root_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "root relief of the gear's flanks, at the end of contact near the root, along the line of action"},
     {"gearbox", "gear_root_relief_length_mm", number<Member::gear, &B::root_relief_length_m>, kMm, kPositive, fixed_shaft<root_relief_length<Member::gear>>, kGeometry, "length of the gear's root relief along the line of action, from the end of contact"},
-    {"gearbox", "gear_crowning_um", number<Member::gear, &B::crowning_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "crowning of the gear's flanks: a parabola along the face width, this deep at both ends"},
+    {"gearbox", "gear_crowning_um", number<Member::gear, &B::crowning_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "crowning of the gear's flanks: depth removed at both ends of the face, by a parabola along the face width"},
     {"gearbox", "relief_shape", choice<&G::relief_shape>(kReliefShapes), kNone, kAny, relief_shape, kGeometry, "shape of the relief towards the end of contact: \"linear\" or \"parabolic\""},
     {"gearbox", "module_mm", number<&G::module_m>, kMm, kPositive, tooth_module, kGeometry, "module; in the transverse plane if the teeth are helical"},
     {"gearbox", "normal_module_mm", number<&G::normal_module_m>, kMm, kPositive, may, kGeometry, "module of helical teeth in the normal plane, as on drawings; instead of gearbox.module_mm"},
@@ -143,9 +143,9 @@ const Key kGearboxKeys[] = {
     {"gearbox", "motor_coupling_damping_N_m_s_rad", number<&F::motor_coupling_damping_N_m_s_rad>, kNmSPerRad, kNotNegative, fixed_shaft<may>, kRandom, "torsional damping of the coupling between motor and pinion"},
     {"gearbox", "load_coupling_stiffness_N_m_rad", number<&F::load_coupling_stiffness_N_m_rad>, kNmPerRad, kPositive, fixed_shaft<always>, kRandom, "torsional stiffness of the coupling between gear and load"},
     {"gearbox", "load_coupling_damping_N_m_s_rad", number<&F::load_coupling_damping_N_m_s_rad>, kNmSPerRad, kNotNegative, fixed_shaft<may>, kRandom, "torsional damping of the coupling between gear and load"},
-    {"gearbox", "mesh_damping_ratio", number<&G::mesh_damping_ratio>, kNone, kNotNegative, damping_ratio, kRandom, "mesh damping ratio zeta in c = 2 zeta sqrt(k m1 m2 / (m1 + m2))"},
-    {"gearbox", "mesh_damping_time_s", number<&G::mesh_damping_time_s>, kS, kNotNegative, damping_time, kRandom, "mesh damping time mu in c = mu k"},
-    {"gearbox", "mesh_damping_N_s_m", number<&G::mesh_damping_N_s_m>, kNSPerM, kNotNegative, damping_constant, kRandom, "constant mesh damping"},
+};
+// Keys that follow those of mesh damping.
+const Key kMeshKeys[] = {
     {"gearbox", "backlash_mm", number<&G::backlash_m>, kMm, kPositive, backlash, kRandom, "backlash 2b along the line of action"},
     {"gearbox", "sun_planet_error_um", numbers<&E::sun_planet_m>, kUm, kNotNegative, planetary<may>, kShared, "static transmission error of the sun-planet meshes: amplitudes of mesh harmonics 1, 2, ..."},
     {"gearbox", "sun_planet_error_phase_deg", numbers<&E::sun_planet_phase_rad>, kDeg, kAny, planetary<may>, kShared, "phases of sun_planet_error_um; 0 by default"},
@@ -186,6 +186,10 @@ const Key kGearboxKeys[] = {
 
 std::span<const Key> gearbox_keys() {
     return kGearboxKeys;
+}
+
+std::span<const Key> mesh_keys() {
+    return kMeshKeys;
 }
 
 }  // namespace gearpod::mc

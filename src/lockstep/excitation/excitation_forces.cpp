@@ -8,7 +8,8 @@
 namespace gearpod::lockstep {
 namespace {
 
-// Force patterns of one gearbox, one column each, in the order of the rows' values.
+// Generalised forces per unit of each varying value (torque, gravity, rotation): one column per
+// value, in the order of ExcitationRows.
 Eigen::MatrixXd columns_of(const IntegrationPlan& plan, const Excitation& excitation,
                            const dynamics::GearboxInputs& in) {
     const int degrees = dynamics::degrees_of_freedom(plan.layout);

@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// Selects the kernel for this number of lanes.
-template <class Kernel>
-Kernel* select_by_lanes(std::size_t lanes, Kernel* one, Kernel* four, Kernel* eight) {
-    assert(lanes == 8 || lanes == 4 || lanes == 1);
-    return lanes == 8 ? eight : lanes == 4 ? four : one;
-}
-
 // Pads the knots with zeros at both ends.
 machine::AlignedVector padded_knots(const Fluctuation& f, std::size_t lanes) {
     machine::AlignedVector knots(f.knot.size() + 2 * kSplineMargin * lanes);
@@ -100,7 +93,6 @@ void ExcitationRows::set_uniform_time(int mesh) {
 
 void ExcitationRows::evaluate_fluctuation(const Fluctuation& f, const machine::AlignedVector& knots,
                                           int mesh, bool with_slope) {
-    const auto lanes = static_cast<std::size_t>(lanes_);
     std::fill(sum_.begin(), sum_.end(), 0.0);
     std::fill(slope_.begin(), slope_.end(), 0.0);
     const auto nodes = static_cast<int>(position_.size());
@@ -110,18 +102,18 @@ void ExcitationRows::evaluate_fluctuation(const Fluctuation& f, const machine::A
         for (double& p : phase) {
             p += mesh;
         }
-        select_by_lanes(lanes, add_sines_1, add_sines_4, add_sines_8)(
-            {nodes, phase.data(), time_.data(), f.amplitude.data(), f.turns_per_mesh.data(),
-             f.turns_per_s.data(), f.turns.data(), sum_.data(), slope});
+        add_sines(lanes_,
+                  {nodes, phase.data(), time_.data(), f.amplitude.data(), f.turns_per_mesh.data(),
+                   f.turns_per_s.data(), f.turns.data(), sum_.data(), slope});
     }
     if (!f.knot.empty()) {
         machine::AlignedVector first = f.first_knot;
         for (double& knot : first) {
             knot += kSplineMargin;
         }
-        select_by_lanes(lanes, add_splines_1, add_splines_4, add_splines_8)(
-            {nodes, static_cast<int>(knots.size() / lanes), time_.data(), f.knots_per_s.data(),
-             first.data(), period_.data(), knots.data(), sum_.data(), slope});
+        add_splines(lanes_, {nodes, static_cast<int>(knots.size()) / lanes_, time_.data(),
+                             f.knots_per_s.data(), first.data(), period_.data(), knots.data(),
+                             sum_.data(), slope});
     }
 }
 
@@ -147,10 +139,9 @@ void ExcitationRows::fill_gravity(int mesh, int column) {
 
 void ExcitationRows::fill_speed_values(int mesh) {
     evaluate_fluctuation(*excitation_.speed, speed_knots_, mesh, true);
-    select_by_lanes(static_cast<std::size_t>(lanes_), write_speed_values_1, write_speed_values_4,
-                    write_speed_values_8)(
-        {static_cast<int>(position_.size()), values_, columns_in(excitation_) - 1, sum_.data(),
-         slope_.data(), period_.data(), excitation_.rotation_m_s.data(), rows_.data()});
+    write_speed_values(lanes_, {static_cast<int>(position_.size()), values_,
+                                columns_in(excitation_) - 1, sum_.data(), slope_.data(),
+                                period_.data(), excitation_.rotation_m_s.data(), rows_.data()});
 }
 
 // The classical Runge-Kutta method has nodes at the start, middle and end of a step. The time at

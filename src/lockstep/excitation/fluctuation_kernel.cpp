@@ -2,7 +2,7 @@
 
 #include "lockstep/excitation/excitation_forces.hpp"
 #include "lockstep/excitation/fluctuation_rows.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 #include "machine/lane_math.hpp"
 
 namespace gearpod::lockstep {
@@ -11,7 +11,7 @@ namespace {
 constexpr double kTurn = 6.283185307179586477;
 
 template <int W>
-GEARPOD_INLINE void add_sines(const SineRows& r) {
+GEARPOD_INLINE void add_sines_of_lanes(const SineRows& r) {
     for (int n = 0; n < r.nodes; ++n) {
         const double phase = r.phase[n];
         const double* __restrict time = r.time + n * W;
@@ -38,7 +38,7 @@ GEARPOD_INLINE void add_sines(const SineRows& r) {
 
 // Cubic B-spline and its derivative: de Boor, A Practical Guide to Splines.
 template <int W>
-GEARPOD_INLINE void add_splines(const SplineRows& r) {
+GEARPOD_INLINE void add_splines_of_lanes(const SplineRows& r) {
     const double last = r.count - 3.0;
     const double* __restrict knots = r.knot;
     const double* __restrict knots_per_s = r.knots_per_s;
@@ -82,7 +82,7 @@ GEARPOD_INLINE void add_splines(const SplineRows& r) {
 
 // Since dphase/dt = r / T, dr/dt = dr/dphase r / T.
 template <int W>
-GEARPOD_INLINE void write_speed_values(const SpeedRows& r) {
+GEARPOD_INLINE void write_values_of_lanes(const SpeedRows& r) {
     for (int n = 0; n < r.nodes; ++n) {
         const double* __restrict variation = r.variation + n * W;
         const double* __restrict slope = r.slope + n * W;
@@ -101,16 +101,19 @@ GEARPOD_INLINE void write_speed_values(const SpeedRows& r) {
 
 }  // namespace
 
-GEARPOD_KERNEL(add_splines_8, (const SplineRows& rows), (rows), add_splines<8>(rows))
-GEARPOD_NARROW_KERNEL(add_splines_4, (const SplineRows& rows), (rows), add_splines<4>(rows))
-GEARPOD_NARROW_KERNEL(add_splines_1, (const SplineRows& rows), (rows), add_splines<1>(rows))
-GEARPOD_KERNEL(write_speed_values_8, (const SpeedRows& rows), (rows), write_speed_values<8>(rows))
-GEARPOD_NARROW_KERNEL(write_speed_values_4, (const SpeedRows& rows), (rows),
-                      write_speed_values<4>(rows))
-GEARPOD_NARROW_KERNEL(write_speed_values_1, (const SpeedRows& rows), (rows),
-                      write_speed_values<1>(rows))
-GEARPOD_KERNEL(add_sines_8, (const SineRows& rows), (rows), add_sines<8>(rows))
-GEARPOD_NARROW_KERNEL(add_sines_4, (const SineRows& rows), (rows), add_sines<4>(rows))
-GEARPOD_NARROW_KERNEL(add_sines_1, (const SineRows& rows), (rows), add_sines<1>(rows))
+void add_sines(int lanes, const SineRows& rows) {
+    machine::with_lanes<8>(lanes,
+                           [&]<int W>() { machine::run_kernel<add_sines_of_lanes<W>>(rows); });
+}
+
+void add_splines(int lanes, const SplineRows& rows) {
+    machine::with_lanes<8>(lanes,
+                           [&]<int W>() { machine::run_kernel<add_splines_of_lanes<W>>(rows); });
+}
+
+void write_speed_values(int lanes, const SpeedRows& rows) {
+    machine::with_lanes<8>(lanes,
+                           [&]<int W>() { machine::run_kernel<write_values_of_lanes<W>>(rows); });
+}
 
 }  // namespace gearpod::lockstep

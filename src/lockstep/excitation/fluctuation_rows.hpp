@@ -18,9 +18,7 @@ struct SineRows {
     double* sum = nullptr;
     double* slope = nullptr;
 };
-void add_sines_1(const SineRows& rows);
-void add_sines_4(const SineRows& rows);
-void add_sines_8(const SineRows& rows);
+void add_sines(int lanes, const SineRows& rows);
 
 // Arguments of add_splines. At the same nodes, it adds the cubic B-spline with knots [knot][lane]
 // at
@@ -39,9 +37,7 @@ struct SplineRows {
     double* sum = nullptr;
     double* slope = nullptr;
 };
-void add_splines_1(const SplineRows& rows);
-void add_splines_4(const SplineRows& rows);
-void add_splines_8(const SplineRows& rows);
+void add_splines(int lanes, const SplineRows& rows);
 
 // Arguments of write_speed_values. Inputs are the variation x of a speed and its derivative by the
 // phase at every node. It writes the acceleration of the train's rotation and then the three
@@ -54,8 +50,6 @@ struct SpeedRows {
     const double* rotation_m_s = nullptr;  // [lane]
     double* rows = nullptr;
 };
-void write_speed_values_1(const SpeedRows& rows);
-void write_speed_values_4(const SpeedRows& rows);
-void write_speed_values_8(const SpeedRows& rows);
+void write_speed_values(int lanes, const SpeedRows& rows);
 
 }  // namespace gearpod::lockstep

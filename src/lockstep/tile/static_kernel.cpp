@@ -2,7 +2,7 @@
 
 #include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/tile/static_lanes.hpp"
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -258,11 +258,13 @@ GEARPOD_INLINE void solve(const StaticLanes<W>& lanes, StaticState<W>& s) {
 
 }  // namespace
 
-GEARPOD_KERNEL(solve_static_8, (const StaticLanes<8>& lanes, StaticState<8>& state), (lanes, state),
-               solve<8>(lanes, state))
-GEARPOD_NARROW_KERNEL(solve_static_4, (const StaticLanes<4>& lanes, StaticState<4>& state),
-                      (lanes, state), solve<4>(lanes, state))
-GEARPOD_NARROW_KERNEL(solve_static_1, (const StaticLanes<1>& lanes, StaticState<1>& state),
-                      (lanes, state), solve<1>(lanes, state))
+template <int W>
+void solve_static(const StaticLanes<W>& lanes, StaticState<W>& state) {
+    machine::run_kernel<solve<W>>(lanes, state);
+}
+
+template void solve_static<1>(const StaticLanes<1>&, StaticState<1>&);
+template void solve_static<4>(const StaticLanes<4>&, StaticState<4>&);
+template void solve_static<8>(const StaticLanes<8>&, StaticState<8>&);
 
 }  // namespace gearpod::lockstep

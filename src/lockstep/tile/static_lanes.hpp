@@ -54,7 +54,7 @@ struct StaticState {
     // Springs under unilateral contact, [contact][pair][lane], N/m and m.
     machine::AlignedVector tooth_k, tooth_e;
     machine::AlignedVector q;  // [degree of freedom][lane], m
-    // [lane], 1 or 0. loose: a load meets no stiffness. restless: the contacts did not converge.
+    // [lane], 1 or 0: a load meets no stiffness; the last iteration changed a contact.
     machine::AlignedVector unsupported, contacts_changed;
 
     machine::AlignedVector active_stiffness, preload;    // [pair][lane], of the current contacts
@@ -68,8 +68,11 @@ extern template struct StaticState<8>;
 // Solves for state.q from state.k and state.e. A body without stiffness and without load stays at
 // zero. A load that meets no stiffness marks its lane `unsupported`, and its q is then invalid.
 // Lanes do not affect each other.
-void solve_static_1(const StaticLanes<1>& lanes, StaticState<1>& state);
-void solve_static_4(const StaticLanes<4>& lanes, StaticState<4>& state);
-void solve_static_8(const StaticLanes<8>& lanes, StaticState<8>& state);
+template <int W>
+void solve_static(const StaticLanes<W>& lanes, StaticState<W>& state);
+
+extern template void solve_static<1>(const StaticLanes<1>&, StaticState<1>&);
+extern template void solve_static<4>(const StaticLanes<4>&, StaticState<4>&);
+extern template void solve_static<8>(const StaticLanes<8>&, StaticState<8>&);
 
 }  // namespace gearpod::lockstep

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 #include "signals/noise/chi_squared_table.hpp"
 
 namespace gearpod::signals {
@@ -32,7 +32,8 @@ GEARPOD_INLINE void all_values(long values, const double* __restrict pieces,
 
 }  // namespace
 
-GEARPOD_NARROW_KERNEL(chi_squared_values, (long values, const double* pieces, double* value),
-                      (values, pieces, value), all_values(values, pieces, value))
+void chi_squared_values(long values, const double* pieces, double* value) {
+    machine::run_kernel<all_values>(values, pieces, value);
+}
 
 }  // namespace gearpod::signals

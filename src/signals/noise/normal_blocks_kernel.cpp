@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 #include "machine/lane_math.hpp"
 #include "signals/noise/normal_blocks.hpp"
 #include "signals/noise/normals.hpp"
@@ -53,7 +53,8 @@ GEARPOD_INLINE void all_blocks(long blocks, const std::uint64_t* __restrict word
 
 }  // namespace
 
-GEARPOD_KERNEL(normal_blocks, (long blocks, const std::uint64_t* words, double* normals),
-               (blocks, words, normals), all_blocks(blocks, words, normals))
+void normal_blocks(long blocks, const std::uint64_t* words, double* normals) {
+    machine::run_kernel<all_blocks>(blocks, words, normals);
+}
 
 }  // namespace gearpod::signals

@@ -58,7 +58,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
     std::vector<ToneTable> table;
     for (int n = 0; n < lanes; ++n) {
         weight.emplace_back(turn * tile.phases);
-        sensor_path_weights_1(
+        path_weights_of_one_lane(
             {&path, &path_exponent[n], whole_steps.data(), of_phase.data(), weight.back().data()});
         signal.emplace_back(static_cast<std::size_t>(mesh_count) * tile.phases);
         table.emplace_back(tones_of_lane(tones, tile.lanes, first + n), 1, first_mesh, mesh_count,
@@ -79,7 +79,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
             one.mesh = i;
             one.meshes = mesh_count;
             one.signal = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
-            sensor_response_1(one);
+            sensor_response_of_one_lane(one);
         }
     }
     return signal;

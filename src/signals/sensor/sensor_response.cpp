@@ -1,23 +1,11 @@
 #include "signals/sensor/sensor_response.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "signals/sensor/sensor_response_kernel.hpp"
 #include "signals/spectra/averaged_te.hpp"
 
 namespace gearpod::signals {
-namespace {
-
-// Selects the kernel for the given number of lanes.
-template <class Kernel>
-Kernel* kernel_of_lanes(std::size_t lanes, Kernel* sixteen, Kernel* eight, Kernel* four,
-                        Kernel* one) {
-    return lanes == 16 ? sixteen : lanes == 8 ? eight : lanes == 4 ? four : one;
-}
-
-}  // namespace
-
 SensorResponse::SensorResponse(const PathGrid& path, const SpanLayout& layout, const Tile& tile)
     : path_(&path),
       phases_(path.phases()),
@@ -29,16 +17,15 @@ SensorResponse::SensorResponse(const PathGrid& path, const SpanLayout& layout, c
     if (!machine::is_lane_count(tile.lanes) || tile.exponents.size() != lanes_ || te_phases_ < 1 ||
         path.phases() % te_phases_ != 0 || path.positions() != layout.carrier_meshes ||
         kept_meshes_ > signal_meshes_ || signal_meshes_ < layout.meshes()) {
-        throw std::invalid_argument("heard span: tile, path and layout disagree in shape");
+        throw std::invalid_argument("sensor response: tile, path and layout disagree in shape");
     }
     const auto positions = static_cast<std::size_t>(path.positions());
     const std::size_t turn = positions * static_cast<std::size_t>(path.planets()) * lanes_;
     const machine::AlignedVector exponent(tile.exponents.begin(), tile.exponents.end());
     machine::AlignedVector whole_steps((positions / 2 + 1) * lanes_), of_phase(turn);
     weight_.resize(turn * static_cast<std::size_t>(path.phases()));
-    kernel_of_lanes(lanes_, sensor_path_weights_16, sensor_path_weights_8, sensor_path_weights_4,
-                    sensor_path_weights_1)(
-        {&path, exponent.data(), whole_steps.data(), of_phase.data(), weight_.data()});
+    sensor_path_weights(
+        tile.lanes, {&path, exponent.data(), whole_steps.data(), of_phase.data(), weight_.data()});
     if (tile.tones != nullptr && !tile.tones->empty()) {
         tones_.emplace(*tile.tones, tile.lanes, 0, signal_meshes_, path.phases());
     }
@@ -66,8 +53,7 @@ void SensorResponse::record_mesh(int k, const double* accel, const double* te) {
     mesh.meshes = signal_meshes_;
     mesh.signal = k < kept_meshes_ ? signal_.data() + samples(k) : discarded_.data();
     mesh.folded = in_span ? folded_.data() + samples(tooth) : nullptr;
-    kernel_of_lanes(lanes_, sensor_response_16, sensor_response_8, sensor_response_4,
-                    sensor_response_1)(mesh);
+    sensor_response(static_cast<int>(lanes_), mesh);
     if (in_span) {
         add_te_mesh({te, samples(1)}, 1.0 / layout_.ring_teeth, te_phases_,
                     std::span(te_).subspan(static_cast<std::size_t>(tooth * te_phases_) * lanes_,
@@ -84,7 +70,8 @@ machine::AlignedVector SensorResponse::averaged_te() const {
 std::vector<std::vector<double>> SensorResponse::signals(std::size_t lanes, int meshes) const {
     const std::size_t count = samples(meshes) / lanes_;
     if (meshes > kept_meshes_ || lanes > lanes_) {
-        throw std::invalid_argument("heard span: so many meshes or lanes were not kept");
+        throw std::invalid_argument(
+            "sensor response: more meshes or lanes requested than were kept");
     }
     std::vector<std::vector<double>> all(lanes, std::vector<double>(count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -97,7 +84,7 @@ std::vector<std::vector<double>> SensorResponse::signals(std::size_t lanes, int 
 
 std::vector<double> SensorResponse::signal(int lane, int meshes) const {
     if (meshes > kept_meshes_) {
-        throw std::invalid_argument("heard span: so many meshes were not kept");
+        throw std::invalid_argument("sensor response: more meshes requested than were kept");
     }
     std::vector<double> own(samples(meshes) / lanes_);
     copy_lane(std::span(signal_).first(samples(meshes)), static_cast<int>(lanes_), lane, own);

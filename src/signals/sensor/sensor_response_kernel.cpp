@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "machine/kernel.hpp"
 #include "signals/noise/tone_sample.hpp"
 #include "signals/path/path_weights.hpp"
 #include "signals/path/planet_count.hpp"
@@ -79,15 +80,20 @@ GEARPOD_INLINE void compute_response(const SensorResponseArguments& a) {
 
 }  // namespace
 
-GEARPOD_KERNEL(sensor_path_weights_1, (const PathWeights& a), (a), all_weights<1>(a))
-GEARPOD_OPTIONAL_KERNEL(sensor_path_weights_4, (const PathWeights& a), (a), all_weights<4>(a))
-GEARPOD_KERNEL(sensor_path_weights_8, (const PathWeights& a), (a), all_weights<8>(a))
-GEARPOD_KERNEL(sensor_path_weights_16, (const PathWeights& a), (a), all_weights<16>(a))
+void sensor_path_weights(int lanes, const PathWeights& a) {
+    machine::with_lanes<16>(lanes, [&]<int W>() { machine::run_kernel<all_weights<W>>(a); });
+}
 
-GEARPOD_KERNEL(sensor_response_1, (const SensorResponseArguments& a), (a), compute_response<1>(a))
-GEARPOD_OPTIONAL_KERNEL(sensor_response_4, (const SensorResponseArguments& a), (a),
-                        compute_response<4>(a))
-GEARPOD_KERNEL(sensor_response_8, (const SensorResponseArguments& a), (a), compute_response<8>(a))
-GEARPOD_KERNEL(sensor_response_16, (const SensorResponseArguments& a), (a), compute_response<16>(a))
+void sensor_response(int lanes, const SensorResponseArguments& a) {
+    machine::with_lanes<16>(lanes, [&]<int W>() { machine::run_kernel<compute_response<W>>(a); });
+}
+
+void path_weights_of_one_lane(const PathWeights& a) {
+    machine::run_kernel<all_weights<1>>(a);
+}
+
+void sensor_response_of_one_lane(const SensorResponseArguments& a) {
+    machine::run_kernel<compute_response<1>>(a);
+}
 
 }  // namespace gearpod::signals

@@ -1,5 +1,5 @@
-// Kernels of SensorResponse; the one-lane kernels also serve synthesize. See sensor_response.hpp
-// and sensor.hpp.
+// Kernels of SensorResponse, and for one lane of synthesize. See sensor_response.hpp and
+// sensor.hpp.
 #pragma once
 
 #include "signals/noise/tones.hpp"
@@ -15,10 +15,7 @@ struct PathWeights {
     double* turn = nullptr;            // scratch, [c][n][lane]
     double* weight = nullptr;
 };
-void sensor_path_weights_1(const PathWeights& a);
-void sensor_path_weights_4(const PathWeights& a);
-void sensor_path_weights_8(const PathWeights& a);
-void sensor_path_weights_16(const PathWeights& a);
+void sensor_path_weights(int lanes, const PathWeights& a);
 
 // Sensor response of a tile in one mesh period.
 struct SensorResponseArguments {
@@ -32,9 +29,10 @@ struct SensorResponseArguments {
     double* signal = nullptr;  // [p][lane], m/s^2
     double* folded = nullptr;  // [p][lane], to which the squared signal is added; or null
 };
-void sensor_response_1(const SensorResponseArguments& a);
-void sensor_response_4(const SensorResponseArguments& a);
-void sensor_response_8(const SensorResponseArguments& a);
-void sensor_response_16(const SensorResponseArguments& a);
+void sensor_response(int lanes, const SensorResponseArguments& a);
+
+// The same for one lane, in every build.
+void path_weights_of_one_lane(const PathWeights& a);
+void sensor_response_of_one_lane(const SensorResponseArguments& a);
 
 }  // namespace gearpod::signals

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 #include "signals/spectra/prime_stage.hpp"
 
 namespace gearpod::signals {
@@ -81,6 +81,8 @@ GEARPOD_INLINE void all_columns(const PrimeStageArguments& a) {
 
 }  // namespace
 
-GEARPOD_KERNEL(prime_stage, (const PrimeStageArguments& a), (a), all_columns(a))
+void prime_stage(const PrimeStageArguments& a) {
+    machine::run_kernel<all_columns>(a);
+}
 
 }  // namespace gearpod::signals

@@ -25,14 +25,7 @@ struct FoldArguments {
     double* folded = nullptr;  // [tooth * P + p][lane]
 };
 
-void fold_squares_1(const FoldArguments& a);
-void fold_squares_4(const FoldArguments& a);
-void fold_squares_8(const FoldArguments& a);
-void fold_squares_16(const FoldArguments& a);
-
-void fold_tones_1(const FoldArguments& a);
-void fold_tones_4(const FoldArguments& a);
-void fold_tones_8(const FoldArguments& a);
-void fold_tones_16(const FoldArguments& a);
+void fold_squares_without_tones(int lanes, const FoldArguments& a);
+void fold_tones(int lanes, const FoldArguments& a);
 
 }  // namespace gearpod::signals

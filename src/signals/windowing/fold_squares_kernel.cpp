@@ -1,3 +1,4 @@
+#include "machine/kernel.hpp"
 #include "signals/windowing/fold_pairs.hpp"
 
 namespace gearpod::signals {
@@ -64,9 +65,8 @@ GEARPOD_INLINE void fold_all(const FoldArguments& a) {
 
 }  // namespace
 
-GEARPOD_OPTIONAL_KERNEL(fold_squares_1, (const FoldArguments& a), (a), fold_all<1>(a))
-GEARPOD_OPTIONAL_KERNEL(fold_squares_4, (const FoldArguments& a), (a), fold_all<4>(a))
-GEARPOD_KERNEL(fold_squares_8, (const FoldArguments& a), (a), fold_all<8>(a))
-GEARPOD_KERNEL(fold_squares_16, (const FoldArguments& a), (a), fold_all<16>(a))
+void fold_squares_without_tones(int lanes, const FoldArguments& a) {
+    machine::with_lanes<16>(lanes, [&]<int W>() { machine::run_kernel<fold_all<W>>(a); });
+}
 
 }  // namespace gearpod::signals

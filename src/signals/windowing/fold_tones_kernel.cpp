@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "machine/kernel.hpp"
 #include "signals/noise/tone_sample.hpp"
 #include "signals/windowing/fold_pairs.hpp"
 
@@ -88,9 +89,8 @@ GEARPOD_INLINE void fold_all(const FoldArguments& a) {
 
 }  // namespace
 
-GEARPOD_OPTIONAL_KERNEL(fold_tones_1, (const FoldArguments& a), (a), fold_all<1>(a))
-GEARPOD_OPTIONAL_KERNEL(fold_tones_4, (const FoldArguments& a), (a), fold_all<4>(a))
-GEARPOD_KERNEL(fold_tones_8, (const FoldArguments& a), (a), fold_all<8>(a))
-GEARPOD_KERNEL(fold_tones_16, (const FoldArguments& a), (a), fold_all<16>(a))
+void fold_tones(int lanes, const FoldArguments& a) {
+    machine::with_lanes<16>(lanes, [&]<int W>() { machine::run_kernel<fold_all<W>>(a); });
+}
 
 }  // namespace gearpod::signals

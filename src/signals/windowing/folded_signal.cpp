@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -62,16 +61,7 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     a.pairs = pairs.data();
     a.totals = totals.data();
     a.folded = folded.data();
-    const bool toned = a.tones != nullptr;
-    if (tile.lanes == 16) {
-        (toned ? fold_tones_16 : fold_squares_16)(a);
-    } else if (tile.lanes == 8) {
-        (toned ? fold_tones_8 : fold_squares_8)(a);
-    } else if (tile.lanes == 4) {
-        (toned ? fold_tones_4 : fold_squares_4)(a);
-    } else {
-        (toned ? fold_tones_1 : fold_squares_1)(a);
-    }
+    (a.tones != nullptr ? fold_tones : fold_squares_without_tones)(static_cast<int>(lanes), a);
 }
 
 }  // namespace gearpod::signals

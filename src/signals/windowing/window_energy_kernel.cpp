@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 #include "signals/windowing/noisy_energy.hpp"
 #include "signals/windowing/window_energy.hpp"
 
@@ -159,15 +159,22 @@ GEARPOD_INLINE void search(const LargestEnergyArguments& a) {
     }
 }
 
-GEARPOD_INLINE void search(const LargestEnergyArguments& a) {
+GEARPOD_INLINE void search_all(const LargestEnergyArguments& a) {
     a.sigma == 0.0 ? search<false>(a) : search<true>(a);
 }
 
 }  // namespace
 
-GEARPOD_KERNEL(window_energy, (const WindowEnergyArguments& a), (a), all_windows(a))
-GEARPOD_KERNEL(mix_noise, (long values, const double* folded, double* along, double* across),
-               (values, folded, along, across), mix(values, folded, along, across))
-GEARPOD_KERNEL(largest_energy, (const LargestEnergyArguments& a), (a), search(a))
+void window_energy(const WindowEnergyArguments& a) {
+    machine::run_kernel<all_windows>(a);
+}
+
+void mix_noise(long values, const double* folded, double* along, double* across) {
+    machine::run_kernel<mix>(values, folded, along, across);
+}
+
+void largest_energy(const LargestEnergyArguments& a) {
+    machine::run_kernel<search_all>(a);
+}
 
 }  // namespace gearpod::signals

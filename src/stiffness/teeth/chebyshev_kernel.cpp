@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "machine/dispatch.hpp"
+#include "machine/kernel.hpp"
 #include "stiffness/teeth/chebyshev.hpp"
 
 namespace gearpod::stiffness {
@@ -60,16 +60,12 @@ GEARPOD_INLINE void evaluate_blocks(const Clenshaw& series, const double* t, dou
 
 }  // namespace
 
-GEARPOD_KERNEL(clenshaw,
-               (const Clenshaw& series, const double* t, double* values, std::size_t count),
-               (series, t, values, count), evaluate_blocks(series, t, values, count))
-
 void evaluate_chebyshev(std::span<const double> coefficients, double begin, double end,
                         std::span<const double> t, std::span<double> values, double least) {
     const double width = end - begin;
     const Clenshaw series{coefficients.data(), static_cast<int>(coefficients.size()), 2 / width,
                           -(begin + end) / width, least};
-    clenshaw(series, t.data(), values.data(), t.size());
+    machine::run_kernel<evaluate_blocks>(series, t.data(), values.data(), t.size());
 }
 
 }  // namespace gearpod::stiffness

@@ -1,12 +1,13 @@
 // Checks rates of rare values by multilevel splitting where the rates are known: gearboxes with
 // independent normal inputs whose sum is the value.
-#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "analysis/detection/splitting.hpp"
+
+namespace test_splitting {
 
 using namespace gearpod;
 using namespace gearpod::analysis;
@@ -190,3 +191,5 @@ TEST_CASE("Interval coverage of rates by splitting", "[.rare-coverage][splitting
 }
 
 }  // namespace
+
+}  // namespace test_splitting

@@ -1,12 +1,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "analysis/inputs/input_bins.hpp"
 #include "analysis/inputs/input_effects.hpp"
 #include "analysis/statistics/wilson.hpp"
 #include "tests/analysis/reference_data.hpp"
+
+namespace test_input_effects {
 
 using namespace gearpod;
 using namespace gearpod::analysis;
@@ -210,3 +211,5 @@ TEST_CASE("Bounds of the a90 map cover the truth; the test keeps its level", "[.
 }
 
 }  // namespace
+
+}  // namespace test_input_effects

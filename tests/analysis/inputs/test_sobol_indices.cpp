@@ -1,11 +1,12 @@
 // Checks given-data Sobol indices against functions whose indices are known in closed form.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <random>
 
 #include "analysis/inputs/sobol_indices.hpp"
+
+namespace test_sobol_indices {
 
 using namespace gearpod;
 using namespace gearpod::analysis;
@@ -215,3 +216,5 @@ TEST_CASE("Bounds of both indices cover the truth", "[.coverage]") {
 }
 
 }  // namespace
+
+}  // namespace test_sobol_indices

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -7,6 +6,8 @@
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/findings/findings.hpp"
+
+namespace test_detection_reports {
 
 using namespace gearpod;
 using namespace gearpod::analysis;
@@ -191,3 +192,5 @@ TEST_CASE("A transferred bound names its origin") {
 }
 
 }  // namespace
+
+}  // namespace test_detection_reports

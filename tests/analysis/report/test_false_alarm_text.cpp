@@ -1,9 +1,10 @@
 // Checks the text about healthy samples that are too small for their false-alarm rate.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
+
+namespace test_false_alarm_text {
 
 using namespace gearpod;
 using namespace gearpod::analysis;
@@ -145,3 +146,5 @@ TEST_CASE("A report names the noise levels without a threshold") {
 }
 
 }  // namespace
+
+}  // namespace test_false_alarm_text

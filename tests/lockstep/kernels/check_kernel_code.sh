@@ -6,12 +6,12 @@
 #   check_kernel_code.sh OBJECT
 set -eu
 objdump -dr --no-show-raw-insn "$1" | awk '
-    # Mangled name of integrate_x86_64_v4<Method, Motion<..., 8, double>>.
+    # Mangled name of Compiled<integrate_mesh<Method, Motion<..., 8, double>>>::x86_64_v4.
     /^[0-9a-f]+ </ {
         name = $2
         single = name ~ /Li[0-9]+Ef/
-        wide = name ~ /integrate_x86_64_v4I/ && name ~ (single ? "Li16Ef" : "Li8E[dE]")
-        kernel = wide || name ~ /integrate_x86_64_v3I/ && name ~ (single ? "Li(8|16)Ef" : "Li[48]E[dE]")
+        wide = name ~ /integrate_meshI.*x86_64_v4E/ && name ~ (single ? "Li16Ef" : "Li8E[dE]")
+        kernel = wide || name ~ /integrate_meshI.*x86_64_v3E/ && name ~ (single ? "Li(8|16)Ef" : "Li[48]E[dE]")
         packed_fma = single ? "vfn?m(add|sub)[0-9]+ps" : "vfn?m(add|sub)[0-9]+pd"
         scalar_fma = "vfn?m(add|sub)[0-9]+s[sd]"
         kernel = kernel && name !~ /[.]cold/  # where exceptions unwind

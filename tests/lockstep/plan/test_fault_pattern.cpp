@@ -6,6 +6,8 @@
 #include "lockstep/plan/fault_pattern.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
+namespace test_fault_pattern {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 
@@ -37,6 +39,14 @@ struct Train {
     PlanetPositions turns;
     PairSet pairs;
 };
+
+PlanetPositions equal_planets(int planets) {
+    PlanetPositions turns;
+    for (int n = 0; n < planets; ++n) {
+        turns.position.push_back(static_cast<double>(n) / planets);
+    }
+    return turns;
+}
 
 // Trains with equally spaced planets, and with planets at positions where (Z_s + Z_r) psi / 2 pi is
 // an integer.
@@ -153,3 +163,5 @@ TEST_CASE("a planet tooth meets one side, and a shaft's gear its mate, once a tu
     CHECK(pinion.passages[0].pair == 0);
     CHECK(pinion.passages[0].start == 0.3);
 }
+
+}  // namespace test_fault_pattern

@@ -8,6 +8,8 @@
 #include "lockstep/tile/mesh_integrator.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_integration {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -133,7 +135,7 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cos
     for (double& c : in.bearing_damping_N_s_m) {
         c = 0.0;
     }
-    in.support_damping_N_s_m = in.mesh_damping = 0.0;
+    in.support_damping_N_s_m = in.mesh_damping[0] = 0.0;
     std::fill(std::begin(in.force_N), std::end(in.force_N), 0.0);
     in.mesh_period_s = 1e-3;
 
@@ -154,3 +156,5 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cos
         }
     }
 }
+
+}  // namespace test_integration

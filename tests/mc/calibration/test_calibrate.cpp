@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -12,6 +11,8 @@
 #include "mc/calibration/healthy_records.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_calibrate {
 
 using namespace gearpod;
 using namespace gearpod::test;
@@ -266,7 +267,8 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
         {"--healthy no-such.csv", "no such file"},
         {"--healthy '" + folder.file("none*.csv") + "'", "no file matches"},
         {"--healthy " + folder.file("bad.csv"), "\"x\" is not a number"},
-        {"--features " + folder.file("table.csv"), "has no column named after a sensor feature"},
+        {"--features " + folder.file("table.csv"),
+         "has no column with the name of a sensor feature"},
         {"--features " + folder.file("text.csv"), "unknown unit furlong"},
         {"--features " + folder.file("text.csv"), "\"x\" is not a finite number"},
         {"--healthy a.csv --prior sensor.nose=1:2", "unknown key"},
@@ -293,3 +295,5 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
 }
 
 }  // namespace
+
+}  // namespace test_calibrate

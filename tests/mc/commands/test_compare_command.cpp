@@ -1,9 +1,10 @@
 // Checks compare: which gearboxes are paired, what is refused, and zero differences of a file from
 // itself.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/mc/program.hpp"
+
+namespace test_compare_command {
 
 using namespace gearpod;
 using test::bytes_of;
@@ -133,3 +134,5 @@ TEST_CASE("compare reports every missing or incomplete file") {
     CHECK(compare.code == 0);
     CHECK(compare.mentions("part 1/2 only"));
 }
+
+}  // namespace test_compare_command

@@ -3,12 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "features/feature.hpp"
 #include "mc/files/hdf5_data.hpp"
@@ -16,6 +14,8 @@
 #include "mc/forecast/memory.hpp"
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_features_command {
 
 using namespace gearpod;
 using namespace gearpod::test;
@@ -209,10 +209,10 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
             "no column sensr; its columns are mesh_phase, accel");
     refused(folder.file("other.csv") + " --sensor sensr --te angle", "no column angle");
     refused(folder.file("other.csv") + " --sensor accel",
-            "too short: 10 mesh periods of sensor signal and 0 of transmission error; at least 11 "
-            "are needed");
+            "too short for every feature: 10 mesh periods of sensor signal and 0 of transmission "
+            "error; record at least 11");
     write_csv(folder.file("te.csv"), {{"mesh_phase", phase}, {"te", good}});
-    refused(folder.file("te.csv"), "at least 11 are needed");
+    refused(folder.file("te.csv"), "record at least 11");
     write_csv(folder.file("nan.csv"), {{"mesh_phase", phase}, {"sensor", bad}});
     refused(folder.file("nan.csv"),
             "column sensor: 2 of 80 samples are not finite, the first is sample 18");
@@ -319,7 +319,7 @@ TEST_CASE("Recordings of a few samples are too short, whatever their format") {
             const Outcome outcome = program("features " + file + " --study " + kSmall);
             INFO(column << " " << samples << "\n" << outcome.output);
             CHECK(outcome.code == 2);
-            CHECK(outcome.mentions("too short: "));
+            CHECK(outcome.mentions("too short for every feature: "));
         }
     }
 }
@@ -377,3 +377,5 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
 }
 
 }  // namespace
+
+}  // namespace test_features_command

@@ -7,6 +7,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_pod_command {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -70,7 +72,7 @@ TEST_CASE("pod refuses unusable input by name, all at once") {
     CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is not a finite number"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is not a finite number"));
     CHECK_THAT(refused(written(folder, "names.csv", "length,seen\n1,1\n")),
-               Catch::Contains("no column size; its columns are length, seen"));
+               Catch::Contains("its columns are length, seen"));
     CHECK_THAT(refused(written(folder, "row.csv", "size,hit\n1\n")),
                Catch::Contains("row.csv:2: 1 values, but the header names 2 columns"));
     CHECK_THAT(refused(written(folder, "empty.csv", "")), Catch::Contains("is empty"));
@@ -83,7 +85,7 @@ TEST_CASE("pod refuses unusable input by name, all at once") {
     CHECK_THAT(refused(kTables + "inspections_responses.csv --response A"),
                Catch::Contains("no threshold"));
     CHECK_THAT(refused(kTables + "inspections_hits.csv --fit-ceiling --firth"),
-               Catch::Contains("exclude each other"));
+               Catch::Contains("cannot be used together"));
 }
 
 TEST_CASE("pod reports data that determine no curve") {
@@ -101,3 +103,5 @@ TEST_CASE("pod reports data that determine no curve") {
 }
 
 }  // namespace
+
+}  // namespace test_pod_command

@@ -10,6 +10,8 @@
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_real_recordings {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -124,7 +126,7 @@ TEST_CASE("Gaps in time, decreasing times and clipped samples are reported") {
     sensor.erase(sensor.begin() + 100, sensor.begin() + 103);
     Outcome outcome = features(s.write("time,sensor", {time, sensor}));
     CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("from sample 100 to the next"));
+    CHECK(outcome.mentions("between sample 100 and the next"));
     CHECK(outcome.mentions("3 sample(s) are missing"));
     time = s.time;
     std::swap(time[50], time[51]);
@@ -309,3 +311,5 @@ TEST_CASE("Ten million rows are processed in bounded time and memory") {
 }
 
 }  // namespace
+
+}  // namespace test_real_recordings

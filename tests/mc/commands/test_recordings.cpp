@@ -1,7 +1,6 @@
 // Checks gearpod features of many recordings, and the report on them.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,8 @@
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_recordings {
 
 using namespace gearpod;
 using namespace gearpod::test;
@@ -388,3 +389,5 @@ TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
 }
 
 }  // namespace
+
+}  // namespace test_recordings

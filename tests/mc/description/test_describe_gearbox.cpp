@@ -3,6 +3,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_describe_gearbox {
+
 using namespace gearpod;
 using test::program;
 
@@ -44,6 +46,15 @@ TEST_CASE("The description of a study fits 80 columns") {
             CHECK(line.size() <= 80);
         }
     }
+}
+
+TEST_CASE("describe shows the graded steps of a study and the error of their pilot") {
+    const auto description = program("describe " + test::study("published/tian-fig-4-9.toml") +
+                                     " --set numerics.grid='\"graded\"'");
+    INFO(description.output);
+    CHECK(description.code == 0);
+    CHECK(description.mentions("signal error "));
+    CHECK(description.mentions(" after a transition, "));
 }
 
 TEST_CASE("describe states which damping is omitted") {
@@ -90,3 +101,5 @@ TEST_CASE("describe states how much stiffer rigid gear bodies make the meshes th
     REQUIRE(elastic.code == 0);
     CHECK(!elastic.mentions("rigid gear bodies"));
 }
+
+}  // namespace test_describe_gearbox

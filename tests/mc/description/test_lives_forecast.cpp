@@ -1,11 +1,12 @@
 // Checks the cost forecast of `describe` for lives.
-#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "mc/description/lives_forecast.hpp"
 #include "mc/lives/campaign.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/lives/life_example.hpp"
+
+namespace test_lives_forecast {
 
 using namespace gearpod;
 using namespace gearpod::test;
@@ -37,3 +38,5 @@ TEST_CASE("The forecast for lives grows with their loads, depths and number") {
     CHECK(lives.records == plain.records + 396 * 40);
     CHECK(lives.file_bytes > 20.0 * plain.file_bytes);
 }
+
+}  // namespace test_lives_forecast

@@ -3,13 +3,14 @@
 // neighbours change with the number of lanes.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "mc/study/fluctuations.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
+
+namespace test_equal_bits {
 
 using namespace gearpod;
 using test::bits;
@@ -71,3 +72,5 @@ TEST_CASE("Every shipped study gives the same bits by eight lanes and by one or 
         CHECK(of_lanes(any_width && integrates_all_meshes(study) ? 4 : 1) == reference);
     }
 }
+
+}  // namespace test_equal_bits

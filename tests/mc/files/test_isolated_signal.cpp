@@ -6,10 +6,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <new>
 
 #include "mc/files/isolated_signal.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_isolated_signal {
 
 using namespace gearpod;
 using namespace gearpod::test;
@@ -83,3 +84,5 @@ TEST_CASE("No child process remains") {
 }
 
 }  // namespace
+
+}  // namespace test_isolated_signal

@@ -6,6 +6,8 @@
 #include "tests/mc/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_healthy_solution {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -49,7 +51,8 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
     InstanceInputs inputs = Sampler(scene.study()).sample(id.group, id.index);
     inputs.fault_size = 0.0;
     const GearboxTile healthy =
-        run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1, {.keep_states = true});
+        run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1,
+                        {.records = lockstep::RecordOptions{.states = true}});
     // A fault of size zero causes no change.
     const GearboxTile none =
         run_fault_perturbations(scene, std::span(&id, 1), {inputs}, healthy.integration.states);
@@ -61,3 +64,5 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
     CHECK(deep.meshes < healthy.meshes / 4);
     CHECK(deep.integration.records.size() > static_cast<std::size_t>(scene.span().ring_teeth));
 }
+
+}  // namespace test_healthy_solution

@@ -2,12 +2,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "mc/gearbox/healthy_solution.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/study_file.hpp"
+
+namespace test_superposition {
 
 using namespace gearpod;
 using namespace gearpod::mc;
@@ -124,15 +126,14 @@ class ContactLimit {
             inputs.push_back(scene_.inputs(sampled.back()));
         }
         const auto errors = draw_tooth_errors(scene_, ids, sampled);
-        lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
-        faults.tooth_errors = &*errors;
-        lockstep::TileSettings settings;
-        settings.tolerance = 1e-10;
-        settings.max_meshes = scene_.max_meshes();
-        settings.recorded_meshes = 12;
-        settings.run_in_meshes = run_in_meshes(scene_);
-        settings.superpose = use_superposition;
-        return lockstep::run_tile<8>(scene_.plan(), inputs, faults, settings);
+        const lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
+        const lockstep::Convergence convergence{1e-10, scene_.max_meshes()};
+        const lockstep::RecordedSpan span{.meshes = 12, .run_in_meshes = run_in_meshes(scene_)};
+        const auto run = [&](const lockstep::Solution& solution) {
+            return lockstep::run_tile<8>(scene_.plan(), inputs, faults, solution);
+        };
+        return use_superposition ? run(lockstep::SuperposedSolution{*errors, convergence, span})
+                                 : run(lockstep::FullSolution{convergence, span, &*errors});
     }
 
   private:
@@ -214,3 +215,5 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
     };
     CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);
 }
+
+}  // namespace test_superposition

@@ -11,6 +11,8 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_record_distributions {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -173,8 +175,10 @@ TEST_CASE("describe shows the law of inputs per record") {
                                         options + " --set '" + kTorque + "'");
     INFO(description.output);
     CHECK(description.code == 0);
-    CHECK(description.mentions("operation.torque_N_m = { distribution = \"uniform\""));
+    CHECK(description.mentions("operation.torque_N_m.distribution = \"uniform\"\n"));
     CHECK(description.mentions("times the study's value"));
 }
 
 }  // namespace
+
+}  // namespace test_record_distributions

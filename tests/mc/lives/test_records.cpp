@@ -6,6 +6,8 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_records {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -37,7 +39,7 @@ TEST_CASE("A recording of all turns, or of twice as many, equals the whole span"
             CHECK(life.values[f][0] == Approx(whole.values[f][0]).epsilon(1e-9));
         }
     }
-    CHECK(mc::record_text(plain).find("each of the 31 teeth in all its 81 meetings") !=
+    CHECK(mc::record_text(plain).find("each of the 31 teeth with all 81 mating teeth") !=
           std::string::npos);
 }
 
@@ -61,7 +63,7 @@ TEST_CASE("Short recordings cover a part of the turns, and many of them all") {
     CHECK(some < 0.6 * few);  // a quarter, within the scatter of 20 records
     const mc::Scene scene(quiet_study({"life.records=8", "life.record_turns=4"}));
     CHECK(mc::record_text(scene).find("10 turns of 31 mesh periods") == 0);
-    CHECK(mc::record_text(scene).find("each of the 31 teeth in 10 of its 81 meetings") !=
+    CHECK(mc::record_text(scene).find("each of the 31 teeth with 10 of its 81 mating teeth") !=
           std::string::npos);
     // Same duration in seconds, at 8.87 rpm.
     const double seconds = 4.0 * 60.0 / 8.87 + 1e-6;
@@ -202,7 +204,7 @@ TEST_CASE("describe states which inputs vary per gearbox and which per record") 
     CHECK(description.code == 0);
     CHECK(description.mentions("random per gearbox"));
     CHECK(description.mentions("torque per record"));
-    CHECK(description.mentions("interpolated between solutions at 0.97, 1.03"));
+    CHECK(description.mentions("interpolated from solutions at 0.97, 1.03"));
     CHECK(description.mentions("speed per record"));
     // Random depth from [random] applies to `run`: in a life the crack grows.
     const Outcome drawn =
@@ -216,3 +218,5 @@ TEST_CASE("describe states which inputs vary per gearbox and which per record") 
 }
 
 }  // namespace
+
+}  // namespace test_records

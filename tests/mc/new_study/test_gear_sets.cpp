@@ -2,7 +2,6 @@
 // crack.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "dynamics/effects/mesh_law.hpp"
@@ -10,6 +9,8 @@
 #include "mc/numerics/study_scene.hpp"
 #include "tests/mc/new_study/gear_sets.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_gear_sets {
 
 using namespace gearpod;
 using test::GearSet;
@@ -108,3 +109,5 @@ TEST_CASE("The studies of real gear sets detect a crack through half of the root
         CHECK(best.pd >= kDetected);
     }
 }
+
+}  // namespace test_gear_sets

@@ -6,6 +6,8 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_new_planetary {
+
 using namespace gearpod;
 using test::Folder;
 using test::program;
@@ -188,6 +190,8 @@ TEST_CASE("The study written by new is described and run unchanged") {
     INFO(written.output);
     REQUIRE(written.code == 0);
     CHECK(written.mentions("gearpod run " + file));
+    CHECK(test::bytes_of(file).find("/studies/study.schema.json\n# A planetary gearbox") !=
+          std::string::npos);
     CHECK(test::bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
     const auto again = program(command);
     CHECK(again.code == 2);
@@ -219,3 +223,5 @@ TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     CHECK(folder.empty());
     CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
 }
+
+}  // namespace test_new_planetary

@@ -2,13 +2,14 @@
 #include <hdf5.h>
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <limits>
 
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_contact_results {
 
 using namespace gearpod;
 using namespace gearpod::mc;
@@ -102,3 +103,5 @@ TEST_CASE("Contact loss with a wrong number of rows is not written") {
     CHECK_THROWS_AS(write_results(folder.file("r.h5"), r), std::invalid_argument);
     CHECK(folder.files() == 0);
 }
+
+}  // namespace test_contact_results

@@ -5,6 +5,8 @@
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/summary/run_report.hpp"
 
+namespace test_reliability_of_results {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -64,3 +66,5 @@ TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text rep
     CHECK_THAT(report_text(results_report(r, ColumnRows(r), none)),
                Catch::Contains("is limited to 8388608"));
 }
+
+}  // namespace test_reliability_of_results

@@ -11,15 +11,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
+
+namespace test_results_file {
 
 using namespace gearpod;
 using namespace gearpod::mc;
@@ -394,3 +394,5 @@ TEST_CASE("A study without instances or detections still gives a readable file")
     write_results(folder.file("r.h5"), Results{});
     CHECK(read_results(folder.file("r.h5")).features.empty());
 }
+
+}  // namespace test_results_file

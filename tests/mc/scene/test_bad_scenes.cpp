@@ -5,10 +5,15 @@
 
 #include "mc/study/study.hpp"
 #include "tests/mc/scene_examples.hpp"
-#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_problems.hpp"
+
+namespace test_bad_scenes {
+
+namespace test_bad_scenes {
+
+namespace test_bad_scenes {
 
 using gearpod::mc::format;
-using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;
 using namespace gearpod::tests;
 
@@ -152,8 +157,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "planet_bore_mm = 24", "planet_bore_mm = 24\nplanet_web_mm = 6",
      "gearbox.planet_rim_mm", "missing (gearbox.planet_web_mm is given)"},
     {kSpatialCrackStudy, "sun_bore_mm = 20", "sun_bore_mm = 20\nsun_rim_mm = 16\nsun_web_mm = 6",
-     "gearbox.sun_rim_mm",
-     "16 mm leaves no web (from the root circle to the bore there are 15.5 mm)"},
+     "gearbox.sun_rim_mm", "16 mm leaves no room for the web (the gear body is 15.5 mm thick"},
     {kExampleStudy, "[operation]", "sun_rim_mm = 4\n[operation]", "gearbox.sun_rim_mm",
      "only for elastic gear bodies, but effects.foundation is \"none\""},
     {kSpatialCrackStudy, "backlash_mm = 0.1\n", "", "gearbox.backlash_mm",
@@ -214,10 +218,6 @@ const BadScene kBadScenes[] = {
      "random.fault.chip_height_mm", "only the size of a fault may be random"},
 };
 
-bool mentions(const Problem& problem, const std::string& words) {
-    return (problem.what + "; " + problem.remedy).find(words) != std::string::npos;
-}
-
 // The pinion of Tian's gearbox with a band of pits at that radius.
 std::string pitted(double radius_mm) {
     return replaced(kFixedShaftStudy,
@@ -271,3 +271,5 @@ TEST_CASE("A pitted band is refused outside the contact with the mating flank") 
         CHECK(mentions(reading.problems[0], "extends beyond the active flank"));
     }
 }
+
+}  // namespace test_bad_scenes

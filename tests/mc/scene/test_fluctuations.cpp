@@ -11,6 +11,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_fluctuations {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using namespace gearpod::tests;
@@ -27,7 +29,8 @@ Study study_of(const std::string& text, const std::vector<std::string>& override
 
 GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {
     const Sampler sampler(scene.study());
-    return run_gearboxes(scene, sampler, path_grid(scene), ids, lanes, {.with_records = true});
+    return run_gearboxes(scene, sampler, path_grid(scene), ids, lanes,
+                         {.records = lockstep::RecordOptions{}});
 }
 
 std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes, int lane) {
@@ -275,3 +278,5 @@ TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with 
     CHECK(bits(eight.te_turn, 8, 5) == bits(four.te_turn, 4, 0));
     CHECK(bits(eight.te_turn, 8, 5) != bits(eight.te_turn, 8, 2));
 }
+
+}  // namespace test_fluctuations

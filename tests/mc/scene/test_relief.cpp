@@ -1,7 +1,6 @@
 // Checks tip and root relief in a study: the springs of the integration, and refused values.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <fstream>
 
 #include "lockstep/plan/tooth_errors.hpp"
@@ -10,6 +9,8 @@
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
+
+namespace test_relief {
 
 using namespace gearpod;
 using mc::Scene;
@@ -139,3 +140,5 @@ TEST_CASE("Long relief lowers the transmission error of teeth of grade 6 as well
     };
     CHECK(varies("45") < 0.4 * varies("0"));
 }
+
+}  // namespace test_relief

@@ -1,10 +1,8 @@
 // Checks random numbers, distributions and gearboxes sampled from them.
-#include <algorithm>
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -15,6 +13,8 @@
 #include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
+
+namespace test_sampling {
 
 using namespace gearpod::mc;
 using namespace gearpod::tests;
@@ -362,3 +362,5 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
                                          inputs.fault_size});
     }
 }
+
+}  // namespace test_sampling

@@ -1,14 +1,16 @@
 // Checks scenes of every kind of gearbox and degrees of freedom, from study text to recorded
 // response.
 #include <algorithm>
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/step_limit.hpp"
 #include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
+
+namespace test_scenes {
 
 using namespace gearpod;
 using namespace gearpod::tests;
@@ -19,7 +21,8 @@ namespace {
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
     return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
-                             std::span(&id, 1), 1, {.with_motion = true});
+                             std::span(&id, 1), 1,
+                             {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }
 
 // Text without the line that begins with `key`.
@@ -133,6 +136,14 @@ TEST_CASE("A pilot grades the steps of a study, the same in every run") {
         FAIL("accepted");
     } catch (const mc::SceneError& error) {
         CHECK(error.key() == "numerics.grid_tolerance");
+    }
+    try {
+        const Scene scene(test::study_of_text(kExampleStudy,
+                                              {"numerics.integrator=rk4", "numerics.grid=graded"}));
+        FAIL("accepted");
+    } catch (const mc::SceneError& error) {
+        CHECK(error.key() == "numerics.grid");
+        CHECK(error.remedy().find("sdirk3") != std::string::npos);
     }
 }
 
@@ -289,3 +300,5 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
         last = now;
     }
 }
+
+}  // namespace test_scenes

@@ -1,5 +1,4 @@
 // Checks studies of gears with profile shift.
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -7,6 +6,8 @@
 #include "mc/study/gears.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
+
+namespace test_shifted_gears {
 
 using namespace gearpod;
 using mc::Member;
@@ -214,3 +215,5 @@ TEST_CASE("Real sets that standard teeth cannot form run with their windows on e
         CHECK(windows >= 3);
     }
 }
+
+}  // namespace test_shifted_gears

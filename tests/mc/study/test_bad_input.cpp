@@ -2,30 +2,25 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_problems.hpp"
+
+namespace test_bad_input {
+
+namespace test_bad_input {
+
+namespace test_bad_input {
 
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::Problems;
 using gearpod::mc::read_study;
 using gearpod::mc::read_study_text;
-using gearpod::tests::example_with;
-using gearpod::tests::kExampleStudy;
+using namespace gearpod::tests;
 
 namespace {
-
-// Line number of `marker`, 1 for the first line; 0 if the text does not hold it.
-int line_of(const std::string& text, const std::string& marker) {
-    const std::size_t at = text.find(marker);
-    if (at == std::string::npos) {
-        return 0;
-    }
-    return 1 + static_cast<int>(
-                   std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
 
 struct BadFile {
     const char* from;    // text of the example to replace
@@ -114,8 +109,8 @@ const BadFile kBadFiles[] = {
      "precision", "numerics.precision",
      "\"single\" is for the integrators rk4 and central-difference, but numerics.integrator is "
      "\"sdirk3\""},
-    {"[operation]", "[numerics]\nstep_tolerance = 0\n[operation]", "step_tolerance",
-     "numerics.step_tolerance", "must be > 0 and < 1"},
+    {"[operation]", "[numerics]\ngrid_tolerance = 0\n[operation]", "grid_tolerance",
+     "numerics.grid_tolerance", "must be > 0 and < 1"},
     {"low_pass_Hz = 800", "low_pass_Hz = 2500", "low_pass", "sensor.low_pass_Hz",
      "not below half of sampling_Hz"},
     // Missing.
@@ -202,10 +197,6 @@ const BadFile kBadFiles[] = {
     {"[operation]", "[[operation]]", "[[operation", "operation", "must be a section"},
 };
 
-bool mentions(const Problem& problem, const std::string& words) {
-    return (problem.what + "; " + problem.remedy).find(words) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("Each bad study file is refused with the line, the key and the remedy") {
@@ -237,7 +228,7 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     reading = read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 3]\n", "bad.toml");
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].line == line_of(text, "seed") + 2);
-    CHECK(mentions(reading.problems[0], "does not cover all sizes, 0 to 4 mm"));
+    CHECK(mentions(reading.problems[0], "does not cover all fault sizes of the study, 0 to 4 mm"));
 
     CHECK(read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 4]\n", "good.toml").study);
 }
@@ -372,3 +363,5 @@ TEST_CASE("No damage to a study file leads to an exception") {
         }
     }
 }
+
+}  // namespace test_bad_input

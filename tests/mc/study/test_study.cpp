@@ -13,6 +13,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_study {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 
@@ -178,6 +180,15 @@ TEST_CASE("Spellings of earlier versions are accepted with a notice") {
     CHECK(former.notices[0].key == "numerics.horizon");
     CHECK(former.notices[0].remedy == "write \"full\"");
     CHECK(read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
+}
+
+TEST_CASE("Keys of earlier versions are ignored with a notice") {
+    const auto former = read_study_text(kExampleStudy, "s.toml", {"numerics.step_tolerance=1e-5"});
+    REQUIRE(former.study);
+    CHECK(*former.study == study_of(kExampleStudy));
+    REQUIRE(former.notices.size() == 1);
+    CHECK(former.notices[0].key == "numerics.step_tolerance");
+    CHECK(former.notices[0].remedy == "remove it");
 }
 
 TEST_CASE("The resolved text gives the same study, bit for bit") {
@@ -368,3 +379,5 @@ TEST_CASE("The help lists every key of the schema with its section") {
     CHECK(sensor.size() < help.size() / 3);
     CHECK(schema_help("no such word") == "");
 }
+
+}  // namespace test_study

@@ -1,0 +1,347 @@
+#include "mc/library/inspection_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "analysis/report/inspection_report.hpp"
+#include "mc/input/bad_input.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/input/problems.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using analysis::InspectionNames;
+using analysis::InspectionRequest;
+using analysis::Inspections;
+
+constexpr const char* kUsualSizes[] = {"size", "a", "Size"};
+constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "Hit"};
+constexpr const char* kUsualValues[] = {"response", "ahat", "a-hat", "a_hat", "a.hat", "value"};
+
+// Finds the named columns, or else the first column with a usual name. Reports named columns that
+// do not exist.
+std::vector<std::size_t> columns(const TextTable& table, const std::vector<std::string>& named,
+                                 std::span<const char* const> usual, Problems& problems) {
+    std::vector<std::size_t> found;
+    for (const std::string& name : named) {
+        if (const auto at = table.find(name)) {
+            found.push_back(*at);
+        } else {
+            problems.push_back(
+                {.what = fmt::format("no column {}; its columns are {}", name, table.names())});
+        }
+    }
+    for (const char* name : usual) {
+        if (const auto at = table.find(name); at && named.empty() && found.empty()) {
+            found.push_back(*at);
+        }
+    }
+    return found;
+}
+
+struct Columns {
+    std::size_t size = 0;
+    std::vector<std::size_t> values;
+    std::optional<std::size_t> specimen;
+    bool responses = false;
+};
+
+Columns choose_columns(const TextTable& table, const InspectionOptions& options,
+                       Problems& problems) {
+    Columns chosen;
+    std::vector<std::string> size;
+    if (!options.size.empty()) {
+        size.push_back(options.size);
+    }
+    const auto sizes = columns(table, size, kUsualSizes, problems);
+    if (!sizes.empty()) {
+        chosen.size = sizes.front();
+    } else if (size.empty()) {
+        problems.push_back({.what = fmt::format("has no column named size; name the column of the "
+                                                "flaw sizes with --size; its columns are {}",
+                                                table.names())});
+    }
+    if (!options.hits.empty() && !options.values.empty()) {
+        problems.push_back(
+            {.what = "--hit and --response cannot be used together; give one of them"});
+    }
+    chosen.responses = !options.values.empty();
+    chosen.values = columns(table, chosen.responses ? options.values : options.hits,
+                            chosen.responses ? std::span<const char* const>()
+                                             : std::span<const char* const>(kUsualHits),
+                            problems);
+    if (chosen.values.empty() && options.hits.empty() && !chosen.responses) {
+        chosen.values = columns(table, {}, kUsualValues, problems);
+        chosen.responses = true;
+        if (chosen.values.empty()) {
+            problems.push_back(
+                {.what =
+                     fmt::format("no column hit or response; its columns are {}; choose with --hit "
+                                 "or --response",
+                                 table.names())});
+        }
+    }
+    if (!options.specimen.empty()) {
+        const auto found = columns(table, {options.specimen}, {}, problems);
+        if (!found.empty()) {
+            chosen.specimen = found.front();
+        }
+    }
+    return chosen;
+}
+
+bool is_missing(const std::string& field) {
+    return field.empty() || field == "NA" || field == "-";
+}
+
+Inspections read_inspections(const TextTable& table, const Columns& chosen, Problems& problems) {
+    Inspections data;
+    const bool comma = table.separator != ',';
+    std::map<std::string, long> specimens;
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        const auto& row = table.rows[r];
+        const int line = static_cast<int>(table.lines[r]);
+        const auto number = [&](std::size_t c) {
+            const auto value = number_of(row[c], comma);
+            if (!value || !std::isfinite(*value)) {
+                problems.push_back(
+                    {.line = line,
+                     .what = fmt::format("column {}: \"{}\" is not a finite number",
+                                         table.columns[c].name, row[c].substr(0, 40))});
+            }
+            return value.value_or(0.0);
+        };
+        const double size = number(chosen.size);
+        if (size < 0.0) {
+            problems.push_back(
+                {.line = line,
+                 .what = fmt::format("column {}: {:g} is negative; use 0 for no flaw",
+                                     table.columns[chosen.size].name, size)});
+        }
+        const long specimen =
+            chosen.specimen
+                ? specimens.try_emplace(row[*chosen.specimen], static_cast<long>(specimens.size()))
+                      .first->second
+                : static_cast<long>(r);
+        for (const std::size_t c : chosen.values) {
+            if (is_missing(row[c])) {
+                continue;
+            }
+            const double value = number(c);
+            if (!chosen.responses && value != 0.0 && value != 1.0) {
+                problems.push_back(
+                    {.line = line,
+                     .what = fmt::format("column {}: {:g} is neither 1 (hit) nor 0 (miss)",
+                                         table.columns[c].name, value)});
+            }
+            data.size.push_back(size);
+            data.value.push_back(value);
+            data.specimen.push_back(specimen);
+        }
+    }
+    if (data.size.empty() && problems.empty()) {
+        problems.push_back({.what = "no line has a value"});
+    }
+    return data;
+}
+
+std::vector<bool> log_sizes(const std::string& scale) {
+    return scale == "linear" ? std::vector<bool>{false}
+           : scale == "log"  ? std::vector<bool>{true}
+                             : std::vector<bool>{false, true};
+}
+
+std::vector<double> powers(const std::string& scale, Problems& problems) {
+    if (scale.empty()) {
+        return {1.0, 0.0};
+    }
+    if (scale == "linear" || scale == "log" || scale == "box-cox") {
+        return {scale == "linear" ? 1.0
+                : scale == "log"  ? 0.0
+                                  : std::numeric_limits<double>::quiet_NaN()};
+    }
+    const auto power = number_of(scale, false);
+    if (!power || !(std::abs(*power) <= 10.0)) {
+        problems.push_back(
+            {.what = fmt::format("--response-scale {}: must be linear, log, box-cox or a power "
+                                 "between -10 and 10",
+                                 scale)});
+    }
+    return {power.value_or(1.0)};
+}
+
+// Rejects values of options that have no meaning.
+void check_options(const InspectionOptions& options, Problems& problems) {
+    const auto choice = [&](const char* name, const std::string& given,
+                            const std::vector<std::string>& known) {
+        if (!given.empty() && std::ranges::count(known, given) == 0) {
+            problems.push_back({.what = fmt::format("{}: must be {}, but is {}", name,
+                                                    fmt::join(known, " or "), given)});
+        }
+    };
+    const auto within = [&](const char* name, std::optional<double> given, double low,
+                            double high) {
+        if (given && !(*given >= low && *given <= high)) {
+            problems.push_back({.what = fmt::format("{}: must be {:g} to {:g}, but is {:g}", name,
+                                                    low, high, *given)});
+        }
+    };
+    choice("--size-scale", options.size_scale, {"linear", "log"});
+    choice("--convention", options.convention, {"handbook", "one-sided", "two-sided", "joint"});
+    choice("--bounds", options.bounds, {"likelihood-ratio", "wald"});
+    choice("--alarm", options.alarm, {"high", "low"});
+    for (const std::string& link : options.links) {
+        choice("--link", link, {"logit", "probit", "cloglog", "loglog"});
+    }
+    within("--confidence", options.confidence, 0.5, 0.9999);
+    within("--false-call-rate", options.false_call_rate, 1e-6, 0.5);
+    within("--floor", options.floor, 0.0, 0.999);
+    if (options.target && !(*options.target > 0.0)) {
+        problems.push_back(
+            {.what = fmt::format("--target: must be > 0, but is {:g}", *options.target)});
+    }
+}
+
+InspectionRequest request_of(const InspectionOptions& options, const Columns& chosen,
+                             Problems& problems) {
+    using analysis::BoundConvention;
+    InspectionRequest request;
+    request.responses = chosen.responses;
+    request.confidence = options.confidence;
+    request.convention = options.convention == "one-sided"   ? BoundConvention::one_sided
+                         : options.convention == "two-sided" ? BoundConvention::two_sided
+                         : options.convention == "joint"     ? BoundConvention::joint
+                                                             : BoundConvention::handbook;
+    if (!options.bounds.empty()) {
+        request.method = options.bounds == "wald" ? analysis::BoundMethod::wald
+                                                  : analysis::BoundMethod::likelihood_ratio;
+    }
+    request.log_sizes = log_sizes(options.size_scale);
+    request.target = options.target;
+    if (!options.links.empty()) {
+        request.links.clear();
+        for (const analysis::Link link : analysis::kLinks) {
+            if (std::find(options.links.begin(), options.links.end(), link_name(link)) !=
+                options.links.end()) {
+                request.links.push_back(link);
+            }
+        }
+    }
+    request.floor = options.floor;
+    request.fit_ceiling = options.fit_ceiling;
+    request.firth = options.firth;
+    request.alarm = options.alarm == "low" ? analysis::Alarm::low : analysis::Alarm::high;
+    request.threshold = options.threshold;
+    request.false_call_rate = options.false_call_rate;
+    request.limits = {options.left.value_or(request.limits.left),
+                      options.right.value_or(request.limits.right)};
+    if (!(request.limits.left < request.limits.right)) {
+        problems.push_back({.what = "--left must be less than --right"});
+    }
+    request.powers = powers(options.response_scale, problems);
+    request.accept_failed_checks = !options.size_scale.empty() && !options.response_scale.empty();
+    return request;
+}
+
+// Reports options that have no effect on this kind of data.
+void refuse_misplaced(const InspectionOptions& options, const Columns& chosen, Problems& problems) {
+    const auto refuse = [&](bool given, const char* name) {
+        if (given) {
+            problems.push_back(
+                {.what = fmt::format("{} is only for {}, but the table has {}", name,
+                                     chosen.responses ? "hits and misses" : "responses",
+                                     chosen.responses ? "responses" : "hits and misses")});
+        }
+    };
+    if (chosen.responses) {
+        refuse(!options.links.empty(), "--link");
+        refuse(options.floor.has_value(), "--floor");
+        refuse(options.fit_ceiling, "--fit-ceiling");
+        refuse(options.firth, "--firth");
+        if (options.threshold && options.false_call_rate) {
+            problems.push_back({.what = "--threshold and --false-call-rate cannot be used "
+                                        "together; give one of them"});
+        }
+    } else {
+        refuse(options.threshold.has_value(), "--threshold");
+        refuse(options.false_call_rate.has_value(), "--false-call-rate");
+        refuse(options.left.has_value(), "--left");
+        refuse(options.right.has_value(), "--right");
+        refuse(!options.response_scale.empty(), "--response-scale");
+        refuse(options.alarm != "high", "--alarm");
+        if (options.fit_ceiling && options.bounds == "wald") {
+            problems.push_back({.what = "--fit-ceiling needs --bounds likelihood-ratio"});
+        }
+        if (options.fit_ceiling && options.firth) {
+            problems.push_back(
+                {.what = "--firth and --fit-ceiling cannot be used together; give one of them"});
+        }
+    }
+}
+
+// Throws BadInput with the first problems, if there are any.
+void refuse(const TextTable& table, Problems& problems) {
+    constexpr std::size_t kShown = 20;
+    if (problems.empty()) {
+        return;
+    }
+    for (Problem& problem : problems) {
+        problem.file = table.path;
+    }
+    std::string text = format(problems, kShown);
+    text.pop_back();
+    throw BadInput(text);
+}
+
+InspectionNames names_of(const TextTable& table, const Columns& chosen) {
+    InspectionNames names;
+    names.table = printable(table.path);
+    const TableColumn& size = table.columns[chosen.size];
+    names.size = {printable(size.name), size.unit.empty() ? "1" : printable(size.unit)};
+    // The report scales "m" to mm; "metres" keeps the table's own unit, like every other unit.
+    if (names.size.unit == "m") {
+        names.size.unit = "metres";
+    }
+    names.value = printable(table.columns[chosen.values.front()].name);
+    names.unit = printable(table.columns[chosen.values.front()].unit);
+    return names;
+}
+
+}  // namespace
+
+InspectedTable inspect_table(const TextTable& table, const InspectionOptions& options) {
+    InspectedTable inspected;
+    Problems problems;
+    check_options(options, problems);
+    const Columns chosen = choose_columns(table, options, problems);
+    inspected.request = request_of(options, chosen, problems);
+    refuse_misplaced(options, chosen, problems);
+    refuse(table, problems);
+    inspected.data = read_inspections(table, chosen, problems);
+    refuse(table, problems);
+    inspected.result = analysis::inspect(inspected.data, inspected.request);
+    if (!inspected.result.refusal.empty()) {
+        throw BadInput(fmt::format("{}: {}", table.path, inspected.result.refusal));
+    }
+    inspected.names = names_of(table, chosen);
+    return inspected;
+}
+
+std::string inspection_text(const InspectedTable& inspected) {
+    return report_text(
+        analysis::inspection_report(inspected.request, inspected.result, inspected.names));
+}
+
+nlohmann::json inspection_json(const InspectedTable& inspected) {
+    return analysis::inspection_json(inspected.data, inspected.request, inspected.result,
+                                     inspected.names);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,42 @@
+#include "mc/library/open_study.hpp"
+
+#include "mc/input/bad_input.hpp"
+
+namespace gearpod::mc {
+
+OpenStudy::OpenStudy(std::string name, const std::optional<std::string>& text,
+                     const std::vector<std::string>& overrides, bool with_lines)
+    : name_(std::move(name)),
+      with_lines_(with_lines),
+      reading_(text ? read_study_text(*text, name_, overrides) : read_study(name_, overrides)),
+      notices_(text_of(reading_.notices)) {
+    if (!reading_.study) {
+        throw BadInput(text_of(reading_.problems));
+    }
+}
+
+const Scene& OpenStudy::scene() {
+    const std::scoped_lock lock(making_);
+    if (!scene_) {
+        StudyScene made = make_scene(name_, reading_);
+        if (!made) {
+            throw BadInput(text_of(made.problems));
+        }
+        scene_ = std::move(made.scene);
+    }
+    return *scene_;
+}
+
+std::string OpenStudy::message(const SceneError& error) const {
+    return text_of({{name_, 0, error.key(), error.what(), error.remedy()}});
+}
+
+std::string OpenStudy::text_of(Problems problems) const {
+    for (Problem& problem : problems) {
+        problem.line = with_lines_ ? problem.line : 0;
+    }
+    const std::string text = format(problems);
+    return text.substr(0, text.empty() ? 0 : text.size() - 1);
+}
+
+}  // namespace gearpod::mc

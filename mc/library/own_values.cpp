@@ -1,0 +1,59 @@
+#include "mc/library/own_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/detection_json.hpp"
+#include "analysis/report/reliability_json.hpp"
+#include "mc/ensemble/thread_count.hpp"
+#include "mc/input/bad_input.hpp"
+#include "mc/results/reliability_of_results.hpp"
+#include "mc/results/results_file.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void check_own_values(const std::string& path, const Results& results, const OwnValues& own) {
+    if (results.provenance_value("kind") == kLivesKind) {
+        throw BadInput(path + ": contains lives; values are graded for the gearboxes of `run`");
+    }
+    if (own.values.size() != results.status.size()) {
+        throw BadInput(fmt::format("{}: has {} rows, but {} has {} values; give one per row", path,
+                                   results.status.size(), own.name, own.values.size()));
+    }
+    if (std::ranges::count(results.parameters, kNoiseWeight, &ParameterResult::name) > 0) {
+        throw BadInput(path +
+                       ": its threshold records are importance-sampled (ensemble.threshold_tilt), "
+                       "so values without weights cannot be graded; run the study without it");
+    }
+}
+
+}  // namespace
+
+nlohmann::json grade_values(const std::string& path, const OwnValues& own) {
+    Results results = read_results(path);
+    check_own_values(path, results, own);
+    results.features = {{own.name, own.unit, own.alarm, own.values}};
+    results.noise_levels = results.request.noise_levels = {own.noise_level};
+    results.numerical.reset();
+    const ColumnRows rows(results);
+    results.detection = detect_all(results, rows);
+    const auto reliability = reliability_of(results, rows, "", thread_count());
+    const nlohmann::json detection =
+        analysis::detection_json(results.detection, results.request, subject_of(results));
+    nlohmann::json graded;
+    graded["detection"] = {{"false_alarm_rate", detection["false_alarm_rate"]},
+                           {"confidence", detection["confidence"]},
+                           {"size", detection["size"]},
+                           {"level", detection["features"][0]["levels"][0]}};
+    graded["reliability"] = nullptr;
+    if (reliability) {
+        const nlohmann::json all = analysis::reliability_json(*reliability, results.request);
+        graded["reliability"] = all["features"][0]["levels"][0];
+    }
+    return graded;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,45 @@
+// Features of one recorded signal, and their comparison with healthy gearboxes.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/gearbox/measured_features.hpp"
+#include "mc/recordings/population.hpp"
+
+namespace gearpod::mc {
+
+struct SignalRequest {
+    SignalSource signal;
+    SignalColumns columns;
+    std::vector<SignalSource> healthy;  // recordings of healthy gearboxes
+    SignalSource baseline;              // earlier recording of the same gearbox; empty: none
+    double noise_level = 1.0;           // of simulated healthy gearboxes, used without `healthy`
+    std::string against;                // results file of healthy gearboxes; "": none
+    std::string feature;                // decides the alarm; "": the best ranked one in `against`
+};
+
+// Comparison with the healthy gearboxes of a results file. Verdicts point into the population.
+struct PopulationVerdicts {
+    Population population;
+    std::vector<Verdict> verdicts;
+    std::string sentence;  // on the first verdict
+};
+
+struct SignalFeatures {
+    MeasuredSignal signal;
+    Measurement measured;
+    std::optional<PopulationVerdicts> against;
+};
+
+// Throws SignalError with one line per problem, or if no feature can be computed; other exceptions
+// for a results file that cannot be used.
+SignalFeatures signal_features(const SignalRequest& request, const Scene& scene);
+
+// The same as JSON; `features --json` writes it.
+nlohmann::ordered_json signal_features_json(const SignalFeatures& features,
+                                            const SignalRequest& request, const Scene& scene);
+
+}  // namespace gearpod::mc
