@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/detection/reliable_size.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
@@ -61,12 +63,6 @@ std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std:
     return least;
 }
 
-bool without_threshold(const Reliability& reliability, std::size_t level) {
-    return std::none_of(
-        reliability.features.begin(), reliability.features.end(),
-        [&](const FeatureReliability& feature) { return feature.levels[level].has_threshold; });
-}
-
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {
     std::optional<SmallestFault> least;
     double most = 0.0;
@@ -76,6 +72,27 @@ std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std:
         if (fault &&
             (!least || fault->size < least->size || (fault->size == least->size && finds > most))) {
             least = fault;
+            most = finds;
+        }
+    }
+    return least;
+}
+
+std::optional<SmallestFault> smallest_fault(std::span<const FeatureDetection> detection,
+                                            std::size_t level) {
+    std::optional<SmallestFault> least;
+    double most = 0.0;
+    for (const FeatureDetection& feature : detection) {
+        const LevelDetection& at = feature.levels[level];
+        const auto size = reliable_size(at, kReliablePd);
+        double finds = 0.0;
+        for (const DetectionCell& cell : at.cells) {
+            finds += std::isnan(cell.pd) ? 0.0 : cell.pd;
+        }
+        if (size &&
+            (!least || size->high < least->size || (size->high == least->size && finds > most))) {
+            least = SmallestFault{
+                feature.feature, size->high, false, {feature.feature, at.noise_level}, true};
             most = finds;
         }
     }

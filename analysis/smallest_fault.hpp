@@ -9,6 +9,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "analysis/reliability.hpp"
@@ -34,12 +35,13 @@ struct SmallestFault {
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature);
 
-// True if no feature has a threshold at the noise level. A missing smallest fault then carries no
-// information.
-bool without_threshold(const Reliability& reliability, std::size_t level);
-
 // Smallest fault over all features. Of equal sizes, the feature that finds most comes first, then
 // the better ranked.
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
+
+// The same from the tested rates alone, where there are too many values for curves: the smallest
+// size demonstrated by its own and all larger sizes' rates.
+std::optional<SmallestFault> smallest_fault(std::span<const FeatureDetection> detection,
+                                            std::size_t level);
 
 }  // namespace gearpod::analysis

@@ -7,6 +7,7 @@
 
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
+#include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -29,10 +30,6 @@ void add_row(std::string& out, const std::string& feature, std::size_t width, co
     const std::string line = fmt::format("{:<{}}{:<15}{:>7}{:>8}  {:<24}{:>8}", feature, width,
                                          row.what, row.a, row.b, row.difference, row.p);
     out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-}
-
-std::string p_text(double p) {
-    return std::isnan(p) ? "" : p < 1e-4 ? "<0.0001" : fmt::format("{:.2g}", p);
 }
 
 Row rate_row(const RateDifference& rate, const SizeUnit& unit) {

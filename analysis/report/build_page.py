@@ -14,6 +14,8 @@ import json
 import pathlib
 import sys
 
+from words import escape
+
 
 def missing_packages():
     packages = []
@@ -26,12 +28,8 @@ def missing_packages():
 
 
 def state_banner(report):
-    state = report.data["provenance"].get("state", "complete")
-    if state == "running" or state.startswith("interrupted"):
-        requested = report.data["provenance"].get("gearboxes_asked_for", "?")
-        return (f'<p class="banner" role="note">Incomplete study: {report.data["gearboxes"]} of '
-                f"{requested} gearboxes ({state}).</p>")
-    return ""
+    texts = [report.text("part"), report.text("incomplete")]
+    return "".join(f'<p class="banner" role="note">{escape(text)}</p>' for text in texts if text)
 
 
 def study_parts(data, page):
@@ -42,7 +40,7 @@ def study_parts(data, page):
 
     report = Report(data)
     body = sections.all_of(report, page)
-    return (report.title(), headline.sentence(report),
+    return (report.title(), report.text("headline"),
             state_banner(report) + headline.html_of(report), body)
 
 
@@ -51,7 +49,6 @@ def page_html(data, figures=None):
     from blocks import Page
     from lives import lives_page
     from pages import comparison_page, inspection_page, lives_sweep_page, sweep_page
-    from words import escape
 
     page = Page(figures)
     command, make = {"inspection": ("pod", inspection_page.parts),

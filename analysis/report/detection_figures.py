@@ -2,10 +2,9 @@
 
 import math
 
-from blocks import note, table
 from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below, marker,
                     panel, shade, to_svg)
-from words import (input_name, joined, noise, number, p_value, percent, rate, rate_with_bounds)
+from words import joined, noise, number, percent, rate
 
 REJECTED = "Dotted: curves that do not fit the hits and misses, without bounds."
 POOR = " (poor fit)"
@@ -47,22 +46,6 @@ def _open(axes, report, level, paint):
                           linewidth=0, alpha=0.6)
 
 
-def epistemic_text(report, n):
-    """Text on the epistemic inputs and the range of a90 of the first feature with a band."""
-    for f in report.order(n) if report.reliability else []:
-        level = report.reliable(f, n)
-        found = level["uncertain"]
-        if found and not found["refusal"]:
-            low, high = (_size(report, found[key], level["hit_miss"])
-                         for key in ("a90_low", "a90_high"))
-            inputs = joined([input_name(name, "") for name in found["inputs"]])
-            return (f"Unknown for this machine: {inputs}. Over the middle 90\u00a0% of their "
-                    f"possible values, the size that {report.names[f]} finds with 90\u00a0% "
-                    f"probability ranges from {low} to {high}; more gearboxes do not narrow this "
-                    "range.")
-    return None
-
-
 def _rates(axes, report, cells, paint, mark, label=None, bars=True):
     points = [c for c in cells if c["pd"] is not None]
     x = [report.sizes.shown(0.5 * (c["size_low"] + c["size_high"])) for c in points]
@@ -91,38 +74,6 @@ def _size(report, estimate, pod):
     return "> " + report.sizes.text(pod["largest"])
 
 
-def _pod_table(report, n):
-    rows = []
-    for f in report.order(n):
-        level = report.reliable(f, n)
-        pod = level["hit_miss"]
-        if pod["refusal"]:
-            rows.append([report.names[f], "–", "–", "–", f"no curve: {pod['refusal']}"])
-            continue
-        fit = pod["fit"]["p_value"]
-        rows.append([report.names[f], _size(report, pod["a50"]["estimate"], pod),
-                     _size(report, pod["a90"]["estimate"], pod),
-                     _size(report, pod["a90"]["upper"], pod),
-                     f"{pod['model']}; fit p {p_value(fit)}"
-                     + (" (rejected)" if pod["doubtful"] else "")])
-    bound = f"a90/{number(100 * report.confidence)}"
-    return table(f"POD curves at {noise(report.levels[n])}",
-                 ["feature", "a50", "a90", bound, "curve"], rows)
-
-
-def _rate_table(report, f):
-    head = ["size"] + [f"× {number(level)}" for level in report.levels]
-    rows = []
-    for i, group in enumerate(report.cells(f, 0)):
-        row = [report.sizes.group(group["size_low"], group["size_high"])]
-        for n in range(len(report.levels)):
-            c = report.cells(f, n)[i]
-            row.append(rate_with_bounds(c["pd"], c["lower"], c["upper"])
-                       + (f" ({c['failed']} without value)" if c["failed"] else ""))
-        rows.append(row)
-    return table(f"{report.names[f]}: detection rate, with Wilson bounds, by noise", head, rows)
-
-
 def _comparison(report, page):
     n = report.reference
     labels = [name + (POOR if report.reliable(f, n)["hit_miss"]["doubtful"] else "")
@@ -138,7 +89,7 @@ def _comparison(report, page):
             _open(axes, report, level, colour(f))
         _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], colour(f),
                marker(f), None if drawn else report.names[f] + " (rates)", bars=not drawn)
-    found = report.smallest_fault(n)
+    found = report.smallest[n]
     if found:
         x = report.sizes.shown(found["size"])
         axes.plot([x, x], [-0.02, 0.9], color=INK, linewidth=1)
@@ -157,11 +108,12 @@ def _comparison(report, page):
            "bound passes 0.9 (dashed); "
            + ("the vertical line is the smallest fault found by any feature." if found
               else "no feature reaches it."))
-    unknown = epistemic_text(report, n)
+    unknown = report.text(f"unknown.{n}")
     if unknown:
-        how += f" Hatched, for the best ranked: {unknown[0].lower()}{unknown[1:]}"
+        how += f" Hatched, for the best ranked: the epistemic inputs. {unknown}"
     return page.figure(f"Probability of detection at {noise(report.levels[n])}", [svg], how,
-                       _pod_table(report, n))
+                       report.table(f"curves.{n}") + report.table(f"responses.{n}")
+                       + report.notes(f"responses_refused.{n}"))
 
 
 def of_feature(axes, report, f):
@@ -182,7 +134,7 @@ def of_feature(axes, report, f):
 
 
 def _by_feature(report, page):
-    charts, tables = [], []
+    charts = []
     for f in report.order(report.reference):
         figure, axes = panel()
         of_feature(axes, report, f)
@@ -190,7 +142,6 @@ def _by_feature(report, page):
                            for n, level in enumerate(report.levels))
         charts.append(to_svg(figure, f"Probability of detection of {report.names[f]} by noise",
                              states, page.names))
-        tables.append(_rate_table(report, f))
     refused = [f"{report.names[f]} at {noise(level)}"
                for f in report.order(report.reference) for n, level in enumerate(report.levels)
                if report.reliable(f, n)["hit_miss"]["refusal"]]
@@ -199,22 +150,8 @@ def _by_feature(report, page):
            "for the least noise to red for the most. " + REJECTED
            + (f" There is no curve for {joined(refused)}: the reasons are listed with the numbers."
               if refused else ""))
-    reasons = table("Fitted curves", ["feature", "noise", "a50", "a90",
-                                      f"a90/{number(100 * report.confidence)}", "curve"],
-                    [[report.names[f], f"× {number(level)}"] + _curve_cells(report, f, n)
-                     for f in report.order(report.reference)
-                     for n, level in enumerate(report.levels)])
     return page.figure("Probability of detection by feature and noise", charts, how,
-                       reasons + "".join(tables))
-
-
-def _curve_cells(report, f, n):
-    pod = report.reliable(f, n)["hit_miss"]
-    if pod["refusal"]:
-        return ["–", "–", "–", f"none: {pod['refusal']}"]
-    return [_size(report, pod["a50"]["estimate"], pod), _size(report, pod["a90"]["estimate"], pod),
-            _size(report, pod["a90"]["upper"], pod),
-            pod["model"] + (" (fit rejected)" if pod["doubtful"] else "")]
+                       "".join(report.table(f"curves.{n}") for n in range(len(report.levels))))
 
 
 def heat_maps(report, page):
@@ -248,12 +185,12 @@ def heat_maps(report, page):
     how = ("Share of gearboxes that raise an alarm, by fault size (horizontal) and noise "
            "(vertical); dark means that many are found. A column of size 0 shows false alarms.")
     return page.figure("Detection rate over noise and fault size", charts, how,
-                       "".join(_rate_table(report, f) for f in report.order(report.reference)))
+                       report.tables("rates.") + report.table("reliable_sizes"))
 
 
 def roc(report, page):
     """ROC curves, one chart per noise level."""
-    charts, rows = [], []
+    charts = []
     for n, level in enumerate(report.levels):
         figure, axes = panel(3.9)
         axes.plot([0, 1], [0, 1], color=RULE, linewidth=1)
@@ -270,9 +207,6 @@ def roc(report, page):
                       color=colour(f), linestyle=dash(f),
                       label=f"{report.names[f]}  {number(auc['auc'])}")
             texts.append(f"{report.names[f]}: area {number(auc['auc'])}")
-            rows.append([f"× {number(level)}", report.names[f],
-                         rate_3(auc["auc"], auc["lower"], auc["upper"]), str(auc["healthy"]),
-                         str(auc["faulty"])])
         axes.set_xlim(-0.01, 1.01)
         axes.set_ylim(-0.01, 1.02)
         axes.set_xlabel("False-alarm rate")
@@ -286,9 +220,8 @@ def roc(report, page):
     how = ("Each threshold gives one point; closer to the upper left corner is better. The grey "
            "diagonal is guessing; the dashed line is the false-alarm rate of the study. All fault "
            "sizes are combined, so areas compare features but depend on the simulated sizes.")
-    data = table("Areas below the curves, with DeLong's intervals",
-                 ["noise", "feature", "area", "healthy", "faulty"], rows)
-    return page.figure("Receiver operating characteristic", charts, how, data)
+    return page.figure("Receiver operating characteristic", charts, how,
+                       "".join(report.table(f"curves.{n}") for n in range(len(report.levels))))
 
 
 def rate_3(value, lower, upper):
@@ -330,39 +263,9 @@ def ranking(report, page):
     how = ("Probability that a faulty gearbox lies further to the alarm side than a healthy one: "
            "1 is perfect separation, 0.5 is chance. Best at the top, ranked at "
            f"{noise(report.levels[report.reference])}; lines are DeLong's intervals at "
-           f"{percent(report.confidence)}. {_tie(report)}")
-    return page.figure("Ranking of the features", [svg], how, _ranking_tables(report))
-
-
-def _tie(report):
-    ranking_ = report.reliability["levels"][report.reference]["ranking"]
-    if ranking_["refusal"]:
-        return f"No ranking: {ranking_['refusal']}."
-    ranks = ranking_["ranks"]
-    if len(ranks) < 2:
-        return ""
-    same = [ranks[i]["name"] for i in range(1, len(ranks))
-            if ranks[0]["p_values"][i] is None or ranks[0]["p_values"][i] >= 0.05]
-    if same:
-        return f"{ranks[0]['name']} has the largest area, not significantly above {joined(same)}."
-    return f"{ranks[0]['name']} has the largest area, significantly larger than all others."
-
-
-def _ranking_tables(report):
-    out = ""
-    for n, level in enumerate(report.levels):
-        ranking_ = report.reliability["levels"][n]["ranking"]
-        if ranking_["refusal"]:
-            out += note(f"No ranking at {noise(level)}: {ranking_['refusal']}.")
-            continue
-        rows = [[str(i + 1), r["name"], rate_3(r["auc"], r["lower"], r["upper"]),
-                 "" if i == 0 else p_value(ranking_["ranks"][0]["p_values"][i])]
-                for i, r in enumerate(ranking_["ranks"])]
-        out += table(f"Ranking at {noise(level)}, {ranking_['healthy']} healthy and "
-                     f"{ranking_['faulty']} faulty gearboxes",
-                     ["rank", "feature", "area", "p against the first"], rows)
-        out += "".join(note(f"Not ranked: {line}") for line in ranking_["left_out"])
-    return out
+           f"{percent(report.confidence)}. {report.text(f'ranking.{report.reference}')}")
+    return page.figure("Ranking of the features", [svg], how,
+                       report.tables("ranks.") + report.notes("unranked."))
 
 
 def pod(report, page):
@@ -390,11 +293,6 @@ def over_time(report, page, groups):
     legend_below(axes, 1)
     about = "; ".join(f"{name}: {caption_text(groups[-1], name)} at the end" for name in names)
     svg = to_svg(figure, "Alarms over time", about, page.names)
-    rows = [[number(group["first"]) if group["first"] == group["last"]
-             else f"{number(group['first'])} to {number(group['last'])}", str(group["recordings"])]
-            + [f"{caption_text(group, name)} ({number(group['medians'][name])})" for name in names]
-            for group in groups]
     return page.figure("Alarms over time", [svg], "All recordings with a value of the "
                        "feature, against the thresholds that the healthy recordings set.",
-                       table("Alarms, and the feature's median", ["time", "recordings"] + names,
-                             rows))
+                       report.table("over_time"))

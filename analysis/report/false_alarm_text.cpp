@@ -11,7 +11,6 @@
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/tail.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/text_lines.hpp"
 #include "features/feature.hpp"
 
 namespace gearpod::analysis {
@@ -61,13 +60,6 @@ std::string undetermined_rate_text(std::span<const FeatureDetection> features,
 
 Json pair_json(const Interval& bounds) {
     return Json::array({number(bounds.lower), number(bounds.upper)});
-}
-
-std::string beyond_text(double extrapolation, bool importance_sampled) {
-    return extrapolation > 0.0
-               ? fmt::format(" ({:.2g} times rarer than one in the {})", extrapolation,
-                             importance_sampled ? "gearboxes, by importance sampling" : "sample")
-               : "";
 }
 
 // Numbers of thresholds by method, for a study with importance-sampled records.
@@ -279,48 +271,6 @@ bool without_threshold(std::span<const FeatureDetection> features, std::size_t l
     return std::all_of(features.begin(), features.end(), [&](const FeatureDetection& feature) {
         return std::isnan(feature.levels[level].threshold);
     });
-}
-
-std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& curve,
-                             const SizeGroup& tested, const SizeUnit& unit, double confidence) {
-    if (!curve.refusal.empty()) {
-        return fmt::format("a90 of {} by false-alarm rate: none ({})", feature, curve.refusal);
-    }
-    const std::string shown = unit.shown_unit();
-    std::string text = fmt::format(
-        "a90 of {}{} by false-alarm rate, with bounds at {:g} % confidence that include the "
-        "uncertainty of the threshold:",
-        feature, shown.empty() ? "" : " in " + shown, 100.0 * confidence);
-    const auto size = [&](const SizeEstimate& estimate) {
-        return size_estimate_text(estimate, tested.low, tested.high, unit);
-    };
-    for (const RatePoint& point : curve.points) {
-        text += fmt::format(" {:g}{}: {} [{}, {}];", point.false_alarm_rate,
-                            beyond_text(point.extrapolation, point.importance_sampled),
-                            size(point.a90.estimate), size(point.a90.lower), size(point.a90.upper));
-    }
-    if (!curve.unfitted.empty()) {
-        text += fmt::format(" {:g}: no curve fits;", fmt::join(curve.unfitted, ", "));
-    }
-    const double rarest =
-        std::min(curve.points.back().false_alarm_rate,
-                 curve.unfitted.empty() ? kCurveRates.front() : curve.unfitted.back());
-    return rarest > kCurveRates.back() ? text + " rarer rates: too few healthy values"
-                                       : text.substr(0, text.size() - 1);
-}
-
-std::string least_cost_text(const std::string& feature, const LeastCost& least, double confidence) {
-    return fmt::format(
-        "least expected cost by {}: {:.3g} [{:.3g}, {:.3g}] per record, alarm at {:.5g}{}: "
-        "false-alarm rate {:.2g} [{:.2g}, {:.2g}], Pd {:.2f} [{:.2f}, {:.2f}] for the study's "
-        "faults, joint bounds at {:g} %; without any alarm {:.3g}{}",
-        feature, least.cost, least.bounds.lower, least.bounds.upper, least.threshold,
-        beyond_text(least.extrapolation, least.importance_sampled), least.false_alarm_rate,
-        least.rate_bounds.lower, least.rate_bounds.upper, least.pd, least.pd_bounds.lower,
-        least.pd_bounds.upper, 100.0 * confidence, least.without,
-        least.rarest
-            ? "; rarer alarms may cost even less, but the healthy sample is too small for them"
-            : "");
 }
 
 nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {

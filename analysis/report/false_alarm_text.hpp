@@ -1,5 +1,5 @@
-// Report text on false alarms: whether a healthy sample is large enough for the requested rate,
-// printed before a run and as a report's first line, and the size and cost of rarer false alarms.
+// Text on whether a healthy sample is large enough for the requested false-alarm rate, printed
+// before a run and with a report's answer; and the size and cost of rarer false alarms as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,14 +27,6 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
 
 // True if no feature has a threshold at the noise level, so that detection is unknown there.
 bool without_threshold(std::span<const FeatureDetection> features, std::size_t level);
-
-// One paragraph: a90 with its bounds by false-alarm rate, as far as the sample supports them; or
-// the reason why there is none.
-std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& curve,
-                             const SizeGroup& tested, const SizeUnit& unit, double confidence);
-
-// One paragraph: the threshold of least expected cost.
-std::string least_cost_text(const std::string& feature, const LeastCost& least, double confidence);
 
 // JSON form:
 // {"refusal", "points": [{"false_alarm_rate", "threshold", "extrapolation": null for an order

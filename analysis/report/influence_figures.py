@@ -1,12 +1,10 @@
-"""Figures on the influence of random inputs on misses, thresholds by condition, and a90 by
-false-alarm rate."""
+"""Figures on the influence of random inputs on misses, and on a90 by false-alarm rate."""
 
 import math
 
-from blocks import note, paragraph, table
+from blocks import note
 from charts import MUTED, colour, dash, legend_below, marker, panel, to_svg
-from headline import influences
-from words import input_name, joined, noise, number, p_value, percent, quantity, rate_with_bounds
+from words import input_name, joined, noise, number, percent
 
 MOST_CHARTS = 4
 
@@ -23,22 +21,23 @@ def misses(report, page):
     if not charts:
         return note("No feature has enough misses to analyse, at "
                     f"{noise(report.levels[n])}.") + left
-    tables = "".join(_miss_table(report, f, k) for f in range(len(report.names))
-                     for k in range(len(report.levels))
-                     if not report.reliable(f, k)["misses"]["refusal"])
     how = ("Probability that a missed gearbox has a larger value of an input than a detected one "
            "with a fault of the same size: right of 0.5 large values hide the fault, left of it "
            "small ones. Lines are intervals at " + percent(report.confidence) +
            "; coloured inputs have a significant influence (5 %, all inputs of a feature "
            "together). Only the influence of single inputs in one direction is shown.")
     return page.figure(f"Inputs of the missed gearboxes at {noise(report.levels[n])}", charts,
-                       how, tables) + left
+                       how, report.tables("miss_inputs.")) + left
+
+
+def _significant(found):
+    return [i for i in found["inputs"] if i["p_value"] is not None and i["p_value"] < 0.05]
 
 
 def _miss_chart(report, page, f):
     found = report.reliable(f, report.reference)["misses"]
     inputs = found["inputs"]
-    strong = {i["name"] for i in influences(found)}
+    strong = {i["name"] for i in _significant(found)}
     figure, axes = panel(1.1 + 0.23 * max(1, len(inputs)))
     axes.axvline(0.5, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     for row, i in enumerate(inputs):
@@ -56,7 +55,7 @@ def _miss_chart(report, page, f):
     figure.suptitle(f"{report.names[f]}, {_range(report, found)}: {found['misses']} of "
                     f"{found['misses'] + found['hits']} missed", fontsize=10, x=0.01, ha="left")
     texts = [f"{input_name(i['name'], i['unit'])} {number(i['larger_in_misses'], 2)}"
-             for i in influences(found)]
+             for i in _significant(found)]
     return to_svg(figure, f"Inputs of the gearboxes that {report.names[f]} misses",
                   "Significant: " + (joined(texts) or "none"), page.names)
 
@@ -65,49 +64,10 @@ def _range(report, found):
     return report.sizes.group(found["smallest"], found["largest"])
 
 
-def _miss_table(report, f, n):
-    found = report.reliable(f, n)["misses"]
-    rows = [[input_name(i["name"], i["unit"]),
-             rate_with_bounds(i["larger_in_misses"], i["lower"], i["upper"]),
-             p_value(i["p_value"])] for i in found["inputs"]]
-    return table(f"{report.names[f]} at {noise(report.levels[n])}, {_range(report, found)}: "
-                 f"{found['misses']} of {found['misses'] + found['hits']} missed",
-                 ["input", "probability that missed is larger", "p, adjusted"], rows)
-
-
-def conditions(report):
-    """Thresholds for each value of one input, if the report was made with them."""
-    given = (report.reliability or {}).get("conditions") or []
-    if not given:
-        return ""
-    name = input_name(given[0]["input"], given[0]["unit"])
-    refusals = {d["refusal"] for d in given if d["refusal"]}
-    out = "".join(note(f"No thresholds by {name}: {reason}.") for reason in sorted(refusals))
-    for detection in given:
-        for level in detection["levels"]:
-            thresholds = ", ".join(
-                f"{quantity(t['condition'], detection['unit'])}: "
-                f"{quantity(t['threshold'], report.unit(detection['feature']), 4)}"
-                for t in level["thresholds"])
-            rows = [[report.sizes.group(c["size_low"], c["size_high"]),
-                     rate_with_bounds(c["pd"], c["lower"], c["upper"])] for c in level["sizes"]]
-            out += table(f"{detection['feature']} at {noise(level['noise_level'])}; thresholds at "
-                         f"{name} {thresholds}", ["size", "detection rate"], rows)
-        out += "".join(note(f"{detection['feature']}: {warning}")
-                       for warning in detection["warnings"])
-    return paragraph(f"Each value of {name} has its own threshold, set by healthy gearboxes with "
-                     "that value.") + out
-
-
 def _sizes(points, report, which):
     """Sizes of a bound over the points; NaN where the bound is open."""
     return [report.sizes.shown(p["a90"][which]["size"])
             if p["a90"][which]["where"] == "reached" else math.nan for p in points]
-
-
-def _size_text(report, estimate):
-    texts = {"below_tested": "below the tested sizes", "not_reached": "above the tested sizes"}
-    return texts.get(estimate["where"]) or report.sizes.text(estimate["size"])
 
 
 def false_alarm_curves(report, page):
@@ -119,7 +79,6 @@ def false_alarm_curves(report, page):
     if not shown:
         return ""
     figure, axes = panel(3.5)
-    rows = []
     for f in shown:
         points = report.reliable(f, n)["by_false_alarm_rate"]["points"]
         rates = [p["false_alarm_rate"] for p in points]
@@ -127,10 +86,6 @@ def false_alarm_curves(report, page):
                           color=colour(f), alpha=0.16, linewidth=0)
         axes.plot(rates, _sizes(points, report, "estimate"), color=colour(f), linestyle=dash(f),
                   marker=marker(f), markersize=4, label=report.names[f])
-        rows += [[report.names[f], number(p["false_alarm_rate"]), number(p["threshold"], 4),
-                  "" if p["extrapolation"] is None else f"{number(p['extrapolation'], 2)} times",
-                  *(_size_text(report, p["a90"][which]) for which in ("estimate", "lower", "upper"))]
-                 for p in points]
     axes.set_xscale("log")
     axes.invert_xaxis()
     axes.set_xlabel("False-alarm rate")
@@ -140,11 +95,7 @@ def false_alarm_curves(report, page):
                  f"{noise(report.levels[n])}",
                  "; ".join(f"{report.names[f]}" for f in shown), page.names)
     how = (f"Shaded: bounds at {percent(report.confidence)} that include the uncertainty of the "
-           "threshold. Sizes and bounds outside the tested sizes are not drawn. The healthy "
-           "sample is too small for rarer false alarms than shown.")
+           "threshold. Sizes and bounds outside the tested sizes are not drawn.")
     return page.figure("Detectable size by false-alarm rate, at "
                        f"{noise(report.levels[n])}", [svg], how,
-                       table("a90 by false-alarm rate",
-                             ["feature", "false-alarm rate", "alarm beyond",
-                              "rarer than one in the sample", "a90", "lower bound",
-                              "upper bound"], rows))
+                       report.table(f"false_alarms.{n}"))

@@ -1,9 +1,9 @@
 """Figures on the dependence of detection on every random input: shares of the variance, rates in
 bins, and a90 as a map over noise and input."""
 
-from blocks import note, table
+from blocks import note
 from charts import GAP, MUTED, between, cell, colour, legend_below, panel, to_svg
-from words import input_name, joined, noise, number, p_value, percent, quantity, rate_with_bounds
+from words import input_name, noise, number, percent, quantity, rate_with_bounds
 
 MOST_CHARTS = 6
 SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
@@ -11,7 +11,7 @@ SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and la
 
 def _headline_feature(report):
     """Number of the feature in the headline, otherwise of the best ranked feature."""
-    found = report.smallest_fault(report.reference)
+    found = report.smallest[report.reference]
     return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
 
 
@@ -20,21 +20,13 @@ def sensitivity(report, page):
     given = report.reliability["levels"][report.reference].get("sensitivity")
     if not given:
         return ""
-    charts, tables, refusals = [], [], []
+    charts, refusals = [], []
     for key, what in (("misses", "whether it is missed"), ("values", "the feature's value")):
         indices = given[key]
         if indices["refusal"]:
             refusals.append(f"{what}: {indices['refusal']}")
             continue
         charts.append(_index_chart(report, page, given["feature"], what, indices))
-        tables.append(table(
-            f"{what}: {indices['gearboxes']} gearboxes, {indices['terms']} terms explain "
-            f"{percent(indices['explained'])}",
-            ["input", "alone", "with interactions"],
-            [[input_name(i["name"], i["unit"]),
-              rate_with_bounds(i["first"], i["first_lower"], i["first_upper"]),
-              rate_with_bounds(i["total"], i["total_lower"], i["total_upper"])]
-             for i in indices["inputs"]]))
     left = note("No shares for " + "; ".join(refusals) + ".") if refusals else ""
     if not charts:
         return left
@@ -45,7 +37,7 @@ def sensitivity(report, page):
            "is noise and effects outside the fitted model.")
     return page.figure("Influence of the inputs, at "
                        f"{noise(report.levels[report.reference])}", charts,
-                       how, "".join(tables)) + left
+                       how, report.tables("shares.")) + left
 
 
 def _index_chart(report, page, feature, what, indices):
@@ -99,15 +91,11 @@ def rates_by_input(report, page):
                     "neither certain nor impossible.")
     charts = [_bin_chart(report, page, f, effect) for effect in shown]
     sizes = report.sizes.group(shown[0][2]["size_low"], shown[0][2]["size_high"])
-    clear = [input_name(e[0], e[1]) for e in _clear(effects)]
     how = (f"Share of faulty gearboxes of {sizes} that {report.names[f]} finds, in bins of one input "
            f"with equally many gearboxes; lines are Wilson intervals at {percent(report.confidence)}. "
-           + (f"The detection curve changes significantly with {joined(clear)} (likelihood ratio, "
-              "5 % for all inputs together)." if clear
-              else "The detection curve does not change significantly with any input."))
-    data = "".join(_bin_table(report, f, effect) for effect in effects)
+           + report.text(f"effects_text.{n}"))
     return page.figure(f"Detection rate against single inputs at {noise(report.levels[n])}", charts,
-                       how, data)
+                       how, report.table(f"effects.{n}") + report.tables("bins."))
 
 
 def _bin_chart(report, page, f, effect):
@@ -146,17 +134,6 @@ def _axis_scale(bins, unit):
     return 1.0, shown
 
 
-def _bin_table(report, f, effect):
-    name, unit, level = effect
-    rows = [[f"{quantity(b['low'], unit)} to {quantity(b['high'], unit)}",
-             f"{b['detected']} of {b['tested']}", rate_with_bounds(b["pd"], b["lower"], b["upper"])]
-            for b in level["bins"]]
-    test = (f"p {p_value(level['p_value'])}, adjusted" if level["p_value"] is not None
-            else f"no test: {level['refusal']}")
-    return table(f"{report.names[f]}, {input_name(name, unit)} ({test})",
-                 ["input", "found", "detection rate"], rows)
-
-
 def a90_maps(report, page):
     """a90 over noise and one input, for the inputs with a significant influence."""
     maps = report.reliability.get("a90_maps")
@@ -169,13 +146,13 @@ def a90_maps(report, page):
     if not shown:
         return ""
     charts = [_map_chart(report, page, f, name, maps[name]) for name in shown]
-    tables = [_map_table(report, f, name, maps[name]) for name in shown]
     how = (f"Fault size that {report.names[f]} finds with 90 % probability (estimate), for "
            "gearboxes with the given value of one input (its 5, 25, 50, 75 and 95 % quantiles, "
            "or all its values), at each noise level. Dark: only large faults are found; ‘>’: "
            "larger than tested, ‘<’: smaller than tested, –: no curve. Bounds are listed with "
            "the numbers.")
-    return page.figure("Smallest fault found over noise and input", charts, how, "".join(tables))
+    return page.figure("Smallest fault found over noise and input", charts, how,
+                       "".join(report.table(f"a90_map.{name}") for name in shown))
 
 
 def _estimate(report, estimate, f, n):
@@ -221,28 +198,13 @@ def _map_chart(report, page, f, name, entry):
                   f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)
 
 
-def _map_table(report, f, name, entry):
-    rows = []
-    for n, level in enumerate(entry["features"][f]["levels"]):
-        for value, a90 in zip(level["values"], level["a90"]):
-            rows.append([f"× {number(report.levels[n])}", quantity(value, entry["unit"]),
-                         *(_estimate(report, a90[part], f, n)
-                           for part in ("estimate", "lower", "upper"))])
-        if level["refusal"]:
-            rows.append([f"× {number(report.levels[n])}", level["refusal"], "–", "–", "–"])
-    unit = f", {report.sizes.unit}" if report.sizes.unit else ""
-    return table(f"a90 of {report.names[f]} by {input_name(name, entry['unit'])}{unit}",
-                 ["noise", "input", "a90", "lower bound", "upper bound"], rows)
-
-
 def combined(report, page):
     """All features combined compared with the best single feature."""
     given = [level.get("combined") for level in report.reliability["levels"]]
     if not any(given):
         return ""
     graded = [(n, c) for n, c in enumerate(given) if c and not c["refusal"]]
-    refused = "".join(note(f"No combined detector at {noise(report.levels[n])}: {c['refusal']}.")
-                      for n, c in enumerate(given) if c and c["refusal"])
+    refused = report.notes("combined.refused.")
     if not graded:
         return refused
     figure, axes = panel(3.0)
@@ -262,33 +224,15 @@ def combined(report, page):
     axes.set_xlabel("noise")
     axes.set_ylabel("Area under the ROC")
     legend_below(axes, 2)
-    rows, texts = [], []
+    texts = []
     for n, c in graded:
-        rows.append([f"× {number(report.levels[n])}", c["single"]["name"],
-                     _area(c["single"]["auc"]), _area(c["detector"]["auc"]), p_value(c["p_value"]),
-                     _a90(report, c["single"]["hit_miss"]), _a90(report, c["detector"]["hit_miss"])])
         texts.append(f"{noise(report.levels[n])}: {_area(c['single']['auc'])} single, "
                      f"{_area(c['detector']['auc'])} combined")
     svg = to_svg(figure, "Area under the ROC of all features together and of the best single one",
                  "; ".join(texts), page.names)
-    bound = f"a90/{number(100 * report.confidence)}"
-    data = table("Performance on held-out gearboxes",
-                 ["noise", "best single", "its area", "combined area", "p of equal areas",
-                  f"{bound} single", f"{bound} combined"], rows)
-    data += "".join(table(f"Weights at {noise(report.levels[n])}, in log odds per standard deviation",
-                          ["feature", "weight"],
-                          [[w["feature"], number(w["weight"])] for w in c["weights"]])
-                    for n, c in graded)
-    left = sorted({line for _, c in graded for line in c["left_out"] + c["warnings"]})
-    clear = [noise(report.levels[n]) for n, c in graded
-             if c["p_value"] is not None and c["p_value"] < 0.05 and (c["gain"] or 0) > 0]
-    how = ("All features combined into one detector (logistic regression), trained on half of "
-           "the gearboxes and tested on the other half, compared with the best single feature on "
-           "the same gearboxes. "
-           + (f"The combination is significantly better at {joined(clear)}." if clear
-              else "The combination is not significantly better than the best single feature."))
-    return page.figure("All features as one detector", [svg], how,
-                       data + "".join(note(line) for line in left)) + refused
+    return page.figure("All features as one detector", [svg], report.text("combined.text"),
+                       report.table("combined") + report.tables("weights.")
+                       + report.notes("combined.note.")) + refused
 
 
 def _area(auc):
@@ -297,14 +241,3 @@ def _area(auc):
     if auc["lower"] is None:
         return f"{auc['auc']:.3f}"
     return f"{auc['auc']:.3f} [{auc['lower']:.3f}, {auc['upper']:.3f}]"
-
-
-def _a90(report, pod):
-    if pod["refusal"]:
-        return "no curve"
-    upper = pod["a90"]["upper"]
-    if upper["where"] == "reached":
-        return report.sizes.text(upper["size"])
-    if upper["where"] == "below_tested":
-        return "< " + report.sizes.text(pod["smallest"])
-    return "> " + report.sizes.text(pod["largest"])

@@ -4,6 +4,7 @@
 
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/pod_json.hpp"
+#include "analysis/report/report_json.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -91,7 +92,8 @@ nlohmann::json inspection_json(const Inspections& data, const InspectionRequest&
              {{"target", request.target ? Json(*request.target) : Json(nullptr)},
               {"factor", number(factor)},
               {"more", std::isfinite(more) ? Json(std::max(0.0, std::ceil(more))) : Json(nullptr)},
-              {"all_found", result.all_found}}}};
+              {"all_found", result.all_found}}},
+            {"findings", findings_json(inspection_report(request, result, words))}};
 }
 
 }  // namespace gearpod::analysis

@@ -174,4 +174,15 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
             {"a90_maps", a90_maps_json(reliability, request)}};
 }
 
+nlohmann::json smallest_faults_json(std::span<const FeatureDetection> detection,
+                                    const Reliability* reliability) {
+    Json json = Json::array();
+    const std::size_t levels = detection.empty() ? 0 : detection.front().levels.size();
+    for (std::size_t n = 0; n < levels; ++n) {
+        json.push_back(to_json(reliability != nullptr ? smallest_fault(*reliability, n)
+                                                      : smallest_fault(detection, n)));
+    }
+    return json;
+}
+
 }  // namespace gearpod::analysis

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 
 #include "analysis/reliability.hpp"
 
@@ -29,5 +30,10 @@ namespace gearpod::analysis {
 // or its natural logarithm.
 // robustness, a90_maps: robustness_json.hpp; combined, sensitivity: detector_json.hpp.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
+
+// Smallest fault found by noise level, each as above or null. Without `reliability` it is from the
+// tested rates alone.
+nlohmann::json smallest_faults_json(std::span<const FeatureDetection> detection,
+                                    const Reliability* reliability);
 
 }  // namespace gearpod::analysis

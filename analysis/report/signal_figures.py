@@ -2,7 +2,7 @@
 
 from blocks import note, paragraph, table
 from charts import INK, NOISY, colour, dash, legend_above, panel, shade, to_svg
-from words import count, input_name, noise, number, percent, quantity
+from words import input_name, noise, number, quantity
 
 
 def _name(report, gearbox):
@@ -71,17 +71,8 @@ def sensor(report, page):
 
 def contact_loss(report):
     """Table of the contact loss ratio of every mesh; empty where teeth cannot separate."""
-    meshes = report.data.get("contact_loss")
-    if not meshes:
-        return ""
-    rows = [[mesh["mesh"], percent(mesh["mean"]), percent(mesh["lower"]), percent(mesh["median"]),
-             percent(mesh["upper"]), count(mesh["gearboxes"])] for mesh in meshes]
-    return ("<h3>Contact of the teeth</h3>"
-            + paragraph("Share of its engagement, within the nominal path of contact, in which a tooth pair "
-                        "carries no load (contact loss ratio), averaged over the tooth pairs of a mesh.")
-            + table("Share of time out of contact",
-                    ["mesh", "mean", "5 % of gearboxes below", "median", "95 % of gearboxes below",
-                     "gearboxes"], rows))
+    table_ = report.table("contact_loss")
+    return "<h3>Contact of the teeth</h3>" + paragraph(report.text("contact.how")) + table_ if table_ else ""
 
 
 def transmission_error(report, page):

@@ -1,4 +1,4 @@
-// Kind of the rows of a report, and the word for them.
+// Kind of the rows of a report, and the words for them.
 #pragma once
 
 #include <string>
@@ -8,6 +8,10 @@
 namespace gearpod::analysis {
 
 enum class Subject { gearboxes, recordings };
+
+inline std::string one(Subject subject) {
+    return subject == Subject::gearboxes ? "gearbox" : "recording";
+}
 
 inline std::string many(Subject subject) {
     return subject == Subject::gearboxes ? "gearboxes" : "recordings";

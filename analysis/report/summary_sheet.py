@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from words import TESTED_ALONE, noise, number, percent
+from words import number
 
 WIDTH, HEIGHT, MARGIN = 8.27, 11.69, 0.7  # inches
 LEAST_FIGURE, MOST_FIGURE = 1.9, 3.8
@@ -116,33 +116,20 @@ def _chosen(report):
 
 
 def _table(sheet, report):
-    rows = []
     chosen = _chosen(report)
-    for n in chosen:
-        found = report.smallest_fault(n)
-        if found is None:
-            none = "no threshold" if report.without_threshold(n) else "none"
-            rows.append([f"× {number(report.levels[n])}", none, "–", "–", "–"])
-            continue
-        alarm, false = headline.threshold(report, found["feature"], n)
-        rows.append([f"× {number(report.levels[n])}",
-                     report.sizes.text(found["size"]) + ("" if found["from_curve"] else "*"),
-                     found["feature"], alarm, false])
-    sheet.text(f"Smallest {headline.fault(report)} found with {headline.confidence_text(report)}, by noise", 9, colour=MUTED)
-    sheet.table(["noise", report.sizes.name.replace("fault ", ""), "by", "alarm if",
-                 f"false alarms [{number(100 * report.confidence)} %]"], rows,
-                chosen.index(report.reference))
-    if any(row[1].endswith("*") for row in rows):
+    head, rows = report.rows("smallest_fault")
+    sheet.text(report.findings["smallest_fault"]["title"] + ", by noise", 9, colour=MUTED)
+    sheet.table(head, [rows[n] for n in chosen], chosen.index(report.reference))
+    for text in report.texts("note."):
         sheet.gap(0.04)
-        sheet.text(TESTED_ALONE, 7.5,
-                   colour=MUTED)
+        sheet.text(text, 7.5, colour=MUTED)
 
 
 def _by_noise(axes, report):
     """Draws the smallest fault found by any feature over noise."""
     largest = max((c["size_high"] for f in report.detection for level in f["levels"]
                    for c in level["sizes"]), default=0.0)
-    found = [report.smallest_fault(n) for n in range(len(report.levels))]
+    found = report.smallest
     at = [(n, report.sizes.shown(f["size"])) for n, f in enumerate(found) if f]
     axes.plot([n for n, _ in at], [size for _, size in at], linestyle="none", marker="o",
               color=SERIES[0][0], markersize=6, markeredgewidth=0)
@@ -161,12 +148,12 @@ def _by_noise(axes, report):
     axes.grid(axis="x", visible=False)
     axes.set_xlabel("Noise")
     axes.set_ylabel(report.sizes.axis())
-    axes.set_title(f"Smallest {headline.fault(report)} found", fontsize=10, loc="left")
+    axes.set_title("Smallest fault found", fontsize=10, loc="left")
 
 
 def _figures(sheet, report, height):
     level = report.reference
-    found = report.smallest_fault(level)
+    found = report.smallest[level]
     best = report.feature_number(found["feature"]) if found else report.order(level)[0]
     axes = height - 0.75  # titles and labels are outside the axes
     sheet.y += 0.25
@@ -188,7 +175,7 @@ def _provenance(report):
 def _filled(report, scale):
     """The sheet, and the distance of its last line from the lower margin (inches); negative if it
     does not fit."""
-    assessable = report.unassessable_reason() is None
+    assessable = "smallest_fault" in report.findings
     sheet = Sheet(scale)
     sheet.text(report.title(), 10, colour=MUTED)
     sheet.gap(0.06)
@@ -223,7 +210,7 @@ def _below(sheet, report, assessable):
         for text in texts:
             sheet.text(text, 9, indent=0.16, mark="•")
     sheet.gap(0.06)
-    sheet.text(headline.facts(report), 8, colour=MUTED)
+    sheet.text(report.text("facts"), 8, colour=MUTED)
     sheet.text(_provenance(report), 7, colour=MUTED)
 
 
@@ -245,6 +232,6 @@ def pdf(report):
     with rc_context({"pdf.fonttype": 42, "svg.fonttype": "path"}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph")
         sheet_of(report).figure.savefig(buffer, format="pdf", facecolor=PAPER, metadata={
-            "Title": report.title(), "Subject": headline.sentence(report), "Creator": "gearpod",
+            "Title": report.title(), "Subject": report.text("headline"), "Creator": "gearpod",
             "CreationDate": None})
     return buffer.getvalue()

@@ -1,7 +1,5 @@
 #include "analysis/report/text_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace gearpod::analysis {
@@ -33,30 +31,6 @@ void add_wrapped(std::string& out, const std::string& text, std::size_t indent, 
         at = end + 1;
     }
     out += line + '\n';
-}
-
-std::string with_unit(double size, const SizeUnit& unit) {
-    const std::string shown = unit.shown_unit();
-    return fmt::format("{:.3g}{}", size / unit.per_unit(), shown.empty() ? "" : " " + shown);
-}
-
-std::string range_text(const SizeGroup& range, const SizeUnit& unit) {
-    return range.low == range.high
-               ? with_unit(range.high, unit)
-               : with_unit(range.low, unit) + " to " + with_unit(range.high, unit);
-}
-
-std::string size_estimate_text(const SizeEstimate& estimate, double smallest, double largest,
-                               const SizeUnit& unit, int digits) {
-    switch (estimate.where) {
-        case SizeEstimate::Where::reached:
-            return fmt::format("{:.{}g}", estimate.size / unit.per_unit(), digits);
-        case SizeEstimate::Where::below_tested:
-            return fmt::format("< {:.{}g}", smallest / unit.per_unit(), digits);
-        case SizeEstimate::Where::not_reached:
-            break;
-    }
-    return fmt::format("> {:.{}g}", largest / unit.per_unit(), digits);
 }
 
 }  // namespace gearpod::analysis

@@ -2,6 +2,7 @@
 
 import html
 import math
+import re
 
 
 def escape(text):
@@ -26,6 +27,16 @@ def number(value, digits=3):
     if "." in mantissa:
         mantissa = mantissa.rstrip("0").rstrip(".")
     return f"{mantissa} × 10{superscript(int(exponent))}".replace("-", "−")
+
+
+def typeset(text):
+    """Plain text of a finding with typographic signs: x 1, -3, 2e-06 m/s^2, +-0.1, 90 %."""
+    text = re.sub(r"(\d)e([+-]\d+)", lambda m: f"{m[1]} × 10{superscript(int(m[2]))}", text)
+    text = re.sub(r"\bx (?=\d)", "×\u00a0", text)
+    text = re.sub(r"(?<![\w.-])-(?=\d)", "−", text.replace("+-", "±"))
+    text = re.sub(r"(?<=\d) (?=(?:%|mm|m/s\^2|N/m|Hz)(?![\w]))", "\u00a0", text)
+    text = text.replace("m/s^2", "m/s²").replace("kg m^2", "kg m²")
+    return "–" if text == "-" else text
 
 
 def superscript(integer):

@@ -19,12 +19,11 @@
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/random/philox.hpp"
-#include "mc/report/example_gearboxes.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/run/support.hpp"
-#include "mc/summary/run_report.hpp"
+#include "mc/summary/failures.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -63,7 +62,7 @@ Side read_side(const std::string& path) {
     const auto reliability = reliability_of(side.frame, rows, "", thread_count());
     for (std::size_t n = 0; reliability && n < side.frame.noise_levels.size(); ++n) {
         side.smallest.push_back(analysis::smallest_fault(*reliability, n));
-        side.without_threshold.push_back(analysis::without_threshold(*reliability, n));
+        side.without_threshold.push_back(analysis::without_threshold(side.frame.detection, n));
     }
     for (std::size_t row = 0; row < side.frame.group.size(); ++row) {
         const bool threshold = side.frame.group[row] == static_cast<int>(Group::threshold);

@@ -25,7 +25,7 @@
 #include "mc/run/run_to_end.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
-#include "mc/summary/run_report.hpp"
+#include "mc/summary/failures.hpp"
 
 namespace gearpod::mc {
 namespace {

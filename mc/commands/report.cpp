@@ -20,6 +20,7 @@
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/run/support.hpp"
+#include "mc/summary/failures.hpp"
 #include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
@@ -143,7 +144,7 @@ int report_command(const ReportOptions& options) {
                        printable(results.provenance_value("gearboxes_asked_for")),
                        printable(state));
         }
-        fmt::print("{}", results_text(results, rows, reliability));
+        fmt::print("{}", report_text(results_report(results, rows, reliability)));
         const std::pair<const char*, const std::string&> written[] = {{"page", options.html},
                                                                       {"sheet", options.pdf},
                                                                       {"tables", options.csv},

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "analysis/report/inspection_text.hpp"
+#include "analysis/report/inspection_report.hpp"
 #include "mc/input/bad_input.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/input/problems.hpp"
@@ -335,7 +335,8 @@ InspectedTable inspect_table(const TextTable& table, const InspectionOptions& op
 }
 
 std::string inspection_text(const InspectedTable& inspected) {
-    return analysis::inspection_text(inspected.request, inspected.result, inspected.names);
+    return report_text(
+        analysis::inspection_report(inspected.request, inspected.result, inspected.names));
 }
 
 nlohmann::json inspection_json(const InspectedTable& inspected) {

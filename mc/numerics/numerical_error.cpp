@@ -204,38 +204,4 @@ std::vector<NumericalContribution> numerical_contributions(
     return contributions;
 }
 
-std::string numerical_text(const Results& frame,
-                           const std::vector<NumericalContribution>& contributions) {
-    if (!frame.numerical) {
-        return "";
-    }
-    const NumericalError& error = *frame.numerical;
-    std::string text;
-    const auto out = std::back_inserter(text);
-    fmt::format_to(
-        out,
-        "Numerical and statistical error: {} gearboxes integrated with\n  {}\nand with\n  {}\nrms: "
-        "numerical error; spread: standard deviation of healthy gearboxes\nPd, a90: largest change "
-        "due to the numerical error / statistical uncertainty\n(half width of the interval of Pd; "
-        "distance of a90 from its upper bound)\n",
-        error.gearboxes, error.setting, error.finer);
-    const double per_unit = frame.request.size.per_unit();
-    const auto number = [](double value) {
-        return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
-    };
-    for (const double noise : frame.noise_levels) {
-        fmt::format_to(out, "noise x {:<7g}{:>9}{:>9}{:>17}{:>17}  {}\n", noise, "rms", "spread",
-                       "Pd", "a90", "larger");
-        for (const NumericalContribution& s : contributions) {
-            if (s.noise_level == noise) {
-                fmt::format_to(out, "{:<15}{:>9.2g}{:>9}{:>17}{:>17}  {}\n", s.feature, s.rms,
-                               number(s.spread), number(s.pd) + " / " + number(s.pd_half_width),
-                               number(s.a90 / per_unit) + " / " + number(s.a90_interval / per_unit),
-                               s.numerical_dominates ? "numerical" : "statistical");
-            }
-        }
-    }
-    return text;
-}
-
 }  // namespace gearpod::mc

@@ -50,8 +50,4 @@ std::vector<NumericalContribution> numerical_contributions(
     const Results& frame, const RowSource& rows,
     const std::optional<analysis::Reliability>& reliability);
 
-// Table of the numerical error; "" if it was not estimated.
-std::string numerical_text(const Results& frame,
-                           const std::vector<NumericalContribution>& contributions);
-
 }  // namespace gearpod::mc

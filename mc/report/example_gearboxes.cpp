@@ -12,6 +12,7 @@
 #include "mc/gearbox/simulation.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/report/thinning.hpp"
+#include "mc/results/reliability_of_results.hpp"
 #include "mc/scene/stiffness_curves.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "signals/noise/sensor_noise.hpp"
@@ -335,14 +336,6 @@ Json or_refusal(Make make) {
 }
 
 }  // namespace
-
-std::size_t reference_level(const std::vector<double>& noise_levels) {
-    const auto one = std::find(noise_levels.begin(), noise_levels.end(), 1.0);
-    const auto above = std::find_if(noise_levels.begin(), noise_levels.end(),
-                                    [](double level) { return level > 0.0; });
-    const auto found = one != noise_levels.end() ? one : above;
-    return found == noise_levels.end() ? 0 : static_cast<std::size_t>(found - noise_levels.begin());
-}
 
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     const std::string text = frame.provenance_value("study");

@@ -8,10 +8,6 @@
 
 namespace gearpod::mc {
 
-// Index of the noise level that a report shows first: 1 if the study has it, else the first above
-// 0, else the first.
-std::size_t reference_level(const std::vector<double>& noise_levels);
-
 // Returns {"examples": {"refusal", "noise_level", "gearboxes": [...]}, "stiffness": {"refusal",
 // ...}} for the study stored in the file (docs/reference/report-json.md lists the keys). The
 // gearboxes are the first rows with values of size 0 and of the largest size. `refusal` is the

@@ -5,6 +5,7 @@
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/reliability_json.hpp"
+#include "analysis/report/report_json.hpp"
 #include "features/feature.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/example_gearboxes.hpp"
@@ -16,6 +17,7 @@
 #include "mc/study/study.hpp"
 #include "mc/summary/alarms_over_time.hpp"
 #include "mc/summary/contact_loss.hpp"
+#include "mc/summary/failures.hpp"
 #include "mc/summary/monitoring_over_time.hpp"
 #include "mc/summary/run_report.hpp"
 
@@ -23,45 +25,6 @@ namespace gearpod::mc {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::size_t kMostNamedRows = 20;
-
-// Failed gearboxes by reason, and for each feature the gearboxes that have no value of it although
-// they did not fail.
-Json failures_json(const Results& frame, const RowSource& rows) {
-    const RowShape shape = row_shape(frame);
-    std::vector<long> no_value(shape.features * shape.levels, 0);
-    Json named = Json::array();
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            if (block.status[row] != static_cast<int>(Status::ok)) {
-                if (named.size() < kMostNamedRows) {
-                    named.push_back({{"row", block.first + row}, {"status", block.status[row]}});
-                }
-                continue;
-            }
-            const double* values = block.values.data() + row * shape.values() + shape.parameters;
-            for (std::size_t v = 0; v < no_value.size(); ++v) {
-                no_value[v] += std::isfinite(values[v]) ? 0 : 1;
-            }
-        }
-    });
-    Json without = Json::array();
-    for (std::size_t f = 0; f < shape.features; ++f) {
-        const auto first = no_value.begin() + static_cast<std::ptrdiff_t>(f * shape.levels);
-        without.push_back(
-            {{"name", frame.features[f].name},
-             {"gearboxes",
-              std::vector<long>(first, first + static_cast<std::ptrdiff_t>(shape.levels))}});
-    }
-    const RowCounts counts = count_rows(rows, frame.request.threshold_records);
-    return {{"gearboxes", counts.all},
-            {"diverged", counts.diverged},
-            {"not_settled", counts.not_converged},
-            {"status_meanings", kStatusMeanings},
-            {"first_rows", named},
-            {"no_value", without}};
-}
 
 Json finite_json(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -159,17 +122,21 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
+    json["smallest_fault"] =
+        analysis::smallest_faults_json(frame.detection, reliability ? &*reliability : nullptr);
+    json["findings"] = analysis::findings_json(results_report(frame, rows, reliability));
     json["numerical"] = numerical_json(frame, numerical_contributions(frame, rows, reliability));
     json["step_error"] = step_error_json(frame);
     json["contact_loss"] = contact_loss_json(frame, rows);
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);
-    json["failures"] = failures_json(frame, rows);
+    const Failures failures = failures_of(frame, rows);
+    json["failures"] = failures_json(frame, failures);
     json["over_time"] = alarms_json(frame, alarms_over_time(frame, rows));
     const auto monitoring = monitoring_over_time(frame, rows);
     json["monitoring"] = monitoring ? monitoring_json(*monitoring) : Json(nullptr);
     json["gearboxes"] = json["failures"]["gearboxes"];
-    json["failed"] = count_rows(rows, frame.request.threshold_records).failed();
+    json["failed"] = failures.counts.failed();
     json["provenance"] = Json::object();
     for (const auto& [name, value] : frame.provenance) {
         json["provenance"][name] = value;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
@@ -16,281 +16,209 @@ namespace {
 
 using TableJson = nlohmann::json;
 
+// A table over nested lists of the JSON. Each path leads from an element of the list before (first:
+// from the report) to the next list: an array, or an object whose entries are meant. "/a#b,c" takes
+// the entries b and c of the object a only.
+//
+// A column is "name=N/path": the value at the path from the element of list N (0: the report, 1:
+// the first list); {N} in the path stands for the place or key of that element. "name=N" is that
+// place or key itself, counted from 1. An @ stands for the unit of the sizes.
+struct TableSource {
+    const char* name;
+    std::vector<const char*> lists;
+    const char* columns;
+};
+
+const std::vector<TableSource>& table_sources() {
+    static const std::vector<TableSource> all{
+        {"detection",
+         {"/detection/features", "/levels", "/sizes"},
+         "feature=1/name alarm=1/alarm noise_level=2/noise_level threshold=2/threshold "
+         "threshold_sample=2/threshold_sample threshold_alarms=2/threshold_alarms "
+         "healthy_rate=2/healthy_rate size_low@=3/size_low size_high@=3/size_high tested=3/tested "
+         "detected=3/detected failed=3/failed pd=3/pd lower=3/lower upper=3/upper "
+         "exact_lower=3/exact/0 exact_upper=3/exact/1"},
+        {"pod",
+         {"/reliability/features", "/levels"},
+         "feature=1/name noise_level=2/noise_level tests=2/hit_miss/tests hits=2/hit_miss/hits "
+         "a50@=2/hit_miss/a50/estimate/size a50_where=2/hit_miss/a50/estimate/where "
+         "a90@=2/hit_miss/a90/estimate/size a90_where=2/hit_miss/a90/estimate/where "
+         "a90_upper@=2/hit_miss/a90/upper/size a90_upper_where=2/hit_miss/a90/upper/where "
+         "model=2/hit_miss/model intercept=2/hit_miss/intercept slope=2/hit_miss/slope "
+         "floor=2/hit_miss/floor ceiling=2/hit_miss/ceiling fit_p_value=2/hit_miss/fit/p_value "
+         "doubtful=2/hit_miss/doubtful auc=2/auc/auc auc_lower=2/auc/lower auc_upper=2/auc/upper "
+         "no_curve=2/hit_miss/refusal"},
+        {"pod_band",
+         {"/reliability/features", "/levels", "/hit_miss/band/size"},
+         "feature=1/name noise_level=2/noise_level size@=3/ pod=2/hit_miss/band/pod/{3} "
+         "lower=2/hit_miss/band/lower/{3} upper=2/hit_miss/band/upper/{3}"},
+        {"roc",
+         {"/reliability/features", "/levels", "/roc/detection_rate"},
+         "feature=1/name noise_level=2/noise_level false_alarm_rate=2/roc/false_alarm_rate/{3} "
+         "detection_rate=3/"},
+        {"misses",
+         {"/reliability/features", "/levels", "/misses/inputs"},
+         "feature=1/name noise_level=2/noise_level misses=2/misses/misses hits=2/misses/hits "
+         "input=3/name unit=3/unit larger_in_misses=3/larger_in_misses lower=3/lower upper=3/upper "
+         "p_value=3/p_value"},
+        {"smallest_fault",
+         {"/smallest_fault"},
+         "noise_level=0/noise/levels/{1} feature=1/feature size@=1/size from_curve=1/from_curve "
+         "source_feature=1/source/feature source_noise_level=1/source/noise_level"},
+        {"ranking",
+         {"/reliability/levels", "/ranking/ranks"},
+         "noise_level=1/noise_level rank=2 feature=2/name auc=2/auc lower=2/lower upper=2/upper "
+         "p_value_from_first=2/p_values/0"},
+        {"sensitivity",
+         {"/reliability/levels", "/sensitivity#misses,values", "/inputs"},
+         "noise_level=1/noise_level feature=1/sensitivity/feature of=2 input=3/name unit=3/unit "
+         "first=3/first first_lower=3/first_lower first_upper=3/first_upper total=3/total "
+         "total_lower=3/total_lower total_upper=3/total_upper"},
+        {"combined",
+         {"/reliability/levels"},
+         "noise_level=1/noise_level single=1/combined/single/name "
+         "single_auc=1/combined/single/auc/auc combined_auc=1/combined/detector/auc/auc "
+         "gain=1/combined/gain p_value=1/combined/p_value refusal=1/combined/refusal"},
+        {"inputs",
+         {"/reliability/robustness", "/features", "/levels", "/bins"},
+         "input=1 unit=1/unit feature=2/name noise_level=3/noise_level low=4/low high=4/high "
+         "tested=4/tested detected=4/detected pd=4/pd lower=4/lower upper=4/upper "
+         "p_value=3/p_value"},
+        {"a90_by_input",
+         {"/reliability/a90_maps", "/features", "/levels", "/a90"},
+         "input=1 unit=1/unit feature=2/name noise_level=1/noise_levels/{3} value=3/values/{4} "
+         "a90@=4/estimate/size a90_lower@=4/lower/size a90_upper@=4/upper/size"},
+        {"conditions",
+         {"/reliability/conditions", "/levels", "/sizes"},
+         "input=1/input unit=1/unit feature=1/feature noise_level=2/noise_level "
+         "size_low@=3/size_low size_high@=3/size_high tested=3/tested detected=3/detected "
+         "failed=3/failed pd=3/pd lower=3/lower upper=3/upper"},
+        {"numerical",
+         {"/numerical/shares"},
+         "feature=1/feature noise_level=1/noise_level rms=1/rms healthy_spread=1/healthy_spread "
+         "pd=1/pd pd_half_width=1/pd_half_width a90@=1/a90 larger=1/larger"},
+        {"over_time",
+         {"/over_time", "/alarms"},
+         "first=1/first last=1/last recordings=1/recordings feature=2 values=1/values/{2} "
+         "alarms=2/ "
+         "median=1/medians/{2}"},
+        {"failures", {"/failures#gearboxes,diverged,not_settled"}, "what=1 gearboxes=1/"},
+        {"provenance", {"/provenance"}, "name=1 value=1/"}};
+    return all;
+}
+
+// An element of a list, with its place or key.
+struct Element {
+    const TableJson* value;
+    std::string key;
+};
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+// Value at a path such as "/fit/p_value"; null if there is none.
+const TableJson& value_at(const TableJson& from, const std::string& path) {
+    static const TableJson none;
+    const TableJson* at = &from;
+    for (const std::string& step : split(path, '/')) {
+        if (step.empty()) {
+            continue;
+        }
+        if (at->is_object() && at->contains(step)) {
+            at = &(*at)[step];
+        } else if (at->is_array() && std::stoul(step) < at->size()) {
+            at = &(*at)[std::stoul(step)];
+        } else {
+            return none;
+        }
+    }
+    return *at;
+}
+
+std::vector<Element> elements_of(const TableJson& from, const std::string& path) {
+    const std::size_t chosen = path.find('#');
+    const TableJson& list = value_at(from, path.substr(0, chosen));
+    std::vector<Element> elements;
+    if (chosen != std::string::npos) {
+        for (const std::string& key : split(path.substr(chosen + 1), ',')) {
+            elements.push_back({&value_at(list, key), key});
+        }
+    } else {
+        for (const auto& [key, value] : list.items()) {
+            elements.push_back({&value, key});
+        }
+    }
+    return elements;
+}
+
 std::string field(const TableJson& value) {
     return value.is_null()     ? ""
            : value.is_string() ? csv_field(value.get_ref<const std::string&>())
                                : json_text(value);
 }
 
-class Tables {
-  public:
-    // Starts a table. Fields of the following rows have the order of the columns.
-    void begin(const char* name, std::vector<std::string> columns) {
-        tables_.push_back({name, std::move(columns), {}});
+std::string field(const std::string& source, const std::vector<Element>& elements) {
+    const std::size_t slash = source.find('/');
+    const Element& element = elements[std::stoul(source.substr(0, slash))];
+    if (slash == std::string::npos) {
+        const bool place = element.key.find_first_not_of("0123456789") == std::string::npos;
+        return place ? std::to_string(std::stoul(element.key) + 1) : csv_field(element.key);
     }
-    void row(std::initializer_list<TableJson> fields) {
-        std::string line;
-        for (const TableJson& value : fields) {
-            line += (&value == fields.begin() ? "" : ",") + field(value);
-        }
-        tables_.back().rows.push_back(std::move(line));
+    std::string path = source.substr(slash);
+    if (const std::size_t open = path.find('{'); open != std::string::npos) {
+        path.replace(open, 3, elements[std::stoul(path.substr(open + 1, 1))].key);
     }
-    std::vector<CsvTable> with_rows() && {
-        std::erase_if(tables_, [](const CsvTable& table) { return table.rows.empty(); });
-        return std::move(tables_);
-    }
-
-  private:
-    std::vector<CsvTable> tables_;
-};
-
-// Name of a size column with its unit as in the results file, "fault_depth_m". A size that is not a
-// length has no unit.
-std::string size_column(const TableJson& report, const std::string& what) {
-    const TableJson& size = report["detection"]["size"];
-    return what + (size["unit"] == "1" ? "" : "_" + size["unit"].get<std::string>());
+    return field(value_at(*element.value, path));
 }
 
-TableJson estimate(const TableJson& bounds, const char* which, const char* part) {
-    return bounds.is_null() ? TableJson(nullptr) : bounds[which][part];
-}
-
-void add_detection(Tables& tables, const TableJson& report) {
-    tables.begin("detection", {"feature", "alarm", "noise_level", "threshold", "threshold_sample",
-                               "threshold_alarms", "healthy_rate", size_column(report, "size_low"),
-                               size_column(report, "size_high"), "tested", "detected", "failed",
-                               "pd", "lower", "upper", "exact_lower", "exact_upper"});
-    for (const TableJson& feature : report["detection"]["features"]) {
-        for (const TableJson& level : feature["levels"]) {
-            for (const TableJson& cell : level["sizes"]) {
-                tables.row({feature["name"], feature["alarm"], level["noise_level"],
-                            level["threshold"], level["threshold_sample"],
-                            level["threshold_alarms"], level["healthy_rate"], cell["size_low"],
-                            cell["size_high"], cell["tested"], cell["detected"], cell["failed"],
-                            cell["pd"], cell["lower"], cell["upper"], cell["exact"][0],
-                            cell["exact"][1]});
-            }
+void add_rows(CsvTable& table, const TableSource& source, const std::vector<std::string>& columns,
+              std::vector<Element>& elements) {
+    if (elements.size() <= source.lists.size()) {
+        for (const Element& next :
+             elements_of(*elements.back().value, source.lists[elements.size() - 1])) {
+            elements.push_back(next);
+            add_rows(table, source, columns, elements);
+            elements.pop_back();
         }
+        return;
     }
-}
-
-// Calls `use` with every feature and noise level of the reliability part.
-template <typename Use>
-void each_level(const TableJson& report, Use use) {
-    for (const TableJson& feature : report["reliability"]["features"]) {
-        for (const TableJson& level : feature["levels"]) {
-            use(feature, level);
-        }
+    std::string row;
+    for (const std::string& column : columns) {
+        row += (row.empty() && &column == &columns.front() ? "" : ",") + field(column, elements);
     }
-}
-
-void add_curves(Tables& tables, const TableJson& report) {
-    const auto size = [&](const char* what) { return size_column(report, what); };
-    tables.begin("pod", {"feature",         "noise_level",
-                         "tests",           "hits",
-                         size("a50"),       "a50_where",
-                         size("a90"),       "a90_where",
-                         size("a90_upper"), "a90_upper_where",
-                         "model",           "intercept",
-                         "slope",           "floor",
-                         "ceiling",         "fit_p_value",
-                         "doubtful",        "auc",
-                         "auc_lower",       "auc_upper",
-                         "no_curve"});
-    each_level(report, [&](const TableJson& feature, const TableJson& level) {
-        const TableJson &pod = level["hit_miss"], &auc = level["auc"];
-        const bool curve = pod["refusal"].is_null();
-        const auto of = [&](const char* key) { return curve ? pod[key] : TableJson(nullptr); };
-        tables.row({feature["name"],
-                    level["noise_level"],
-                    pod["tests"],
-                    pod["hits"],
-                    estimate(pod["a50"], "estimate", "size"),
-                    estimate(pod["a50"], "estimate", "where"),
-                    estimate(pod["a90"], "estimate", "size"),
-                    estimate(pod["a90"], "estimate", "where"),
-                    estimate(pod["a90"], "upper", "size"),
-                    estimate(pod["a90"], "upper", "where"),
-                    of("model"),
-                    of("intercept"),
-                    of("slope"),
-                    of("floor"),
-                    of("ceiling"),
-                    curve ? pod["fit"]["p_value"] : TableJson(nullptr),
-                    pod["doubtful"],
-                    auc["auc"],
-                    auc["lower"],
-                    auc["upper"],
-                    pod["refusal"]});
-    });
-    tables.begin("pod_band", {"feature", "noise_level", size("size"), "pod", "lower", "upper"});
-    each_level(report, [&](const TableJson& feature, const TableJson& level) {
-        const TableJson& band = level["hit_miss"]["band"];
-        for (std::size_t i = 0; i < band["size"].size(); ++i) {
-            tables.row({feature["name"], level["noise_level"], band["size"][i], band["pod"][i],
-                        band["lower"][i], band["upper"][i]});
-        }
-    });
-    tables.begin("roc", {"feature", "noise_level", "false_alarm_rate", "detection_rate"});
-    each_level(report, [&](const TableJson& feature, const TableJson& level) {
-        const TableJson& roc = level["roc"];
-        for (std::size_t i = 0; i < roc["detection_rate"].size(); ++i) {
-            tables.row({feature["name"], level["noise_level"], roc["false_alarm_rate"][i],
-                        roc["detection_rate"][i]});
-        }
-    });
-    tables.begin("misses", {"feature", "noise_level", "misses", "hits", "input", "unit",
-                            "larger_in_misses", "lower", "upper", "p_value"});
-    each_level(report, [&](const TableJson& feature, const TableJson& level) {
-        const TableJson& misses = level["misses"];
-        for (const TableJson& input : misses["inputs"]) {
-            tables.row({feature["name"], level["noise_level"], misses["misses"], misses["hits"],
-                        input["name"], input["unit"], input["larger_in_misses"], input["lower"],
-                        input["upper"], input["p_value"]});
-        }
-    });
-}
-
-void add_levels(Tables& tables, const TableJson& report) {
-    const TableJson& levels = report["reliability"]["levels"];
-    tables.begin("smallest_fault", {"noise_level", "feature", size_column(report, "size"),
-                                    "from_curve", "source_feature", "source_noise_level"});
-    for (const TableJson& level : levels) {
-        const TableJson& found = level["smallest_fault"];
-        if (found.is_object()) {
-            const TableJson& source = found["source"];
-            const auto of = [&](const char* key) {
-                return source.is_null() ? TableJson(nullptr) : source[key];
-            };
-            tables.row({level["noise_level"], found["feature"], found["size"], found["from_curve"],
-                        of("feature"), of("noise_level")});
-        } else {
-            tables.row({level["noise_level"], nullptr, nullptr, nullptr, nullptr, nullptr});
-        }
-    }
-    tables.begin("ranking",
-                 {"noise_level", "rank", "feature", "auc", "lower", "upper", "p_value_from_first"});
-    for (const TableJson& level : levels) {
-        int rank = 0;
-        for (const TableJson& at : level["ranking"]["ranks"]) {
-            tables.row({level["noise_level"], ++rank, at["name"], at["auc"], at["lower"],
-                        at["upper"], at["p_values"][0]});
-        }
-    }
-    tables.begin("sensitivity",
-                 {"noise_level", "feature", "of", "input", "unit", "first", "first_lower",
-                  "first_upper", "total", "total_lower", "total_upper"});
-    for (const TableJson& level : levels) {
-        for (const char* of : {"misses", "values"}) {
-            const TableJson& given = level["sensitivity"];
-            for (const TableJson& input :
-                 given.is_null() ? TableJson::array() : given[of]["inputs"]) {
-                tables.row({level["noise_level"], given["feature"], of, input["name"],
-                            input["unit"], input["first"], input["first_lower"],
-                            input["first_upper"], input["total"], input["total_lower"],
-                            input["total_upper"]});
-            }
-        }
-    }
-    tables.begin("combined", {"noise_level", "single", "single_auc", "combined_auc", "gain",
-                              "p_value", "refusal"});
-    for (const TableJson& level : levels) {
-        const TableJson& both = level["combined"];
-        const bool graded = both["refusal"].is_null();
-        tables.row({level["noise_level"], graded ? both["single"]["name"] : TableJson(nullptr),
-                    graded ? both["single"]["auc"]["auc"] : TableJson(nullptr),
-                    graded ? both["detector"]["auc"]["auc"] : TableJson(nullptr), both["gain"],
-                    both["p_value"], both["refusal"]});
-    }
-}
-
-void add_inputs(Tables& tables, const TableJson& report) {
-    const TableJson& reliability = report["reliability"];
-    tables.begin("inputs", {"input", "unit", "feature", "noise_level", "low", "high", "tested",
-                            "detected", "pd", "lower", "upper", "p_value"});
-    for (const auto& [name, input] : reliability["robustness"].items()) {
-        for (const TableJson& feature :
-             name == "noise_level" ? TableJson::array() : input["features"]) {
-            for (const TableJson& level : feature["levels"]) {
-                for (const TableJson& bin : level["bins"]) {
-                    tables.row({name, input["unit"], feature["name"], level["noise_level"],
-                                bin["low"], bin["high"], bin["tested"], bin["detected"], bin["pd"],
-                                bin["lower"], bin["upper"], level["p_value"]});
-                }
-            }
-        }
-    }
-    tables.begin("a90_by_input",
-                 {"input", "unit", "feature", "noise_level", "value", size_column(report, "a90"),
-                  size_column(report, "a90_lower"), size_column(report, "a90_upper")});
-    for (const auto& [name, input] : reliability["a90_maps"].items()) {
-        for (const TableJson& feature : input["features"]) {
-            for (std::size_t n = 0; n < feature["levels"].size(); ++n) {
-                const TableJson& level = feature["levels"][n];
-                for (std::size_t i = 0; i < level["a90"].size(); ++i) {
-                    const TableJson& a90 = level["a90"][i];
-                    tables.row({name, input["unit"], feature["name"], input["noise_levels"][n],
-                                level["values"][i], estimate(a90, "estimate", "size"),
-                                estimate(a90, "lower", "size"), estimate(a90, "upper", "size")});
-                }
-            }
-        }
-    }
-    tables.begin("conditions", {"input", "unit", "feature", "noise_level",
-                                size_column(report, "size_low"), size_column(report, "size_high"),
-                                "tested", "detected", "failed", "pd", "lower", "upper"});
-    for (const TableJson& detection : reliability["conditions"]) {
-        for (const TableJson& level : detection["levels"]) {
-            for (const TableJson& cell : level["sizes"]) {
-                tables.row({detection["input"], detection["unit"], detection["feature"],
-                            level["noise_level"], cell["size_low"], cell["size_high"],
-                            cell["tested"], cell["detected"], cell["failed"], cell["pd"],
-                            cell["lower"], cell["upper"]});
-            }
-        }
-    }
-}
-
-void add_facts(Tables& tables, const TableJson& report) {
-    tables.begin("numerical", {"feature", "noise_level", "rms", "healthy_spread", "pd",
-                               "pd_half_width", size_column(report, "a90"), "larger"});
-    for (const TableJson& share :
-         report["numerical"].is_null() ? TableJson::array() : report["numerical"]["shares"]) {
-        tables.row({share["feature"], share["noise_level"], share["rms"], share["healthy_spread"],
-                    share["pd"], share["pd_half_width"], share["a90"], share["larger"]});
-    }
-    tables.begin("over_time",
-                 {"first", "last", "recordings", "feature", "values", "alarms", "median"});
-    for (const TableJson& group : report["over_time"]) {
-        for (const auto& [feature, alarms] : group["alarms"].items()) {
-            tables.row({group["first"], group["last"], group["recordings"], feature,
-                        group["values"][feature], alarms,
-                        group["medians"].value(feature, TableJson(nullptr))});
-        }
-    }
-    const TableJson& failures = report["failures"];
-    tables.begin("failures", {"what", "gearboxes"});
-    for (const char* what : {"gearboxes", "diverged", "not_settled"}) {
-        tables.row({what, failures[what]});
-    }
-    tables.begin("provenance", {"name", "value"});
-    for (const auto& [name, value] : report["provenance"].items()) {
-        tables.row({name, value});
-    }
+    table.rows.push_back(std::move(row));
 }
 
 }  // namespace
 
 std::vector<CsvTable> report_tables(const nlohmann::json& report) {
-    Tables tables;
-    add_detection(tables, report);
-    if (!report["reliability"].is_null()) {
-        add_curves(tables, report);
-        add_levels(tables, report);
-        add_inputs(tables, report);
+    // Size columns have the unit as in the results file, "fault_depth_m".
+    const std::string unit = report["detection"]["size"]["unit"];
+    std::vector<CsvTable> tables;
+    for (const TableSource& source : table_sources()) {
+        CsvTable table{source.name, {}, {}};
+        std::vector<std::string> columns;
+        for (const std::string& column : split(source.columns, ' ')) {
+            std::string name = column.substr(0, column.find('='));
+            if (name.back() == '@') {
+                name.replace(name.size() - 1, 1, unit == "1" ? "" : "_" + unit);
+            }
+            table.columns.push_back(std::move(name));
+            columns.push_back(column.substr(column.find('=') + 1));
+        }
+        std::vector<Element> elements{{&report, ""}};
+        add_rows(table, source, columns, elements);
+        if (!table.rows.empty()) {
+            tables.push_back(std::move(table));
+        }
     }
-    add_facts(tables, report);
-    return std::move(tables).with_rows();
+    return tables;
 }
 
 std::string table_path(const std::string& folder, const CsvTable& table) {

@@ -1,11 +1,7 @@
 #include "mc/results/reliability_of_results.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
-
-#include "analysis/report/reliability_text.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -127,17 +123,12 @@ analysis::Subject subject_of(const Results& frame) {
                                                              : analysis::Subject::gearboxes;
 }
 
-std::string reliability_text(const std::optional<analysis::Reliability>& reliability,
-                             const Results& frame) {
-    if (reliability) {
-        return analysis::reliability_text(*reliability, frame.request, subject_of(frame));
-    }
-    const std::size_t each =
-        std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
-    return fmt::format(
-        "no POD curves, areas and ranking: they need all values at once, and the number of {}\nis "
-        "limited to {} with these features and noise levels\n",
-        analysis::many(subject_of(frame)), kMostAssessedValues / each);
+std::size_t reference_level(const std::vector<double>& noise_levels) {
+    const auto one = std::find(noise_levels.begin(), noise_levels.end(), 1.0);
+    const auto above = std::find_if(noise_levels.begin(), noise_levels.end(),
+                                    [](double level) { return level > 0.0; });
+    const auto found = one != noise_levels.end() ? one : above;
+    return found == noise_levels.end() ? 0 : static_cast<std::size_t>(found - noise_levels.begin());
 }
 
 }  // namespace gearpod::mc

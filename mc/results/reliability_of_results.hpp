@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/reliability.hpp"
 #include "analysis/report/subject.hpp"
@@ -27,8 +28,8 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
 // Kind of object that a row of the results file describes.
 analysis::Subject subject_of(const Results& frame);
 
-// Report text for the terminal, or the reason why there is none.
-std::string reliability_text(const std::optional<analysis::Reliability>& reliability,
-                             const Results& frame);
+// Index of the noise level that a report shows first: 1 if the study has it, else the first above
+// 0, else the first.
+std::size_t reference_level(const std::vector<double>& noise_levels);
 
 }  // namespace gearpod::mc

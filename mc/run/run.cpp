@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <set>
 
-#include "analysis/report/detection_text.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "machine/cancellation.hpp"
 #include "machine/team.hpp"
@@ -25,6 +24,7 @@
 #include "mc/run/run_checks.hpp"
 #include "mc/run/run_to_end.hpp"
 #include "mc/run/support.hpp"
+#include "mc/summary/failures.hpp"
 #include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
@@ -150,7 +150,8 @@ class Run {
     // Report text of results that have been written.
     std::string text_of(const Results& all, const RowSource& rows) const {
         try {
-            return results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
+            return report_text(
+                results_report(all, rows, reliability_of(all, rows, "", idle_threads())));
         } catch (const machine::Cancelled&) {
             return "the time limit is reached; `gearpod report` shows the results";
         }

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
 #include "analysis/detection/threshold.hpp"
-#include "analysis/report/text_lines.hpp"
+#include "analysis/report/wording.hpp"
 #include "features/median.hpp"
 
 namespace gearpod::mc {
@@ -49,16 +51,6 @@ double threshold_of(const Results& frame, std::size_t feature) {
 }
 
 }  // namespace
-
-std::vector<std::size_t> ranked_features(const Results& frame,
-                                         const std::optional<analysis::Reliability>& reliability) {
-    if (reliability && !reliability->rankings.empty()) {
-        return in_rank_order(*reliability, 0);
-    }
-    std::vector<std::size_t> order(frame.features.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    return order;
-}
 
 std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows) {
     const auto time = time_column(frame);
@@ -112,40 +104,39 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
     return groups;
 }
 
-std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& groups,
-                        const std::optional<analysis::Reliability>& reliability) {
-    constexpr std::size_t kLabel = 26, kEach = 18;  // columns
+analysis::Section alarms_section(const Results& frame, const std::vector<TimeGroup>& groups,
+                                 const std::vector<std::size_t>& ranked) {
+    constexpr std::size_t kMostFeatures = 3;
     if (groups.empty() || frame.features.empty()) {
-        return "";
+        return {};
     }
-    auto order = ranked_features(frame, reliability);
-    order.resize(std::min(order.size(), (analysis::text_width() - kLabel) / kEach));
-    const std::size_t time = *time_column(frame);
-    const std::string unit = frame.parameters[time].unit;
-    std::string out =
-        fmt::format("Alarms over time{} (recordings with an alarm; median of the feature)\n",
-                    unit == "1" ? "" : ", " + unit);
-    out += fmt::format("{:<16}{:>10}", "time", "recordings");
-    for (const std::size_t f : order) {
-        out += fmt::format("{:>18}", frame.features[f].name);
+    const std::string unit = frame.parameters[*time_column(frame)].unit;
+    analysis::Table table{"over_time",
+                          "Recordings with an alarm, and the feature's median",
+                          {"time", "recordings"},
+                          {}};
+    const std::span<const std::size_t> shown(ranked.data(), std::min(ranked.size(), kMostFeatures));
+    for (const std::size_t f : shown) {
+        table.columns.push_back(frame.features[f].name);
     }
-    out += "\n";
     for (const TimeGroup& group : groups) {
-        const std::string when = group.first == group.last
-                                     ? fmt::format("{:g}", group.last)
-                                     : fmt::format("{:g} to {:g}", group.first, group.last);
-        out += fmt::format("{:<16}{:>10}", when, group.recordings);
-        for (const std::size_t f : order) {
-            const double share =
-                static_cast<double>(group.alarms[f]) / static_cast<double>(group.values[f]);
-            out += group.alarms[f] < 0 ? fmt::format("{:>9}", "-")
-                                       : fmt::format("{:>7.0f} %", 100.0 * share);
-            out += group.values[f] == 0 ? fmt::format("{:>9}", "-")
-                                        : fmt::format("{:>9.3g}", group.medians[f]);
+        const std::string last = analysis::number_text(group.last);
+        std::vector<std::string> row{
+            group.first == group.last ? last : analysis::number_text(group.first) + " to " + last,
+            fmt::format("{}", group.recordings)};
+        for (const std::size_t f : shown) {
+            row.push_back(fmt::format(
+                "{} ({})",
+                group.alarms[f] < 0 ? std::string("-")
+                                    : fmt::format("{} of {}", group.alarms[f], group.values[f]),
+                analysis::number_text(group.medians[f])));
         }
-        out += "\n";
+        table.rows.push_back(std::move(row));
     }
-    return out;
+    analysis::Section section{
+        "over_time", "Alarms over time" + (unit == "1" ? "" : ", " + unit), {}};
+    section.add(std::move(table));
+    return section;
 }
 
 nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& groups) {

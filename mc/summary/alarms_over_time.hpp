@@ -3,11 +3,9 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "analysis/reliability.hpp"
+#include "analysis/report/report.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
@@ -24,14 +22,10 @@ struct TimeGroup {
 // size. Empty without a column "time", or if the rows are not recordings.
 std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows);
 
-// Indices of the features in order of rank, or in file order without a ranking.
-std::vector<std::size_t> ranked_features(const Results& frame,
-                                         const std::optional<analysis::Reliability>& reliability);
-
-// Table of the best ranked features, as many as fit into a line. Ends with a newline; "" without
+// Section with a table of the three best of the features, which are in order of rank. Empty without
 // groups.
-std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& groups,
-                        const std::optional<analysis::Reliability>& reliability);
+analysis::Section alarms_section(const Results& frame, const std::vector<TimeGroup>& groups,
+                                 const std::vector<std::size_t>& ranked);
 
 // [{"first", "last", "recordings", "values": {feature: count}, "alarms": {feature: count or null},
 // "medians": {feature: number or null}}]

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "analysis/report/wording.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -58,6 +61,29 @@ std::string contact_loss_text(const std::vector<ContactLossSummary>& meshes) {
                             mesh.mesh, 100.0 * mesh.mean, 100.0 * mesh.lower, 100.0 * mesh.upper);
     }
     return text;
+}
+
+analysis::Section contact_section(const std::vector<ContactLossSummary>& meshes) {
+    using analysis::percent_text;
+    analysis::Section section{"contact", "Contact of the teeth", {}};
+    analysis::Table table{"contact_loss",
+                          "Share of time out of contact",
+                          {"mesh", "mean", "5 % of gearboxes below", "median",
+                           "95 % of gearboxes below", "gearboxes"},
+                          {}};
+    for (const ContactLossSummary& mesh : meshes) {
+        table.rows.push_back({mesh.mesh, percent_text(mesh.mean), percent_text(mesh.lower),
+                              percent_text(mesh.median), percent_text(mesh.upper),
+                              fmt::format("{}", mesh.rows)});
+    }
+    section.state("contact.how",
+                  meshes.empty()
+                      ? ""
+                      : "Share of its engagement, within the nominal path of contact, in "
+                        "which a tooth pair carries no load (contact loss ratio), "
+                        "averaged over the tooth pairs of a mesh.");
+    section.add(std::move(table));
+    return section;
 }
 
 }  // namespace gearpod::mc

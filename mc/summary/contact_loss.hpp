@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/report/report.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
@@ -23,5 +24,8 @@ std::vector<ContactLossSummary> summarise_contact_loss(const Results& frame, con
 // Lists means and the central 90 % range over the gearboxes, for example
 // "sun-planet 4.2 % (1.1 % to 9.3 %), ring-planet ...". "" without meshes.
 std::string contact_loss_text(const std::vector<ContactLossSummary>& meshes);
+
+// Section of a report; empty without meshes.
+analysis::Section contact_section(const std::vector<ContactLossSummary>& meshes);
 
 }  // namespace gearpod::mc

@@ -4,32 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "analysis/report/text_lines.hpp"
+#include "analysis/report/wording.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 constexpr std::size_t kMostRead = 60;   // gearboxes
 constexpr std::size_t kMostInputs = 4;  // columns before the features
-constexpr std::size_t kColumnGap = 2;
+
+using analysis::number_text;
 
 struct ReadRow {
     std::size_t row = 0;
     std::vector<double> values;  // as in RowShape
-};
-
-struct TextColumn {
-    std::string head;
-    std::vector<std::string> cells;
-
-    std::size_t width() const {
-        std::size_t most = head.size();
-        for (const std::string& cell : cells) {
-            most = std::max(most, cell.size());
-        }
-        return most + kColumnGap;
-    }
 };
 
 bool any_threshold(const Results& frame) {
@@ -59,102 +48,66 @@ std::vector<ReadRow> graded_rows(const RowShape& shape, const RowSource& rows) {
     return graded;
 }
 
-std::string value_text(double value) {
-    return std::isnan(value) ? "none" : fmt::format("{:.5g}", value);
+// Inputs that differ between the rows, at most kMostInputs, the last first.
+std::vector<std::size_t> differing_inputs(const Results& frame,
+                                          const std::vector<ReadRow>& graded) {
+    std::vector<std::size_t> inputs;
+    for (std::size_t p = frame.parameters.size(); p-- > 0 && inputs.size() < kMostInputs;) {
+        if (std::any_of(graded.begin(), graded.end(),
+                        [&](const ReadRow& row) { return row.values[p] != graded[0].values[p]; })) {
+            inputs.push_back(p);
+        }
+    }
+    return inputs;
 }
 
-// Columns with the row number, the fault size and the other inputs that differ between rows.
-std::vector<TextColumn> input_columns(const Results& frame, const std::vector<ReadRow>& graded) {
-    std::vector<TextColumn> columns(1, {"row", {}});
-    for (const ReadRow& row : graded) {
-        columns[0].cells.push_back(std::to_string(row.row));
-    }
+analysis::Table values_table(const Results& frame, const std::vector<ReadRow>& graded,
+                             std::size_t level) {
+    const RowShape shape = row_shape(frame);
     const analysis::SizeUnit& size = frame.request.size;
-    for (std::size_t p = frame.parameters.size(); p-- > 0 && columns.size() <= kMostInputs;) {
-        const ParameterResult& parameter = frame.parameters[p];
-        const bool differs = std::any_of(graded.begin(), graded.end(), [&](const ReadRow& row) {
-            return row.values[p] != graded[0].values[p];
-        });
-        if (!differs) {
-            continue;
-        }
-        const bool is_size = parameter.name == size.name;
-        const std::string unit = size.shown_unit();
-        TextColumn column{is_size ? "size" + (unit.empty() ? "" : " " + unit) : parameter.name, {}};
-        for (const ReadRow& row : graded) {
-            column.cells.push_back(
-                fmt::format("{:.5g}", row.values[p] / (is_size ? size.per_unit() : 1.0)));
-        }
-        columns.push_back(std::move(column));
+    const std::string unit = size.shown_unit(), noise = number_text(frame.noise_levels[level]);
+    const bool levels = frame.noise_levels.size() > 1 || frame.noise_levels[level] != 0.0;
+    analysis::Table table{
+        fmt::format("values.{}", level), levels ? "Noise x " + noise : "", {"row"}, {}};
+    const std::vector<std::size_t> inputs = differing_inputs(frame, graded);
+    for (const std::size_t p : inputs) {
+        const std::string& name = frame.parameters[p].name;
+        table.columns.push_back(name != size.name ? name
+                                                  : "size" + (unit.empty() ? "" : " " + unit));
     }
-    return columns;
-}
-
-void add_columns(std::string& out, const std::vector<const TextColumn*>& columns) {
-    const std::size_t rows = columns[0]->cells.size();
-    for (std::size_t r = 0; r <= rows; ++r) {
-        for (const TextColumn* column : columns) {
-            out += fmt::format("{:>{}}", r == 0 ? column->head : column->cells[r - 1],
-                               column->width());
+    table.labels = table.columns.size();
+    for (const FeatureResult& feature : frame.features) {
+        const bool pure = feature.unit.empty() || feature.unit == "1";
+        table.columns.push_back(feature.name + (pure ? "" : fmt::format(" [{}]", feature.unit)));
+    }
+    for (const ReadRow& row : graded) {
+        std::vector<std::string> cells{std::to_string(row.row)};
+        for (const std::size_t p : inputs) {
+            const bool is_size = frame.parameters[p].name == size.name;
+            cells.push_back(number_text(row.values[p] / (is_size ? size.per_unit() : 1.0), 5));
         }
-        out += '\n';
-    }
-}
-
-// Adds blocks of feature columns, as many as fit into the text width next to the inputs.
-void add_level(std::string& out, const std::vector<TextColumn>& inputs,
-               const std::vector<TextColumn>& features) {
-    std::size_t begin = 0;
-    for (const TextColumn& column : inputs) {
-        begin += column.width();
-    }
-    for (std::size_t f = 0; f < features.size();) {
-        std::vector<const TextColumn*> block;
-        for (const TextColumn& column : inputs) {
-            block.push_back(&column);
+        for (std::size_t f = 0; f < frame.features.size(); ++f) {
+            const double value = row.values[shape.value_of(f, level)];
+            cells.push_back(std::isnan(value) ? "none" : number_text(value, 5));
         }
-        std::size_t width = begin;
-        do {
-            width += features[f].width();
-            block.push_back(&features[f++]);
-        } while (f < features.size() && width + features[f].width() <= analysis::text_width());
-        out += '\n';
-        add_columns(out, block);
+        table.rows.push_back(std::move(cells));
     }
+    return table;
 }
 
 }  // namespace
 
-std::string feature_values_text(const Results& frame, const RowSource& rows) {
+analysis::Section feature_values(const Results& frame, const RowSource& rows) {
+    analysis::Section section{
+        "values", "Feature values (there is no threshold to compare them with)", {}};
     if (frame.features.empty() || any_threshold(frame)) {
-        return "";
+        return section;
     }
-    const RowShape shape = row_shape(frame);
-    const std::vector<ReadRow> graded = graded_rows(shape, rows);
-    if (graded.empty()) {
-        return "";
+    const std::vector<ReadRow> graded = graded_rows(row_shape(frame), rows);
+    for (std::size_t n = 0; !graded.empty() && n < frame.noise_levels.size(); ++n) {
+        section.add(values_table(frame, graded, n));
     }
-    const std::vector<TextColumn> inputs = input_columns(frame, graded);
-    std::string out = "Feature values (there is no threshold to compare them with)\n";
-    for (std::size_t n = 0; n < frame.noise_levels.size(); ++n) {
-        std::vector<TextColumn> features;
-        for (std::size_t f = 0; f < frame.features.size(); ++f) {
-            const FeatureResult& feature = frame.features[f];
-            const std::string unit = feature.unit.empty() || feature.unit == "1"
-                                         ? ""
-                                         : fmt::format(" [{}]", feature.unit);
-            TextColumn column{feature.name + unit, {}};
-            for (const ReadRow& row : graded) {
-                column.cells.push_back(value_text(row.values[shape.value_of(f, n)]));
-            }
-            features.push_back(std::move(column));
-        }
-        if (frame.noise_levels.size() > 1 || frame.noise_levels[n] != 0.0) {
-            out += fmt::format("\nNoise x {:g}\n", frame.noise_levels[n]);
-        }
-        add_level(out, inputs, features);
-    }
-    return out;
+    return section;
 }
 
 }  // namespace gearpod::mc

@@ -2,15 +2,14 @@
 // healthy gearboxes for any threshold, such as the studies of published figures.
 #pragma once
 
-#include <string>
-
+#include "analysis/report/report.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
 
 // Returns the values of the graded rows at every noise level, with the inputs that differ between
-// the rows. Returns "" if a feature has a threshold, or if there are more than 60 rows.
+// the rows. Empty if a feature has a threshold, or if there are more than 60 rows.
 // `frame.detection` must be up to date (detect_all).
-std::string feature_values_text(const Results& frame, const RowSource& rows);
+analysis::Section feature_values(const Results& frame, const RowSource& rows);
 
 }  // namespace gearpod::mc

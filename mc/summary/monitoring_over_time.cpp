@@ -7,11 +7,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/report/json_values.hpp"
-#include "mc/input/wrapped_text.hpp"
+#include "analysis/report/wording.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -284,34 +285,34 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     return monitoring;
 }
 
-std::string monitoring_text(const MonitoringOverTime& monitoring,
-                            const std::vector<std::string>& features) {
+analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
+                                     const std::vector<std::string>& features) {
+    analysis::Section section{"monitoring", "Monitoring over time", {}};
     if (!monitoring.refusal.empty()) {
-        return wrapped_text("Monitoring over time is not possible: " + monitoring.refusal, 2) +
-               "\n";
+        section.state("monitoring.refusal",
+                      "Monitoring over time is not possible: " + monitoring.refusal + ".");
+        return section;
     }
-    std::string out =
-        wrapped_text(
-            monitoring.baseline_records > 0
-                ? fmt::format(
-                      "Monitoring over time (deviations from the first {} recordings of a "
-                      "gearbox{}; thresholds: {:g} of the later healthy recordings alarm; an "
-                      "alarm resets the detector)",
-                      monitoring.baseline_records,
-                      monitoring.torque_regression ? ", with a linear regression on the torque"
-                                                   : "",
-                      monitoring.false_alarm_rate)
-                : fmt::format(
-                      "Monitoring over time (thresholds: {:g} of the healthy recordings alarm; an "
-                      "alarm resets the detector)",
-                      monitoring.false_alarm_rate),
-            2) +
-        "\n";
-    if (!monitoring.note.empty()) {
-        out += wrapped_text(monitoring.note, 2) + "\n";
-    }
-    out += fmt::format("{:<20}{:<13}{:>9}{:>9}{:>9}  {}\n", "feature", "detector", "threshold",
-                       "healthy", "others", "first alarm");
+    const std::string baseline = fmt::format(
+        "Recordings in time order, compared with each gearbox's first {} recordings{}; "
+        "thresholds: {} of the later healthy recordings alarm",
+        monitoring.baseline_records,
+        monitoring.torque_regression ? ", with a linear regression on the torque" : "",
+        analysis::percent_text(monitoring.false_alarm_rate));
+    section.state("monitoring.how",
+                  (monitoring.baseline_records > 0
+                       ? baseline
+                       : fmt::format("Recordings in time order; thresholds: {} of the healthy "
+                                     "recordings alarm",
+                                     analysis::percent_text(monitoring.false_alarm_rate))) +
+                      "; the detector restarts after every alarm.");
+    section.state("monitoring.note",
+                  monitoring.note.empty() ? "" : analysis::capitalised(monitoring.note) + ".");
+    analysis::Table table{
+        "monitoring",
+        "",
+        {"feature", "detector", "threshold", "healthy alarms", "later alarms", "first alarm"},
+        {}};
     for (const RecordingMonitorResult& one : monitoring.watched) {
         if (one.feature != kFused &&
             std::find(features.begin(), features.end(), one.feature) == features.end()) {
@@ -324,17 +325,19 @@ std::string monitoring_text(const MonitoringOverTime& monitoring,
             std::string first = "none";
             if (gearbox.first) {
                 const std::string& name = monitoring.names.at(*gearbox.first);
-                first = fmt::format("{:g} {}, {}", gearbox.first_time, monitoring.time_unit,
-                                    name.substr(name.rfind('/') + 1));
+                first = fmt::format(
+                    "{}, {}", analysis::quantity_text(gearbox.first_time, monitoring.time_unit),
+                    name.substr(name.rfind('/') + 1));
             }
-            out += fmt::format("{:<20}{:<13}{:>9.3g}{:>9}{:>9}  {}{}\n", one.feature, one.detector,
-                               one.threshold.value,
-                               fmt::format("{}/{}", one.threshold.alarms, one.threshold.records),
-                               fmt::format("{}/{}", gearbox.alarms, gearbox.recordings),
-                               gearbox.name.empty() ? "" : gearbox.name + ": ", first);
+            table.rows.push_back(
+                {one.feature, one.detector, analysis::number_text(one.threshold.value),
+                 fmt::format("{} of {}", one.threshold.alarms, one.threshold.records),
+                 fmt::format("{} of {}", gearbox.alarms, gearbox.recordings),
+                 (gearbox.name.empty() ? "" : gearbox.name + ": ") + first});
         }
     }
-    return out;
+    section.add(std::move(table));
+    return section;
 }
 
 nlohmann::json monitoring_json(const MonitoringOverTime& monitoring) {

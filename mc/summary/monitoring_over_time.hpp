@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/monitoring/false_alarms.hpp"
+#include "analysis/report/report.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
@@ -44,9 +45,10 @@ struct MonitoringOverTime {
 // Returns nothing unless the rows are recordings with times.
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, const RowSource& rows);
 
-// Table with a line for each detector of the given features and of "fused". Ends with a newline.
-std::string monitoring_text(const MonitoringOverTime& monitoring,
-                            const std::vector<std::string>& features);
+// Section with a row for each gearbox and detector of the given features and of "fused", or the
+// reason why there is no monitoring.
+analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
+                                     const std::vector<std::string>& features);
 
 // {"baseline_records", "false_alarm_rate", "torque_regression", "note", "refusal", "watched":
 // [{"feature", "detector", "threshold", "healthy": {"recordings", "alarms"}, "gearboxes": [{"name",

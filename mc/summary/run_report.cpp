@@ -3,20 +3,26 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "analysis/report/detection_text.hpp"
-#include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/text_lines.hpp"
-#include "mc/input/wrapped_text.hpp"
-#include "mc/numerics/numerical_error.hpp"
-#include "mc/numerics/step_error.hpp"
-#include "mc/results/failure_text.hpp"
+#include "analysis/report/findings/findings.hpp"
+#include "analysis/report/wording.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/noise.hpp"
+#include "mc/study/study.hpp"
 #include "mc/summary/alarms_over_time.hpp"
 #include "mc/summary/contact_loss.hpp"
+#include "mc/summary/failures.hpp"
 #include "mc/summary/feature_values.hpp"
 #include "mc/summary/monitoring_over_time.hpp"
+#include "mc/summary/numerical_section.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -50,102 +56,134 @@ Spread spread_of(const std::vector<TeamTimes>& teams, const TimeRow& row) {
     return spread;
 }
 
-}  // namespace
-
-RowCounts count_rows(const RowSource& rows, std::size_t records) {
-    RowCounts counts;
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const bool threshold = block.group[row] == static_cast<int>(Group::threshold);
-            if (threshold && (block.first + row) % records != 0) {
-                continue;  // a further record of the gearbox before
-            }
-            ++counts.all;
-            const int status = block.status[row];
-            if (status >= 0 && status < kStatuses) {
-                ++counts.with_status[static_cast<std::size_t>(status)];
-            }
-        }
-    });
-    counts.not_converged = counts.with_status[static_cast<std::size_t>(Status::not_converged)];
-    counts.diverged = counts.all - counts.not_converged -
-                      counts.with_status[static_cast<std::size_t>(Status::ok)];
-    return counts;
+// Notes on results that are not those of a whole study.
+analysis::Section state_section(const Results& frame, const RowCounts& counts) {
+    analysis::Section section{"state", "", {}};
+    const std::string part = frame.provenance_value("part");
+    section.state("part", part.empty() ? ""
+                                       : fmt::format("Part {} of the study only; join all parts "
+                                                     "with `gearpod merge`.",
+                                                     part));
+    const std::string state = frame.provenance_value("state");
+    section.state("incomplete",
+                  state != "running" && !state.starts_with("interrupted")
+                      ? ""
+                      : fmt::format("Incomplete study: {} of {} gearboxes ({}).", counts.all,
+                                    printable(frame.provenance_value("gearboxes_asked_for")),
+                                    printable(state)),
+                  true);
+    return section;
 }
 
-std::string results_text(const Results& frame, const RowSource& rows,
-                         const std::optional<analysis::Reliability>& reliability) {
+// Noise that x 1 stands for.
+std::string noise_unit_text(const std::optional<Study>& study) {
+    if (!study) {
+        return "";
+    }
+    const double encoder = study->sensor.encoder_noise_rad;
+    const double sensor = study->effects.quasi_static() ? 0.0 : sensor_noise_m_s2(*study);
+    std::vector<std::string> parts;
+    if (sensor == 0.0 && encoder == 0.0) {
+        return "The study adds no noise. ";
+    }
+    if (!study->effects.quasi_static()) {
+        parts.push_back(analysis::number_text(sensor) + " m/s^2 rms at the sensor");
+    }
+    constexpr double kArcSeconds = 180.0 * 3600.0 / std::numbers::pi;  // per radian
+    parts.push_back(analysis::number_text(encoder * kArcSeconds) +
+                    " arc seconds rms on the transmission error");
+    return "Noise x 1 is " + analysis::joined(parts) + " (nominal). ";
+}
+
+std::string facts_text(const analysis::Findings& findings, const RowCounts& counts,
+                       const std::optional<Study>& study) {
+    bool any = false;
+    for (const analysis::FeatureDetection& feature : findings.detection) {
+        for (const analysis::LevelDetection& level : feature.levels) {
+            any |= !std::isnan(level.threshold);
+        }
+    }
+    const bool recorded = findings.subject == analysis::Subject::recordings;
+    const std::string thresholds =
+        any ? fmt::format(" Thresholds from {} at a false-alarm rate of {}.",
+                          recorded ? "these healthy recordings" : "an independent healthy sample",
+                          analysis::percent_text(findings.request.false_alarm_rate))
+            : "";
+    return recorded ? fmt::format("{} recordings, {} of them known as healthy and {} as faulty.{}",
+                                  counts.all, findings.healthy, findings.faulty, thresholds)
+                    : fmt::format(
+                          "{}{} simulated gearboxes, of which {} failed; {} healthy and {} "
+                          "faulty ones have values.{}",
+                          noise_unit_text(study), counts.all, counts.failed(), findings.healthy,
+                          findings.faulty, thresholds);
+}
+
+// Reason why an ensemble has rates only.
+analysis::Section too_many_section(const analysis::Findings& findings, const Results& frame) {
+    analysis::Section section{"too_many", "", {}};
+    const std::size_t each =
+        std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
+    section.state("too_many",
+                  findings.reliability != nullptr
+                      ? ""
+                      : fmt::format("No detection curves, areas and ranking: they need all values "
+                                    "at once, and the number of {} is limited to {} with these "
+                                    "features and noise levels.",
+                                    analysis::many(findings.subject), kMostAssessedValues / each));
+    return section;
+}
+
+// Numerical and statistical error of the feature in the answer; "" without them.
+std::string numerical_of(const analysis::Findings& findings,
+                         const std::vector<NumericalContribution>& contributions) {
+    if (findings.smallest.empty() || !findings.smallest[findings.reference]) {
+        return "";
+    }
+    return numerical_limit(contributions, findings.smallest[findings.reference]->feature,
+                           findings.request.noise_levels[findings.reference]);
+}
+
+}  // namespace
+
+analysis::Report results_report(const Results& frame, const RowSource& rows,
+                                const std::optional<analysis::Reliability>& reliability) {
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
-    std::string text;
-    if (const std::string part = frame.provenance_value("part"); !part.empty()) {
-        analysis::add_wrapped(
-            text,
-            fmt::format("Part {} of the study only; join all parts with `gearpod merge`.", part),
-            2);
+    std::vector<std::string> units;
+    for (const FeatureResult& feature : frame.features) {
+        units.push_back(feature.unit);
     }
-    if (const std::string shortage =
-            analysis::sample_shortage(frame.detection, frame.request, subject_of(frame));
-        !shortage.empty()) {
-        analysis::add_wrapped(text, shortage, 2);
+    const analysis::Findings findings(
+        {frame.detection, reliability ? &*reliability : nullptr, frame.request, subject_of(frame),
+         study && study->fault.kind ? std::string(study->fault.kind->words()) : "a fault",
+         reference_level(frame.noise_levels), units});
+    const Failures failures = failures_of(frame, rows);
+    const auto contributions = numerical_contributions(frame, rows, reliability);
+    analysis::Report report;
+    report.add(state_section(frame, failures.counts));
+    report.add(analysis::headline_section(findings, study ? assumptions(*study, false) : "",
+                                          facts_text(findings, failures.counts, study)));
+    report.add(analysis::limits_section(findings, numerical_of(findings, contributions)));
+    analysis::Section values = feature_values(frame, rows);
+    if (values.blocks.empty()) {
+        add_detection_sections(report, findings);
     }
-    if (const std::string holds = study ? assumptions(*study, false) : ""; !holds.empty()) {
-        analysis::add_wrapped(text, holds, 2);
-        text += "\n";
-    }
-    const std::string values = feature_values_text(frame, rows);
-    text += (values.empty()
-                 ? analysis::detection_text(frame.detection, frame.request, subject_of(frame))
-                 : values) +
-            "\n" + reliability_text(reliability, frame);
-    const std::string times = alarms_text(frame, alarms_over_time(frame, rows), reliability);
-    text += times.empty() ? "" : "\n" + times;
+    report.add(std::move(values));
+    report.add(too_many_section(findings, frame));
+    const std::vector<std::size_t> ranked =
+        findings.order.empty() ? std::vector<std::size_t>{} : findings.order[findings.reference];
+    report.add(alarms_section(frame, alarms_over_time(frame, rows), ranked));
     if (const auto monitoring = monitoring_over_time(frame, rows)) {
         constexpr std::size_t kMostNamed = 3;
         std::vector<std::string> best;
-        for (const std::size_t f : ranked_features(frame, reliability)) {
-            if (best.size() < kMostNamed) {
-                best.push_back(frame.features[f].name);
-            }
+        for (std::size_t i = 0; i < std::min(kMostNamed, ranked.size()); ++i) {
+            best.push_back(frame.features[ranked[i]].name);
         }
-        text += "\n" + monitoring_text(*monitoring, best);
+        report.add(monitoring_section(*monitoring, best));
     }
-    if (const std::string loss = contact_loss_text(summarise_contact_loss(frame, rows));
-        !loss.empty()) {
-        text += "\n";
-        analysis::add_wrapped(
-            text,
-            "Share of time that a tooth pair is out of contact, mean (5 to 95 % range of the "
-            "gearboxes): " +
-                loss + ".",
-            2);
-    }
-    if (frame.step_error) {
-        analysis::add_wrapped(
-            text, "Error of the time steps: " + step_error_text(*frame.step_error) + ".", 2);
-    }
-    const std::string numerical =
-        numerical_text(frame, numerical_contributions(frame, rows, reliability));
-    return numerical.empty() ? text : text + "\n" + numerical;
-}
-
-void print_failures(const RowCounts& rows, int max_meshes) {
-    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not converge)\n", rows.failed(),
-               rows.all, rows.diverged, rows.not_converged);
-    for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
-                                Status::no_equilibrium}) {
-        const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
-        if (count > 0) {
-            const std::string reason =
-                fmt::format("{} of them: each {}", count, failure_text(status));
-            fmt::print("  {}\n", wrapped_text(reason, 2));
-        }
-    }
-    if (rows.not_converged > 0) {
-        fmt::print(
-            "  (no convergence to the periodic orbit within {} mesh periods: raise\n"
-            "  numerics.max_meshes or numerics.settle_tolerance)\n",
-            max_meshes);
-    }
+    report.add(contact_section(summarise_contact_loss(frame, rows)));
+    report.add(numerical_section(frame, contributions));
+    report.add(failures_section(frame, failures));
+    return report;
 }
 
 void print_computing_times(const EnsembleOutcome& outcome) {

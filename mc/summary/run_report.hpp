@@ -1,33 +1,19 @@
-// Text report of a run: assumptions, detection rates, failures and computing times.
+// Report of a run, and its computing times for the terminal.
 #pragma once
 
-#include <array>
+#include <optional>
 
 #include "analysis/reliability.hpp"
+#include "analysis/report/report.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
 
-// Number of gearboxes by status. `diverged` counts every failure except those that did not converge
-// to the periodic steady state.
-struct RowCounts {
-    std::size_t all = 0, diverged = 0, not_converged = 0;
-    std::array<std::size_t, kStatuses> with_status{};
-
-    std::size_t failed() const { return diverged + not_converged; }
-};
-
-// Counts gearboxes. `records`: rows of each threshold gearbox
-// (DetectionRequest::threshold_records); only the first one counts.
-RowCounts count_rows(const RowSource& rows, std::size_t records);
-
-// Report with assumptions, detection rates, reliability and, if it was verified, the numerical
-// error.
-std::string results_text(const Results& frame, const RowSource& rows,
-                         const std::optional<analysis::Reliability>& reliability);
-
-void print_failures(const RowCounts& rows, int max_meshes);
+// Everything that a results file tells, in the order of the page. `frame.detection` must be up to
+// date (detect_all). `reliability` is empty if the ensemble is too large.
+analysis::Report results_report(const Results& frame, const RowSource& rows,
+                                const std::optional<analysis::Reliability>& reliability);
 
 // Prints the computing time by task, summed over all threads, with the least, mean and largest
 // value of a rank.

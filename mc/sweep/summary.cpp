@@ -10,10 +10,9 @@
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/ensemble/results_check.hpp"
-#include "mc/report/example_gearboxes.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/summary/run_report.hpp"
+#include "mc/summary/failures.hpp"
 #include "mc/sweep/columns.hpp"
 
 namespace gearpod::mc {
@@ -31,7 +30,7 @@ void add_levels(const Results& frame, const analysis::Reliability& reliability,
                 PointSummary& summary) {
     const double scale = 1.0 / frame.request.size.per_unit();
     for (std::size_t n = 0; n < frame.noise_levels.size(); ++n) {
-        LevelSummary level{frame.noise_levels[n], !without_threshold(reliability, n),
+        LevelSummary level{frame.noise_levels[n], !without_threshold(frame.detection, n),
                            smallest_fault(reliability, n)};
         if (level.smallest) {
             level.smallest->size *= scale;

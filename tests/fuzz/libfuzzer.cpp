@@ -87,7 +87,7 @@ const std::string& file_of(const std::string& bytes) {
         const FileRows rows(path, results);
         check_results(path, results, rows);
         results.detection = detect_all(results, rows);
-        static_cast<void>(results_text(results, rows, std::nullopt));
+        static_cast<void>(report_text(results_report(results, rows, std::nullopt)));
     } catch (const std::runtime_error&) {
     }
 }

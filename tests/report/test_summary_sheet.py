@@ -44,21 +44,6 @@ def text_areas(figure):
     return found
 
 
-class Sentences(unittest.TestCase):
-    def test_the_fault_is_named_as_the_study_names_it(self):
-        data = json.loads((CASES / "usual.json").read_text())
-        level = data["reliability"]["levels"][data["noise"]["reference"]]
-        found = level["smallest_fault"]
-        for fault, one, none in ((None, "A fault of", "No tested fault is"),
-                                 ("a chip", "A chip of", "No tested chip is"),
-                                 ("pitting", "Pitting of", "No tested pitting is")):
-            data["fault"] = fault
-            level["smallest_fault"] = found
-            self.assertTrue(headline.sentence(Report(data)).startswith(one))
-            level["smallest_fault"] = None
-            self.assertTrue(headline.sentence(Report(data)).startswith(none))
-
-
 class Sheets(unittest.TestCase):
     def test_everything_is_on_the_sheet_without_overlap(self):
         seen = 0

@@ -4,14 +4,15 @@ import math
 
 import blocks
 from charts import INK, MUTED, NOISY, PAPER, colour, dash, legend_below, panel, to_svg
-from words import Sizes, count, escape, number, p_value, percent, plural, rate
+from report import Findings
+from words import Sizes, escape, number, rate
 
 DIGITS = 4
 
 
-class Inspection:
+class Inspection(Findings):
     def __init__(self, data):
-        self.data = data
+        super().__init__(data)
         self.sizes = Sizes(data["size"])
         self.pod = data["hit_miss"] or data["signal_response"]
         self.value = data["value"]["name"]
@@ -19,19 +20,6 @@ class Inspection:
 
     def title(self):
         return f"{self.value} over {self.sizes.name}"
-
-    def size(self, estimate):
-        if estimate["where"] == "reached":
-            return self.sizes.text(estimate["size"], DIGITS)
-        below = estimate["where"] == "below_tested"
-        edge = self.pod["smallest"] if below else self.pod["largest"]
-        return ("< " if below else "> ") + self.sizes.text(edge, DIGITS)
-
-    def sentence(self):
-        if self.pod["refusal"]:
-            return f"No detection curve: {self.pod['refusal']}."
-        return (f"90 % of flaws of {self.size(self.pod['a90']['estimate'])} are found; the upper "
-                f"bound {self.bound} is {self.size(self.pod['a90']['upper'])}.")
 
 
 def _bars(points, parts=12):
@@ -66,14 +54,14 @@ def _curve(inspection, page):
     if upper["where"] == "reached":
         at = shown(upper["size"])
         axes.plot([at, at], [-0.02, 0.9], color=INK, linewidth=1)
-        axes.annotate(inspection.size(upper), (at, 0.05), xytext=(4, 0), textcoords="offset points",
+        axes.annotate(inspection.sizes.text(upper["size"], DIGITS), (at, 0.05), xytext=(4, 0), textcoords="offset points",
                       fontsize=9, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none",
                                                    "pad": 1.2, "alpha": 0.85})
     axes.set_ylim(-0.02, 1.03)
     axes.set_xlabel(inspection.sizes.axis())
     axes.set_ylabel("Probability of detection")
     legend_below(axes, 3)
-    svg = to_svg(figure, "Probability of detection over size", inspection.sentence(), page.names)
+    svg = to_svg(figure, "Probability of detection over size", inspection.text("headline"), page.names)
     rows = [[number(inspection.sizes.shown(s), DIGITS), rate(p), rate(low), rate(high)]
             for s, p, low, high in zip(pod["band"]["size"], column["pod"], column["lower"],
                                        column["upper"])]
@@ -135,62 +123,24 @@ def _trade_off(inspection, page):
     legend_below(axes, 2)
     svg = to_svg(figure, "What another threshold would trade",
                  "Detectable size against " + ("false calls" if known else "threshold"), page.names)
-    rows = [[number(p["threshold"], DIGITS),
-             number(p["false_calls"]) if p["false_calls"] is not None else "–",
-             inspection.size(p["a90"]["estimate"]), inspection.size(p["a90"]["upper"])]
-            for p in points]
     return page.figure("What another threshold would trade", [svg],
                        "A lower threshold finds smaller flaws, but gives more false calls.",
-                       blocks.table("By threshold", ["threshold", "false calls", "a90",
-                                                     inspection.bound], rows))
-
-
-def _facts(inspection):
-    data, pod = inspection.data, inspection.pod
-    rows = [["table", data["table"]], ["specimens", count(data["specimens"])],
-            ["repeated measurements", count(data["repeats"])], ["bounds", pod["bound"]]]
-    if not pod["refusal"]:
-        covariance = ", ".join(number(value, DIGITS) for value in pod["covariance"])
-        rows += [["curve", pod["model"]], ["location", number(pod["location"], 5)],
-                 ["scale", number(pod["scale"], 5)], ["their covariance", covariance]]
-        rows += [[check["test"], f"p {p_value(check['p_value'])}"]
-                 for check in (pod["candidates"][pod["chosen"]]["checks"]
-                               if data["signal_response"] else [])]
-        if data["hit_miss"]:
-            rows.append(["fit", pod["fit"]["test"]])
-    calls = data["false_calls"]
-    if calls["of"]:
-        rows.append(["false calls", f"{calls['calls']} of {calls['of']} "
-                     f"[{rate(calls['lower'])}, {rate(calls['upper'])}]"])
-    rows += [[f"noise, {law['law']}", f"false calls {number(law['at_threshold'])} "
-              f"(AIC {number(law['aic'], 5)})"] for law in calls["laws"]]
-    more = data["more_specimens"]
-    if more["target"] is not None and more["more"] is not None:
-        rows.append([f"more specimens for {inspection.bound} at "
-                     f"{inspection.sizes.text(more['target'], DIGITS)}", count(int(more["more"]))])
-    rows.append(["no miss at one size", f"{more['all_found']} specimens demonstrate POD 90 % at "
-                                        f"{percent(data['confidence'])}"])
-    return blocks.table("Data and method", ["entry", "value"], rows)
+                       inspection.table("trade_off"))
 
 
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     inspection = Inspection(data)
-    pod = inspection.pod
-    verdict = f'<p class="answer">{escape(inspection.sentence())}</p>'
-    if not pod["refusal"]:
-        rows = [[name, inspection.size(pod[name]["estimate"]), inspection.size(pod[name]["lower"]),
-                 inspection.size(pod[name]["upper"])] for name in ("a50", "a90")]
-        verdict += blocks.table("Sizes with their bounds", ["", "estimate", "lower", "upper"], rows)
-        for doubt in pod.get("doubts", []) + (["the goodness-of-fit test rejects the curve"]
-                                              if pod.get("doubtful") else []):
-            verdict += blocks.note(f"Warning: {doubt}")
+    verdict = (f'<p class="answer">{escape(inspection.text("headline"))}</p>'
+               + inspection.table("sizes") + inspection.notes("warning."))
     body = ""
-    if not pod["refusal"]:
+    if not inspection.pod["refusal"]:
         figures = _curve(inspection, page)
         if data["signal_response"]:
             figures += _responses(inspection, page) + _trade_off(inspection, page)
         body += page.section("detection", "Detection", figures)
-    body += page.section("facts", "Data and method", _facts(inspection)
-                         + blocks.paragraph(plural(len(data["data"]["size"]), "value") + "."))
-    return inspection.title(), inspection.sentence(), verdict, body
+    method = [inspection.text(block["key"]) for block in data["findings"][-1]["blocks"]
+              if "text" in block]
+    body += page.section("facts", "Data and method",
+                         blocks.bullets([inspection.text("bound")] + method))
+    return inspection.title(), inspection.text("headline"), verdict, body

@@ -3,7 +3,6 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/reliability_text.hpp"
 
 namespace test_false_alarm_text {
 

@@ -34,7 +34,7 @@ TEST_CASE(
     const Outcome report = program("report " + results);
     CHECK(report.output.starts_with("Too few healthy gearboxes for a false-alarm rate of 0.001"));
     CHECK(report.mentions("no threshold, so detection is unknown"));
-    CHECK(!report.mentions("no tested fault"));
+    CHECK(!report.mentions("No tested"));
     CHECK(!report.mentions("not reached"));
     REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
     const std::string page = test::bytes_of(folder.file("r.html"));
@@ -85,8 +85,8 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are 
     CHECK(two.mentions("need all three"));
     const Outcome all = program("report " + results + costs + " --fault-share 0.01");
     CHECK(all.code == 0);
-    CHECK(all.mentions("least expected cost by"));
-    CHECK(all.mentions("without any alarm 5"));  // one percent of 500
+    CHECK(all.mentions("Thresholds of least expected cost"));
+    CHECK(all.mentions("without any alarm"));
     CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
     const Outcome bad =
         program("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
@@ -112,8 +112,7 @@ TEST_CASE("Uncertainty left by a calibration is a separate band in text, data an
     REQUIRE(program("run " + uncertain + " --quiet --out " + results).code == 0);
     const Outcome report = program("report " + results);
     INFO(report.output);
-    CHECK(report.mentions(
-        "UNKNOWN properties of the machine, which more gearboxes do not resolve: noise"));
+    CHECK(report.mentions("Unknown for this machine: sensor noise."));
     const auto level =
         nlohmann::json::parse(program("report " + results + " --json -")
                                   .output)["reliability"]["features"][0]["levels"][0];

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/summary/run_report.hpp"
 
 namespace test_reliability_of_results {
 
@@ -62,7 +63,8 @@ TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text rep
     const auto none =
         reliability_of(r, ColumnRows(r), "", 2, 1999);  // one thousand gearboxes, 2 values each
     CHECK(!none);
-    CHECK_THAT(reliability_text(none, r), Catch::Contains("8388608 with these features"));
+    CHECK_THAT(report_text(results_report(r, ColumnRows(r), none)),
+               Catch::Contains("is limited to 8388608"));
 }
 
 }  // namespace test_reliability_of_results

@@ -1,0 +1,88 @@
+// Findings on detection as sections of a report: the answer, what limits it, and all rates, curves
+// and influences by noise level.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/reliability.hpp"
+#include "analysis/report/report.hpp"
+#include "analysis/report/subject.hpp"
+#include "analysis/smallest_fault.hpp"
+
+namespace gearpod::analysis {
+
+// Results that a report is about. References and spans must outlive the findings.
+struct AssessedDetection {
+    std::span<const FeatureDetection> detection;
+    const Reliability* reliability = nullptr;  // null: too many values for curves
+    const DetectionRequest& request;
+    Subject subject = Subject::gearboxes;
+    std::string fault = "a fault";        // with its article, if it has one: "a crack", "pitting"
+    std::size_t reference = 0;            // noise level shown first
+    std::vector<std::string> units = {};  // of the features; may be empty
+};
+
+// The results with the numbers that several sections need.
+struct Findings : AssessedDetection {
+    explicit Findings(const AssessedDetection& assessed);
+
+    long healthy = 0, faulty = 0;  // with a value, for the feature and noise level that have most
+    std::vector<std::optional<SmallestFault>> smallest;  // by noise level
+    std::vector<std::vector<std::size_t>> order;         // features by rank, by noise level
+    // Reason why detection cannot be assessed, or "".
+    std::string unassessable;
+
+    bool has_curves() const { return reliability != nullptr && unassessable.empty(); }
+    const LevelReliability& reliable(std::size_t feature, std::size_t level) const {
+        return reliability->features[feature].levels[level];
+    }
+    std::size_t levels() const { return request.noise_levels.size(); }
+    const std::string& name(std::size_t feature) const { return detection[feature].feature; }
+    std::size_t feature(const std::string& name) const;
+    std::string unit(std::size_t feature) const;
+    // Feature of the smallest fault, otherwise the best ranked one.
+    std::size_t best(std::size_t level) const;
+
+    std::string fault_name() const;                 // "crack"
+    std::string noise(std::size_t level) const;     // "noise x 1"; recordings have none: ""
+    std::string at_noise(std::size_t level) const;  // " at noise x 1" or ""
+    std::string probability() const;                // "90 % probability at 95 % confidence"
+    std::string bound() const;                      // "a90/95"
+    std::string percent() const;                    // "95 %": the confidence
+    std::string size(const SizeEstimate& estimate, const HitMissPod& pod) const;
+};
+
+// Sentence on the smallest fault found at a noise level, or why there is none.
+std::string headline_text(const Findings& findings, std::size_t level);
+// Misses of a feature: number, and the inputs that influence them significantly. "" where they
+// cannot be analysed.
+std::string misses_text(const Findings& findings, std::size_t feature, std::size_t level);
+// Range of a90 over the epistemic inputs, which more gearboxes do not narrow; "" without them.
+std::string unknown_text(const Findings& findings, std::size_t level);
+
+// The answer at the reference level, `assumptions` and `facts`, and the smallest fault by noise.
+Section headline_section(const Findings& findings, const std::string& assumptions,
+                         const std::string& facts);
+// What limits the answer. `numerical`: sentence on the numerical error of the answer's feature.
+Section limits_section(const Findings& findings, const std::string& numerical);
+// Everything at one noise level.
+Section level_section(const Findings& findings, std::size_t level);
+// Smallest reliable sizes from the rates alone, warnings.
+Section rates_section(const Findings& findings);
+// All features combined into one detector, by noise level.
+Section combined_section(const Findings& findings);
+// Thresholds and rates by the values of one input.
+Section conditions_section(const Findings& findings);
+
+// Adds the sections on detection other than the answer and its limits.
+void add_detection_sections(Report& report, const Findings& findings);
+
+// Parts of level_section().
+void add_detection(Section& section, const Findings& findings, std::size_t level);
+void add_curves(Section& section, const Findings& findings, std::size_t level);
+void add_influences(Section& section, const Findings& findings, std::size_t level);
+
+}  // namespace gearpod::analysis

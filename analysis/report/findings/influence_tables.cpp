@@ -1,0 +1,338 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "analysis/report/findings/findings.hpp"
+#include "analysis/report/wording.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kNamedShare = 0.01;  // smallest share of the variance for which an input is named
+
+std::string miss_count(const MissSensitivity& misses) {
+    return fmt::format("{} of {}", misses.misses, misses.misses + misses.hits);
+}
+
+// Inputs of the missed gearboxes of every feature.
+void add_misses(Section& section, const Findings& findings, std::size_t n) {
+    for (const std::size_t f : findings.order[n]) {
+        const MissSensitivity& misses = findings.reliable(f, n).misses;
+        if (!misses.refusal.empty()) {
+            continue;
+        }
+        section.state(fmt::format("misses.{}.{}", n, f), misses_text(findings, f, n));
+        Table table{
+            fmt::format("miss_inputs.{}.{}", n, f),
+            fmt::format("{}{}, {}: {} missed", findings.name(f), findings.at_noise(n),
+                        range_text({misses.smallest, misses.largest}, findings.request.size),
+                        miss_count(misses)),
+            {"input", "probability that missed is larger", "p, adjusted"},
+            {},
+            true};
+        for (const InputInfluence& input : misses.inputs) {
+            table.rows.push_back({input_name(input.name, input.unit),
+                                  rate_text(input.larger_in_misses, input.bounds),
+                                  p_text(input.p_value)});
+        }
+        section.add(std::move(table));
+    }
+}
+
+// Inputs with bins in order of significance.
+std::vector<const InputEffect*> effects_of(const InputEffects& effects) {
+    std::vector<const InputEffect*> sorted;
+    for (const InputEffect& effect : effects.inputs) {
+        if (!effect.bins.empty()) {
+            sorted.push_back(&effect);
+        }
+    }
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) {
+        return !std::isnan(a->p_value) &&
+               (std::isnan(b->p_value) || a->p_value < b->p_value ||
+                (a->p_value == b->p_value && a->statistic > b->statistic));
+    });
+    return sorted;
+}
+
+std::string bin_text(const InputBin& bin) {
+    return rate_text(bin.pd, bin.bounds);
+}
+
+// Detection at low and high values of each significant input.
+Table effect_table(const Findings& findings, std::size_t f, std::size_t n) {
+    const LevelReliability& level = findings.reliable(f, n);
+    const SizeUnit& unit = findings.request.size;
+    const std::string shown = unit.shown_unit();
+    Table table{fmt::format("effects.{}", n),
+                fmt::format("{} by random input: Pd at {} in the lowest and highest fifth of each "
+                            "significant input; a90{} at its 5, 50 and 95 % quantiles",
+                            findings.name(f),
+                            range_text({level.inputs.smallest, level.inputs.largest}, unit),
+                            shown.empty() ? "" : " in " + shown),
+                {"input", "from", "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p"},
+                {}};
+    const auto a90 = [&](const SizeBounds& bounds) {
+        return findings.size(bounds.estimate, level.hit_miss);
+    };
+    for (const InputEffect* effect : effects_of(level.inputs)) {
+        if (effect->p_value < kTestLevel) {
+            const std::string unit_shown = quantity_unit(effect->unit);
+            table.rows.push_back(
+                {input_name(effect->name, effect->unit) +
+                     (unit_shown.empty() ? "" : ", " + unit_shown),
+                 number_text(effect->bins.front().middle), number_text(effect->bins.back().middle),
+                 bin_text(effect->bins.front()), bin_text(effect->bins.back()),
+                 a90(effect->a90.front()), a90(effect->a90[effect->a90.size() / 2]),
+                 a90(effect->a90.back()), p_text(effect->p_value)});
+        }
+    }
+    return table;
+}
+
+std::string effects_text(const Findings& findings, std::size_t f, std::size_t n) {
+    std::vector<std::string> clear;
+    const auto effects = effects_of(findings.reliable(f, n).inputs);
+    for (const InputEffect* effect : effects) {
+        if (effect->p_value < kTestLevel) {
+            clear.push_back(input_name(effect->name, effect->unit));
+        }
+    }
+    return effects.empty() ? ""
+           : clear.empty() ? fmt::format(
+                                 "The detection curve of {} does not change significantly "
+                                 "with any input.",
+                                 findings.name(f))
+                           : fmt::format(
+                                 "The detection curve of {} changes significantly with {} "
+                                 "(likelihood ratio, 5 % for all inputs together).",
+                                 findings.name(f), joined(clear));
+}
+
+// Rates in bins of every input, and a90 over noise and input.
+void add_input_details(Section& section, const Findings& findings, std::size_t f, std::size_t n) {
+    const SizeUnit& size = findings.request.size;
+    for (const InputEffect* effect : effects_of(findings.reliable(f, n).inputs)) {
+        const std::string& unit = effect->unit;
+        const std::string name = input_name(effect->name, unit);
+        Table bins{"bins." + effect->name,
+                   fmt::format("{}, {} ({})", findings.name(f), name,
+                               std::isnan(effect->p_value)
+                                   ? "no test: " + effect->refusal
+                                   : fmt::format("p {}, adjusted", p_text(effect->p_value))),
+                   {"input", "found", "detection rate"},
+                   {},
+                   true};
+        for (const InputBin& bin : effect->bins) {
+            bins.rows.push_back(
+                {quantity_text(bin.low, unit) + " to " + quantity_text(bin.high, unit),
+                 fmt::format("{} of {}", bin.detected, bin.tested), bin_text(bin)});
+        }
+        section.add(std::move(bins));
+        Table map{"a90_map." + effect->name,
+                  in_unit(fmt::format("a90 of {} by {}", findings.name(f), name), size),
+                  {"noise", "input", "a90", "lower bound", "upper bound"},
+                  {},
+                  true};
+        for (std::size_t level = 0; level < findings.levels(); ++level) {
+            const LevelReliability& at = findings.reliable(f, level);
+            const std::string noise = "x " + number_text(findings.request.noise_levels[level]);
+            for (const InputEffect& other : at.inputs.inputs) {
+                if (other.name != effect->name) {
+                    continue;
+                }
+                for (std::size_t i = 0; i < other.a90.size(); ++i) {
+                    const SizeBounds& a90 = other.a90[i];
+                    map.rows.push_back({noise, quantity_text(other.values[i], unit),
+                                        findings.size(a90.estimate, at.hit_miss),
+                                        findings.size(a90.lower, at.hit_miss),
+                                        findings.size(a90.upper, at.hit_miss)});
+                }
+                if (!other.refusal.empty()) {
+                    map.rows.push_back({noise, other.refusal, "-", "-", "-"});
+                }
+            }
+        }
+        section.add(std::move(map));
+    }
+}
+
+std::string index_text(const SobolIndex& index) {
+    return fmt::format("{} {} alone and {} with interactions", input_name(index.name, index.unit),
+                       rate_text(index.first.share, index.first.bounds),
+                       rate_text(index.total, index.total_bounds));
+}
+
+// Shares of the variance of the misses of the best ranked feature.
+void add_shares(Section& section, const Findings& findings, std::size_t n) {
+    const LevelSensitivity& given = findings.reliability->sensitivities[n];
+    if (given.feature.empty()) {
+        return;
+    }
+    if (const SobolIndices& misses = given.misses; misses.refusal.empty()) {
+        std::vector<std::string> named;
+        for (const SobolIndex& index : misses.inputs) {
+            if (index.first.bounds.lower > kNamedShare || index.total_bounds.lower > kNamedShare) {
+                named.push_back(index_text(index));
+            }
+        }
+        section.state(
+            fmt::format("shares.{}", n),
+            fmt::format("Share of the variance of the misses of {} at {} ({} {}; Sobol indices): "
+                        "{}; all inputs together {}; the rest is due to noise.",
+                        given.feature, range_text(given.sizes, findings.request.size), misses.count,
+                        many(findings.subject),
+                        named.empty() ? "no input above 0.01" : joined(named),
+                        rate_text(misses.explained)));
+    }
+    if (n != findings.reference) {
+        return;
+    }
+    for (const auto& [key, what, indices] :
+         {std::tuple{"misses", "whether it is missed", &given.misses},
+          std::tuple{"values", "the feature's value", &given.values}}) {
+        Table table{
+            fmt::format("shares.{}", key),
+            fmt::format("{}: {} {}, {} terms explain {}", what, indices->count,
+                        many(findings.subject), indices->terms, percent_text(indices->explained)),
+            {"input", "alone", "with interactions"},
+            {},
+            true};
+        for (const SobolIndex& index : indices->inputs) {
+            table.rows.push_back({input_name(index.name, index.unit),
+                                  rate_text(index.first.share, index.first.bounds),
+                                  rate_text(index.total, index.total_bounds)});
+        }
+        section.add(std::move(table));
+    }
+}
+
+std::string bound_text_of(const Findings& findings, const HeldOutDetector& detector) {
+    return detector.pod.refusal.empty() ? findings.size(detector.pod.a90.upper, detector.pod)
+                                        : "no curve";
+}
+
+Table weight_table(const Findings& findings, const CombinedDetector& combined, std::size_t n) {
+    std::vector<FeatureWeight> weights = combined.weights;
+    std::stable_sort(weights.begin(), weights.end(), [](const auto& a, const auto& b) {
+        return std::abs(a.weight) > std::abs(b.weight);
+    });
+    Table table{fmt::format("weights.{}", n),
+                fmt::format("Weights{}, in log odds per standard deviation", findings.at_noise(n)),
+                {"feature", "weight"},
+                {},
+                true};
+    for (const FeatureWeight& weight : weights) {
+        table.rows.push_back({weight.name, number_text(weight.weight)});
+    }
+    return table;
+}
+
+}  // namespace
+
+std::string misses_text(const Findings& findings, std::size_t feature, std::size_t level) {
+    const MissSensitivity& misses = findings.reliable(feature, level).misses;
+    if (!misses.refusal.empty()) {
+        return "";
+    }
+    constexpr std::size_t kMostNamed = 3;
+    std::vector<std::string> named;
+    for (const InputInfluence& input : misses.inputs) {
+        if (input.p_value < kTestLevel && named.size() < kMostNamed) {
+            const bool larger = input.larger_in_misses >= 0.5;
+            named.push_back(fmt::format(
+                "{} {} ({} %{})", larger ? "larger" : "smaller", input_name(input.name, input.unit),
+                number_text(
+                    100.0 * (larger ? input.larger_in_misses : 1.0 - input.larger_in_misses), 2),
+                named.empty() ? " of pairs, 50 % is chance" : ""));
+        }
+    }
+    return fmt::format("Misses of {} at {} ({}): {}.", findings.name(feature),
+                       range_text({misses.smallest, misses.largest}, findings.request.size),
+                       miss_count(misses),
+                       named.empty() ? "no random input has a significant influence"
+                                     : fmt::format("the missed {} tends to have the {}",
+                                                   one(findings.subject), joined(named)));
+}
+
+void add_influences(Section& section, const Findings& findings, std::size_t level) {
+    if (!has_sizes(findings.request)) {
+        return;
+    }
+    add_misses(section, findings, level);
+    const std::size_t best = findings.best(level);
+    section.state(fmt::format("effects_text.{}", level), effects_text(findings, best, level));
+    section.add(effect_table(findings, best, level));
+    if (level == findings.reference) {
+        add_input_details(section, findings, best, level);
+    }
+    add_shares(section, findings, level);
+}
+
+Section combined_section(const Findings& findings) {
+    Section section{"combined", "All features as one detector", {}};
+    if (!findings.has_curves() || !has_sizes(findings.request)) {
+        return section;
+    }
+    Table table{"combined",
+                "Performance on held-out " + many(findings.subject),
+                {"noise", "best single", "its area", "combined area", "p of equal areas",
+                 findings.bound() + " single", findings.bound() + " combined"},
+                {}};
+    std::vector<std::string> better, left, refused;
+    const auto note = [&](const std::string& line) {
+        if (std::ranges::count(left, line) == 0) {
+            left.push_back(line);
+        }
+    };
+    std::vector<Table> weights;
+    for (std::size_t n = 0; n < findings.levels(); ++n) {
+        const CombinedDetector& both = findings.reliability->combined[n];
+        if (!both.refusal.empty()) {
+            refused.push_back(
+                fmt::format("No combined detector{}: {}.", findings.at_noise(n), both.refusal));
+            continue;
+        }
+        if (both.p_value < kTestLevel && both.combined.auc.auc > both.single.auc.auc) {
+            better.push_back(findings.noise(n));
+        }
+        table.rows.push_back(
+            {"x " + number_text(findings.request.noise_levels[n]), both.single.name,
+             area_text(both.single.auc.auc, both.single.auc.bounds),
+             area_text(both.combined.auc.auc, both.combined.auc.bounds), p_text(both.p_value),
+             bound_text_of(findings, both.single), bound_text_of(findings, both.combined)});
+        weights.push_back(weight_table(findings, both, n));
+        std::ranges::for_each(both.left_out, note);
+        std::ranges::for_each(both.warnings, note);
+    }
+    if (!table.rows.empty()) {
+        section.state("combined.text",
+                      "All features combined into one detector (logistic regression), trained on "
+                      "half of the " +
+                          many(findings.subject) +
+                          " and tested on the other half, compared with the best single feature. " +
+                          (better.empty()
+                               ? "The combination is not significantly better than the best single "
+                                 "feature."
+                           : findings.subject == Subject::recordings
+                               ? "The combination is significantly better."
+                               : fmt::format("The combination is significantly better at {}.",
+                                             joined(better))));
+    }
+    section.add(std::move(table));
+    for (Table& of_level : weights) {
+        section.add(std::move(of_level));
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        section.state(fmt::format("combined.note.{}", i), "Combined detector: " + left[i] + ".");
+    }
+    for (std::size_t i = 0; i < refused.size(); ++i) {
+        section.state(fmt::format("combined.refused.{}", i), refused[i]);
+    }
+    return section;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,265 @@
+#include "analysis/report/inspection_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/report/wording.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr int kDigits = 4;
+
+// What both kinds of curve have in common.
+struct FittedCurve {
+    const std::string& refusal;
+    const SizeBounds &a50, &a90;
+    double smallest, largest;
+    const BoundRule& rule;
+    double location, scale;
+    const Eigen::Matrix2d& covariance;
+    bool log_size;
+};
+
+FittedCurve curve_of(const HitMissPod& pod) {
+    const PodCurve& curve = pod.chosen.curve;
+    return {pod.refusal,
+            pod.a50,
+            pod.a90,
+            pod.smallest,
+            pod.largest,
+            pod.rule,
+            -curve.intercept / curve.slope,
+            1.0 / curve.slope,
+            pod.covariance,
+            curve.form.log_size};
+}
+
+FittedCurve curve_of(const SignalResponsePod& pod) {
+    const bool fitted = pod.refusal.empty();
+    return {pod.refusal,
+            pod.a50,
+            pod.a90,
+            pod.band.empty() ? kNan : pod.band.front().size,
+            pod.band.empty() ? kNan : pod.band.back().size,
+            pod.rule,
+            pod.curve.location,
+            pod.curve.scale,
+            pod.curve.covariance,
+            fitted && pod.candidates[pod.chosen].scale.log_size};
+}
+
+std::string size_text(const SizeEstimate& estimate, const FittedCurve& curve,
+                      const SizeUnit& unit) {
+    return size_estimate_text(estimate, curve.smallest, curve.largest, unit, kDigits);
+}
+
+std::string bound_name(const InspectionRequest& request) {
+    return "a90/" + number_text(100.0 * request.confidence);
+}
+
+Section inspection_headline(const InspectionRequest& request, const FittedCurve& curve,
+                            const SizeUnit& unit) {
+    Section section{"headline", "", {}};
+    if (!curve.refusal.empty()) {
+        section.state("headline", fmt::format("No detection curve: {}.", curve.refusal));
+        return section;
+    }
+    const std::string shown = unit.shown_unit();
+    const auto text = [&](const SizeEstimate& estimate) {
+        return size_text(estimate, curve, unit) + (shown.empty() ? "" : " " + shown);
+    };
+    section.state(
+        "headline",
+        fmt::format("90 % of flaws of {} are found; the upper bound {} is {}.",
+                    text(curve.a90.estimate), bound_name(request), text(curve.a90.upper)));
+    Table table{"sizes",
+                "Sizes with their bounds" + (shown.empty() ? "" : " (" + shown + ")"),
+                {"size", "estimate", "lower bound", "upper bound"},
+                {}};
+    for (const auto& [name, bounds] :
+         {std::pair{"a50", &curve.a50}, std::pair{"a90", &curve.a90}}) {
+        table.rows.push_back({name, size_text(bounds->estimate, curve, unit),
+                              size_text(bounds->lower, curve, unit),
+                              size_text(bounds->upper, curve, unit)});
+    }
+    section.add(std::move(table));
+    section.state("bound", fmt::format("{} is the upper bound of a90: {}{}.", bound_name(request),
+                                       bound_text(curve.rule),
+                                       request.convention == BoundConvention::handbook
+                                           ? " (the handbook's convention, MIL-HDBK-1823A)"
+                                           : ""));
+    return section;
+}
+
+std::string parameters_text(const FittedCurve& curve) {
+    const Eigen::Matrix2d& covariance = curve.covariance;
+    return fmt::format(
+        "Location {}, scale {} of the {}{}.", number_text(curve.location, 6),
+        number_text(curve.scale, 6), curve.log_size ? "size's natural logarithm" : "size",
+        covariance.allFinite()
+            ? fmt::format("; covariance {}, {}, {}", number_text(covariance(0, 0), kDigits),
+                          number_text(covariance(0, 1), kDigits),
+                          number_text(covariance(1, 1), kDigits))
+            : "");
+}
+
+void add_hits(Section& section, const InspectionResult& result) {
+    const HitMissPod& pod = result.hit_miss;
+    if (!pod.refusal.empty()) {
+        section.state("firth", pod.refusal.find("do not overlap") == std::string::npos
+                                   ? ""
+                                   : "Firth's penalty (--firth) fits such outcomes.");
+        return;
+    }
+    const PodCurve& curve = pod.chosen.curve;
+    section.state(
+        "curve",
+        fmt::format("Curve: {}{}; {}; the bounds cover {} of {} candidate curves.",
+                    form_text(curve.form),
+                    curve.form.free_ceiling ? " at " + number_text(curve.ceiling) : "",
+                    fit_text(pod.chosen.fit), pod.supported.size(), pod.candidates.size()));
+    section.state("parameters", parameters_text(curve_of(pod)));
+    section.state("warning.0",
+                  pod.doubtful ? "Warning: the goodness-of-fit test rejects the curve." : "");
+    section.state("repeats",
+                  result.repeats > 0
+                      ? "Repeated outcomes of one specimen are correlated: the bounds are Wald "
+                        "bounds with cluster-robust covariance."
+                      : "");
+}
+
+void add_line(Section& section, const InspectionRequest& request, const InspectionResult& result,
+              const InspectionNames& names) {
+    const SignalResponsePod& pod = result.signal_response;
+    section.state("threshold",
+                  fmt::format("Decision threshold: {} {} {}; censored: {} below, {} above.",
+                              names.value, alarm_symbol(request.alarm),
+                              quantity_text(result.threshold, names.unit, 6), pod.left, pod.right));
+    if (!pod.refusal.empty()) {
+        section.state("scales",
+                      pod.candidates.empty()
+                          ? ""
+                          : "To fit anyway, give both --size-scale and --response-scale.");
+        return;
+    }
+    const SignalResponseFit& fit = pod.candidates[pod.chosen];
+    section.state(
+        "curve",
+        fmt::format("Line: {}, intercept {}, slope {}, scatter {}{}.", fit.scale.text(),
+                    number_text(fit.model.intercept, 6), number_text(fit.model.slope, 6),
+                    number_text(fit.model.sigma, 6),
+                    fit.model.between > 0.0 ? fmt::format(" ({} between specimens, {} within)",
+                                                          number_text(fit.model.between, 6),
+                                                          number_text(fit.model.within, 6))
+                                            : ""));
+    section.state("parameters", parameters_text(curve_of(pod)));
+    for (std::size_t i = 0; i < fit.doubts.size(); ++i) {
+        section.state(fmt::format("warning.{}", i), "Warning: " + fit.doubts[i] + ".");
+    }
+}
+
+void add_false_calls(Section& section, const InspectionRequest& request,
+                     const InspectionResult& result) {
+    if (result.without_flaw == 0) {
+        return;
+    }
+    section.state("false_calls",
+                  fmt::format("False calls: {} of {} without flaw, [{}, {}] (Clopper-Pearson).",
+                              result.false_calls, result.without_flaw,
+                              rate_text(result.false_call_bounds.lower),
+                              rate_text(result.false_call_bounds.upper)));
+    for (std::size_t i = 0; i < result.noise.size(); ++i) {
+        const NoiseDistribution& law = result.noise[i];
+        const bool high = request.alarm == Alarm::high;
+        section.state(
+            fmt::format("noise.{}", i),
+            fmt::format(
+                "Noise: {} distribution ({}, {}), false-call probability {} (AIC {}).",
+                noise_distribution_name(law.kind), number_text(law.first, 5),
+                number_text(law.second, 5),
+                number_text(high ? law.above(result.threshold) : law.below(result.threshold)),
+                number_text(law.aic, 5)),
+            i > 0);
+    }
+}
+
+Table trade_off_table(const InspectionRequest& request, const InspectionResult& result,
+                      const SizeUnit& unit) {
+    Table table{
+        "trade_off",
+        "By threshold: false calls against detectable size",
+        {"threshold", "false calls", in_unit("a90", unit), in_unit(bound_name(request), unit)},
+        {}};
+    if (result.trade_off.empty()) {
+        return table;
+    }
+    const FittedCurve curve = curve_of(result.signal_response);
+    constexpr std::size_t kShown = 8;
+    const std::size_t step = std::max<std::size_t>(1, result.trade_off.size() / kShown);
+    for (std::size_t i = 0; i < result.trade_off.size(); i += step) {
+        const TradeOffPoint& point = result.trade_off[i];
+        table.rows.push_back({number_text(point.threshold, 5), number_text(point.false_calls),
+                              size_text(point.a90.estimate, curve, unit),
+                              size_text(point.a90.upper, curve, unit)});
+    }
+    return table;
+}
+
+std::string target_text(const InspectionRequest& request, const InspectionResult& result,
+                        const SizeUnit& unit) {
+    if (!request.target) {
+        return "";
+    }
+    const double factor = request.responses ? result.signal_response.specimens_factor
+                                            : result.hit_miss.specimens_factor;
+    const std::string bound = bound_name(request),
+                      target = with_unit(*request.target, unit, kDigits);
+    if (!std::isfinite(factor)) {
+        return fmt::format("More specimens cannot bring {} to {}: a90 itself is not below it.",
+                           bound, target);
+    }
+    if (factor <= 1.0) {
+        return fmt::format("{} is already below {}.", bound, target);
+    }
+    return fmt::format(
+        "For {} at {}, {:.0f} more specimens like these {} are needed ({} times as many).", bound,
+        target, std::ceil((factor - 1.0) * static_cast<double>(result.specimens)), result.specimens,
+        number_text(factor));
+}
+
+}  // namespace
+
+Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
+                         const InspectionNames& names) {
+    Section method{"method", "", {}};
+    method.state("table",
+                 fmt::format("{}: {} over {}, {} specimens{}.", names.table, names.value,
+                             names.size.name, result.specimens,
+                             result.repeats > 0
+                                 ? fmt::format(" and {} repeated measurements", result.repeats)
+                                 : ""));
+    if (request.responses) {
+        add_line(method, request, result, names);
+    } else {
+        add_hits(method, result);
+    }
+    add_false_calls(method, request, result);
+    method.add(trade_off_table(request, result, names.size));
+    method.state("all_found",
+                 fmt::format("At a single size, {} specimens without a miss demonstrate a POD of "
+                             "90 % at {} confidence.",
+                             result.all_found, percent_text(request.confidence)));
+    method.state("target", target_text(request, result, names.size));
+    Report report;
+    report.add(inspection_headline(
+        request, request.responses ? curve_of(result.signal_response) : curve_of(result.hit_miss),
+        names.size));
+    report.add(std::move(method));
+    return report;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,25 @@
+// Findings of a table of inspections as a report.
+#pragma once
+
+#include <string>
+
+#include "analysis/inspection.hpp"
+#include "analysis/report/report.hpp"
+
+namespace gearpod::analysis {
+
+// Names that the report uses.
+struct InspectionNames {
+    std::string table;  // file of the table
+    SizeUnit size;      // name and unit of the size column
+    std::string value;  // name of the measured value
+    std::string unit;   // unit of responses; may be empty
+};
+
+// The sizes with POD 50 and 90 % with their bounds and the rule of the bounds, the curve with its
+// parameters and warnings, false calls, the trade-off over thresholds, and the number of further
+// specimens needed. `result` has no refusal.
+Report inspection_report(const InspectionRequest& request, const InspectionResult& result,
+                         const InspectionNames& names);
+
+}  // namespace gearpod::analysis

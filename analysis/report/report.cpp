@@ -1,0 +1,150 @@
+#include "analysis/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/report/text_lines.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr std::size_t kGap = 2;         // columns between cells
+constexpr std::size_t kWordyCell = 24;  // longer cells of a last column are wrapped
+constexpr std::size_t kLeastWords = 30;
+
+// Layout of a table on the terminal.
+class TableLines {
+  public:
+    explicit TableLines(const Table& table) : table_(table) {
+        for (std::size_t c = 0; c < table.columns.size(); ++c) {
+            std::size_t width = table.columns[c].size();
+            for (const auto& row : table.rows) {
+                width = std::max(width, row[c].size());
+            }
+            widths_.push_back(width);
+        }
+        wordy_ = widths_.size() > 1 && widths_.back() > kWordyCell;
+    }
+
+    void add_to(std::string& out) const {
+        std::size_t next = std::min(table_.labels, widths_.size());
+        do {
+            out += next > table_.labels ? "\n" : "";
+            const std::vector<std::size_t> columns = block_from(next);
+            add_row(out, table_.columns, columns);
+            for (const auto& row : table_.rows) {
+                add_row(out, row, columns);
+            }
+            next = columns.back() + 1;
+        } while (next < widths_.size());
+    }
+
+  private:
+    bool is_wordy(std::size_t column) const { return wordy_ && column + 1 == widths_.size(); }
+
+    std::size_t space(std::size_t column) const {
+        return (column == 0 ? 0 : kGap) +
+               (is_wordy(column) ? std::min(widths_[column], kLeastWords) : widths_[column]);
+    }
+
+    // The label columns and as many others from `next` on as fit, at least one.
+    std::vector<std::size_t> block_from(std::size_t next) const {
+        std::vector<std::size_t> columns;
+        std::size_t width = 0;
+        for (std::size_t c = 0; c < std::min(table_.labels, widths_.size()); ++c) {
+            columns.push_back(c);
+            width += space(c);
+        }
+        for (bool first = true;
+             next < widths_.size() && (first || width + space(next) <= text_width());
+             first = false) {
+            width += space(next);
+            columns.push_back(next++);
+        }
+        return columns;
+    }
+
+    void add_row(std::string& out, const std::vector<std::string>& cells,
+                 const std::vector<std::size_t>& columns) const {
+        std::string line;
+        std::size_t indent = 0;
+        for (const std::size_t c : columns) {
+            line += c == 0 ? "" : std::string(kGap, ' ');
+            indent = line.size();
+            line += c == 0        ? fmt::format("{:<{}}", cells[c], widths_[c])
+                    : is_wordy(c) ? cells[c]
+                                  : fmt::format("{:>{}}", cells[c], widths_[c]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        if (is_wordy(columns.back())) {
+            add_wrapped(out, line, indent);
+        } else {
+            out += line + '\n';
+        }
+    }
+
+    const Table& table_;
+    std::vector<std::size_t> widths_;
+    bool wordy_ = false;
+};
+
+void add_block(std::string& out, const Statement& statement, bool& after_table) {
+    out += after_table ? "\n" : "";
+    add_wrapped(out, statement.text, 2);
+    after_table = false;
+}
+
+void add_block(std::string& out, const Table& table, bool& after_table) {
+    out += '\n';
+    if (!table.title.empty()) {
+        add_wrapped(out, table.title, 2);
+    }
+    TableLines(table).add_to(out);
+    after_table = true;
+}
+
+}  // namespace
+
+void Section::state(const std::string& statement_key, const std::string& text, bool detail) {
+    if (!text.empty()) {
+        blocks.emplace_back(Statement{statement_key, text, detail});
+    }
+}
+
+void Section::add(Table table) {
+    if (!table.rows.empty()) {
+        blocks.emplace_back(std::move(table));
+    }
+}
+
+void Report::add(Section section) {
+    if (!section.blocks.empty()) {
+        sections.push_back(std::move(section));
+    }
+}
+
+std::string report_text(const Report& report) {
+    std::string out;
+    for (const Section& section : report.sections) {
+        std::string body;
+        bool after_table = false;
+        for (const auto& block : section.blocks) {
+            std::visit(
+                [&](const auto& shown) {
+                    if (!shown.detail) {
+                        add_block(body, shown, after_table);
+                    }
+                },
+                block);
+        }
+        if (!body.empty()) {
+            out += out.empty() ? "" : "\n";
+            out += section.title.empty() ? body : section.title + '\n' + body;
+        }
+    }
+    return out;
+}
+
+}  // namespace gearpod::analysis

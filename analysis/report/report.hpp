@@ -1,0 +1,51 @@
+// A report: every finding in its final words, as statements and tables in sections. Analysis fills
+// it once; the terminal, the JSON, the page and the PDF render it and word nothing themselves.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gearpod::analysis {
+
+// A finding as one or more sentences. Plain text: "noise x 1", "2e-06 m/s^2"; a page may set the
+// signs in its own type.
+struct Statement {
+    std::string key;  // name in the JSON, unique in a report, for example "headline" or "ranking.1"
+    std::string text;
+    bool detail = false;  // not on the terminal
+};
+
+// Cells hold the text shown; the JSON has the numbers under keys of their own.
+struct Table {
+    std::string key;  // as in Statement
+    std::string title;
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;
+    bool detail = false;     // not on the terminal
+    std::size_t labels = 1;  // first columns, repeated if a wide table is broken
+};
+
+struct Section {
+    std::string key;
+    std::string title;  // "" for none
+    std::vector<std::variant<Statement, Table>> blocks;
+
+    // Adds a statement, unless its text is empty.
+    void state(const std::string& statement_key, const std::string& text, bool detail = false);
+    // Adds a table, unless it has no rows.
+    void add(Table table);
+};
+
+struct Report {
+    std::vector<Section> sections;
+
+    // Adds a section, unless it is empty.
+    void add(Section section);
+};
+
+// Text for the terminal, at most text_width() columns wide. Tables that are wider continue in
+// further blocks. Ends with a newline.
+std::string report_text(const Report& report);
+
+}  // namespace gearpod::analysis
