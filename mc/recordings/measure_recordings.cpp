@@ -63,7 +63,7 @@ const char* label_of(Condition condition) {
                                             : "";
 }
 
-std::string number_text(double value) {
+std::string field_text(double value) {
     return std::isfinite(value) ? fmt::format("{:.10g}", value) : "";
 }
 
@@ -161,16 +161,16 @@ std::string recordings_csv(const RecordingList& list,
         out += fmt::format("{},{},{},{}", quoted_field(recording.file),
                            recording.row ? std::to_string(*recording.row) : "",
                            quoted_field(recording.gearbox), label_of(recording.condition));
-        out += list.time ? "," + number_text(recording.time) : "";
-        out += list.size ? "," + (recording.size ? number_text(shown_size(list, *recording.size))
+        out += list.time ? "," + field_text(recording.time) : "";
+        out += list.size ? "," + (recording.size ? field_text(shown_size(list, *recording.size))
                                                  : std::string())
                          : "";
         for (const double input : recording.inputs) {
-            out += "," + number_text(input);
+            out += "," + field_text(input);
         }
         for (std::size_t f = 0; f < features.size(); ++f) {
             out += "," + (measured[i].values.empty() ? std::string()
-                                                     : number_text(measured[i].values[f]));
+                                                     : field_text(measured[i].values[f]));
         }
         out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted_field(measured[i].problem));
     }

@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <sstream>
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/text_table.hpp"
+#include "mc/input/document.hpp"
+#include "mc/input/document.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -112,15 +113,6 @@ struct Element {
     const TableJson* value;
     std::string key;
 };
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, separator);) {
-        parts.push_back(part);
-    }
-    return parts;
-}
 
 // Value at a path such as "/fit/p_value"; null if there is none.
 const TableJson& value_at(const TableJson& from, const std::string& path) {

@@ -10,7 +10,7 @@ namespace gearpod::mc {
 namespace {
 
 // Shortest decimal number in the file's unit that converts back to exactly `si`.
-std::string number_text(double si, double to_si) {
+std::string value_text(double si, double to_si) {
     if (si == 0.0) {
         return "0";  // without the sign: "-0" would be read as an integer and lose it
     }
@@ -54,7 +54,7 @@ class ValueText {
 
     std::string operator()(const NumberAccess& access) const {
         const auto value = access.get(study_);
-        return value ? number_text(*value, key_.unit.to_si) : "";
+        return value ? value_text(*value, key_.unit.to_si) : "";
     }
     std::string operator()(const IntegerAccess& access) const {
         const auto value = access.get(study_);
@@ -71,7 +71,7 @@ class ValueText {
     std::string operator()(const NumbersAccess& access) const {
         std::vector<std::string> texts;
         for (const double value : access.get(study_)) {
-            texts.push_back(number_text(value, key_.unit.to_si));
+            texts.push_back(value_text(value, key_.unit.to_si));
         }
         return in_brackets(texts);
     }
