@@ -93,8 +93,9 @@ class Simulator {
             values.emplace_back();
             const std::vector<int>& lengths = lengths_[item.gearbox];
             for (std::size_t record = 0; record < lengths.size(); ++record) {
-                Philox engine =
-                    gearbox_stream(scene_.study(), id, fmt::format("calibrate.{}.{}", k, record));
+                Philox engine = gearbox_stream(scene_.study(), id,
+                                               with_suffix(StreamPurpose::calibration_record,
+                                                           fmt::format("{}.{}", k, record)));
                 values.back().push_back(measured_values(
                     scene_, record_with_background(bare, tones, inputs, lengths[record], engine),
                     summary_.features()));
@@ -146,7 +147,8 @@ std::vector<std::vector<double>> places(const Study& study, std::span<const Cali
     std::vector<std::vector<double>> all(backgrounds, std::vector<double>(inputs.size()));
     for (std::size_t p = 0; p < inputs.size(); ++p) {
         Philox engine =
-            gearbox_stream(study, {Group::threshold, number}, "calibrate.prior." + inputs[p].key);
+            gearbox_stream(study, {Group::threshold, number},
+                           with_suffix(StreamPurpose::calibration_prior, inputs[p].key));
         for (std::size_t k = 0; k < backgrounds; ++k) {
             all[k][p] = k > 0 && !inputs[p].independent_of_motion()
                             ? all[0][p]

@@ -213,7 +213,7 @@ Results synthetic_results(const Study& study, const RunCost& calibration, const 
         const GearboxId id = id_of_row(study, static_cast<long>(i * gearboxes_of(plan) / rows));
         const std::vector<double> parameters = sampler.row(id);
         Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
-                      parameter_id("analysis.trial"));
+                      StreamPurpose::forecast_rows);
         boost::random::normal_distribution<double> normal;
         const Pool& own = pools[static_cast<std::size_t>(id.group)];
         const Pool& pool = own.empty() ? scatter : own;

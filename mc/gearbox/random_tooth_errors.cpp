@@ -185,11 +185,11 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
         errors.gears.insert(errors.gears.end(), body.sides.size(), {teeth, none, none});
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto normals = [&](const char* purpose) {
+        const auto normals = [&](StreamPurpose purpose) {
             return Normals(scene.study(), id_of_lane(ids, lane), purpose);
         };
-        LaneTeeth teeth(scene, lane, lanes, normals("gearbox.pitch_error.teeth"),
-                        normals("gearbox.index_wave.gears"), normals("gearbox.profile_slope.teeth"),
+        LaneTeeth teeth(scene, lane, lanes, normals(StreamPurpose::pitch_errors),
+                        normals(StreamPurpose::index_waves), normals(StreamPurpose::profile_slopes),
                         errors);
         for (const ToothedBody& body : bodies) {
             teeth.draw(body, scales_of_member(scene, body.member, inputs[lane]));

@@ -40,14 +40,14 @@ std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& input
                                  std::span<const double> clean, const signals::NoiseVariates& draw,
                                  const GearboxId& id) {
     if (noise_by_density(scene.study())) {
-        Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor");
+        Normals engine = Normals::of_noise(scene.study(), id, StreamPurpose::sensor_noise);
         std::vector<double> unit(clean.size());
         low_pass_noise(scene, inputs).draw(engine, std::span(unit));
         return unit;
     }
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
     // the directions that expand folded sensor noise to individual samples.
-    Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor.direction");
+    Normals engine = Normals::of_noise(scene.study(), id, StreamPurpose::sensor_noise_direction);
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -87,7 +87,7 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox, const Ins
     const std::size_t bins = gearbox.folded.size();
     const bool by_density = noise_by_density(scene_.study());
     if (!by_density) {
-        Normals engine = Normals::of_noise(scene_.study(), id, "noise.sensor");
+        Normals engine = Normals::of_noise(scene_.study(), id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.noise_sampling != NoiseSampling::plain) {
             sample_sensor_noise(gearbox, inputs, id);
@@ -121,7 +121,7 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
                            : signals::NoiseImportanceSampler::TargetTail::quiet);
         sampled_gearbox_ = id;
     }
-    Philox engine = noise_stream(scene_.study(), id, "noise.sensor.tilt");
+    Philox engine = noise_stream(scene_.study(), id, StreamPurpose::sensor_noise_kind);
     const double pick = boost::random::uniform_01<double>()(engine);
     sampler_->sample(id.repeat % signals::NoiseImportanceSampler::kKinds, pick, noise_.sensor);
     importance_sampled_ = true;
@@ -145,7 +145,7 @@ void RealizationSignals::draw_noise(const LaneSignals& gearbox, const InstanceIn
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Normals encoder = Normals::of_noise(scene_.study(), id, "noise.encoder");
+        Normals encoder = Normals::of_noise(scene_.study(), id, StreamPurpose::encoder_noise);
         signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }

@@ -103,9 +103,9 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
         torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
         speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
         torque_engines.push_back(
-            record_stream(study, id_of_lane(ids, lane), "operation.torque_noise.knots"));
+            record_stream(study, id_of_lane(ids, lane), StreamPurpose::torque_noise));
         speed_engines.push_back(
-            record_stream(study, id_of_lane(ids, lane), "operation.speed_noise.knots"));
+            record_stream(study, id_of_lane(ids, lane), StreamPurpose::speed_noise));
         excitation.rotation_m_s.push_back(drivetrain.rotation_m_s(inputs[lane]));
     }
     // When the speed drops, the sensor's time continues: the torque needs additional knots.
@@ -144,7 +144,8 @@ signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
     tones.phase_rad.resize(requested.size() * lanes);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         tones.mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(inputs[lane])));
-        Philox engine = record_stream(scene.study(), id_of_lane(ids, lane), "sensor.tones.phase");
+        Philox engine =
+            record_stream(scene.study(), id_of_lane(ids, lane), StreamPurpose::tone_phases);
         boost::random::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi);
         for (std::size_t i = 0; i < requested.size(); ++i) {
             tones.phase_rad[i * lanes + lane] = turn(engine);

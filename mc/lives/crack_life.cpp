@@ -57,7 +57,7 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
     const Study& study = scene_.study();
     const Life& life = study.life;
     LifeHistory history;
-    Philox engine = gearbox_stream(study, id, "life.records");
+    Philox engine = gearbox_stream(study, id, StreamPurpose::life_records);
     boost::random::normal_distribution<double> unit;
     for (int i = 0; i < life.records; ++i) {
         LifeRecord record;
@@ -68,7 +68,7 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
         history.records.push_back(record);
     }
     if (distributions_.speed.varies()) {
-        Philox speeds = gearbox_stream(study, id, "life.speeds");
+        Philox speeds = gearbox_stream(study, id, StreamPurpose::life_speeds);
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
             record.speed = distributions_.speed.factor(of_speed(speeds));

@@ -56,7 +56,7 @@ class LifeTiles::Lane {
         const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
-        Philox engine = gearbox_stream(study, id_, "life.pattern.noise");
+        Philox engine = gearbox_stream(study, id_, StreamPurpose::reference_noise);
         signals::draw_normals(engine, std::span(noise_.sensor));
         const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
                              std::sqrt(std::max(1.0, records * spans)) *
@@ -64,13 +64,14 @@ class LifeTiles::Lane {
         for (double& value : noise_.sensor) {
             value *= sigma;
         }
-        const auto normals = [&](const char* purpose) {
+        const auto normals = [&](StreamPurpose purpose) {
             Philox own = gearbox_stream(study, id_, purpose);
             std::vector<double> unit(static_cast<std::size_t>(records));
             signals::draw_normals(own, std::span(unit));
             return unit;
         };
-        const auto torques = normals("life.pattern.torque"), speeds = normals("life.pattern.speed");
+        const auto torques = normals(StreamPurpose::reference_torques),
+                   speeds = normals(StreamPurpose::reference_speeds);
         pattern_.assign(healthy.size(), 0.0);
         for (std::size_t i = 0; i < torques.size(); ++i) {
             const auto load_weights =
@@ -183,8 +184,8 @@ class LifeTiles::Lane {
     std::vector<std::size_t> starts_of(std::size_t r) const {
         std::vector<std::size_t> starts;
         if (!span_.whole()) {
-            Philox engine =
-                gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false), "life.starts");
+            Philox engine = gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false),
+                                           StreamPurpose::life_recording_starts);
             boost::random::uniform_int_distribution<std::size_t> turn(
                 0, static_cast<std::size_t>(span_.all_turns) - 1);
             for (int i = 0; i < span_.recordings; ++i) {

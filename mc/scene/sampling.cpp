@@ -26,6 +26,13 @@ const Key& key_of(const RandomInput& input) {
     return key_of(input.key);
 }
 
+// Purpose of the random numbers of an input. Inputs from the columns of one table share it.
+StreamPurpose purpose_of(const RandomInput& input) {
+    const int table = input.distribution.rows().group;
+    return table > 0 ? with_suffix(StreamPurpose::table_row, std::to_string(table))
+                     : with_suffix(StreamPurpose::random_input, input.key);
+}
+
 // J / r^2 from the given J / r^2 or J, else from the mass of a solid disc. For a disc with the
 // pitch radius r_p, J = m r_p^2 / 2, and r_p = r_b / cos a.
 double over_r2(const std::optional<double>& inertia_over_r2, const std::optional<double>& inertia,
@@ -217,12 +224,12 @@ Study Sampler::draw(const GearboxId& id) const {
         if (plan_.has(input)) {
             return standard_normal_quantile(plan_.variate(input, id.group, id.index));
         }
-        return Normals(study_, id, study_.random[input].key)();
+        const StreamPurpose purpose =
+            with_suffix(StreamPurpose::random_input, study_.random[input].key);
+        return Normals(study_, id, purpose)();
     });
     const auto drawn_alone = [&](const RandomInput& input, std::uint64_t level_stride) {
-        const int rows = input.distribution.rows().group;
-        const std::string purpose =
-            rows > 0 ? "random.rows." + std::to_string(rows) : std::string(input.key);
+        const StreamPurpose purpose = purpose_of(input);
         GearboxId own = id;
         own.record = input.distribution.per_record() ? id.record : Record::test;
         if (id.exchanged && input.distribution.has_quantile()) {
@@ -263,7 +270,7 @@ InstanceInputs Sampler::sample(const GearboxId& id, std::span<const GivenInput> 
 InstanceInputs Sampler::resolve(const Study& drawn, const GearboxId& id) const {
     InstanceInputs inputs = resolve_inputs(drawn);
     if (has_random_planets(study_)) {
-        add_random_planets(drawn, Normals(study_, id, "gearbox.planets"), inputs.planets);
+        add_random_planets(drawn, Normals(study_, id, StreamPurpose::planets), inputs.planets);
     }
     return inputs;
 }
@@ -272,7 +279,7 @@ InstanceInputs Sampler::sample(const GearboxId& id) const {
     InstanceInputs inputs = resolve(draw(id), id);
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;
-        Normals unit = Normals::of_record(study_, id, "operation.torque");
+        Normals unit = Normals::of_record(study_, id, StreamPurpose::baseline_torque);
         const double share = std::exp(study_.features.baseline_torque_scatter * unit());
         inputs.torque_N_m *= share;
         inputs.fixed_shaft.load_torque_N_m *= share;

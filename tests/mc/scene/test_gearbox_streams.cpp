@@ -21,7 +21,7 @@ std::vector<double> numbers(const Study& study, std::uint64_t index,
                             Group group = Group::graded) {
     GearboxId id{group, index};
     id.exchanged = exchanged;
-    Normals normals(study, id, "gearbox.planets");
+    Normals normals(study, id, StreamPurpose::planets);
     std::vector<double> all;
     for (int i = 0; i < kNumbers; ++i) {
         all.push_back(normals());
@@ -31,7 +31,7 @@ std::vector<double> numbers(const Study& study, std::uint64_t index,
 
 std::vector<double> many_numbers(const Study& study, const GearboxId& id) {
     std::vector<double> all(kNumbers);
-    Normals::of_noise(study, id, "noise.sensor").normals(all);
+    Normals::of_noise(study, id, StreamPurpose::sensor_noise).normals(all);
     return all;
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("Noise is exchanged number by number, separately for each record and r
             id.exchanged.reset();
             const std::vector<double> own = many_numbers(study, id);
             std::vector<double> plain(kNumbers);
-            Philox engine = noise_stream(study, id, "noise.sensor");
+            Philox engine = noise_stream(study, id, StreamPurpose::sensor_noise);
             signals::draw_normals(engine, std::span(plain));
             CHECK(own == plain);
             id.exchanged = exchanged;
@@ -117,7 +117,9 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
             const InstanceInputs inputs = sampler.sample(id);
             CHECK(sampler.row(id)[column] == inputs.path_exponent);
             CHECK(inputs.path_exponent ==
-                  standard_normal_cdf(Normals(study, id, "sensor.path_exponent")()));
+                  standard_normal_cdf(
+                      Normals(study, id,
+                              with_suffix(StreamPurpose::random_input, "sensor.path_exponent"))()));
             return inputs;
         };
         with(none);
@@ -139,11 +141,11 @@ TEST_CASE("Inputs without an underlying normal number are exchanged as a whole")
         const std::vector<InputExchange> other{{1000 + index, 0.2}};
         GearboxId id{Group::graded, index};
         id.exchanged = other;
-        const std::uint64_t from = source_index(study, id, "sensor.tones.phase");
+        const std::uint64_t from = source_index(study, id, StreamPurpose::tone_phases);
         CHECK((from == index || from == 1000 + index));
         taken += from == 1000 + index ? 1 : 0;
-        CHECK(record_stream(study, id, "sensor.tones.phase")() ==
-              gearbox_stream(study, {Group::graded, from}, "sensor.tones.phase")());
+        CHECK(record_stream(study, id, StreamPurpose::tone_phases)() ==
+              gearbox_stream(study, {Group::graded, from}, StreamPurpose::tone_phases)());
     }
     CHECK(taken > 20);
     CHECK(taken < 60);

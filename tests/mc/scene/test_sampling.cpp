@@ -58,7 +58,7 @@ TEST_CASE("Philox reproduces its authors' reference values") {
 }
 
 TEST_CASE("A stream consists of the blocks of its counter in order") {
-    Philox stream(0, Group::threshold, 0, 0);
+    Philox stream(0, Group::threshold, 0, StreamPurpose{0});
     CHECK(stream() == 0x16554d9eca36314cu);
     CHECK(stream() == 0xdb20fe9d672d0fdcu);
     stream();
@@ -67,15 +67,15 @@ TEST_CASE("A stream consists of the blocks of its counter in order") {
         r123::Philox4x64{}(r123::Philox4x64::ctr_type{{1, 0, 0, 0}}, r123::Philox4x64::key_type{});
     CHECK(stream() == second[0]);
 
-    Philox other(5, Group::graded, 6, 7);
+    Philox other(5, Group::graded, 6, StreamPurpose{7});
     const auto block = r123::Philox4x64{}(r123::Philox4x64::ctr_type{{0, 6, 7, 0}},
                                           r123::Philox4x64::key_type{{5, 1}});
     CHECK(other() == block[0]);
 }
 
 TEST_CASE("Words of a stream are the same one by one and in bulk") {
-    Philox single(5, Group::graded, 6, 7);
-    Philox many(5, Group::graded, 6, 7);
+    Philox single(5, Group::graded, 6, StreamPurpose{7});
+    Philox many(5, Group::graded, 6, StreamPurpose{7});
     for (const std::size_t count : {1, 2, 9, 4, 0, 3, 16, 5}) {
         std::vector<std::uint64_t> words(count);
         many.fill(words);
@@ -94,9 +94,11 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
         return values;
     };
     const std::vector<std::vector<double>> noise{
-        normals({7, Group::graded, 3, 11}), normals({7, Group::graded, 4, 11}),
-        normals({7, Group::graded, 3, 12}), normals({7, Group::threshold, 3, 11}),
-        normals({8, Group::graded, 3, 11})};
+        normals({7, Group::graded, 3, StreamPurpose{11}}),
+        normals({7, Group::graded, 4, StreamPurpose{11}}),
+        normals({7, Group::graded, 3, StreamPurpose{12}}),
+        normals({7, Group::threshold, 3, StreamPurpose{11}}),
+        normals({8, Group::graded, 3, StreamPurpose{11}})};
     for (std::size_t a = 0; a < noise.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
             const double product =
@@ -104,13 +106,6 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
             CHECK(std::abs(product) < 4.0 * std::sqrt(static_cast<double>(kCount)));
         }
     }
-}
-
-TEST_CASE("Parameter numbers are FNV-1a with 64 bits") {
-    // Test vectors of the authors: "", "a", "foobar".
-    CHECK(parameter_id("") == 0xcbf29ce484222325u);
-    CHECK(parameter_id("a") == 0xaf63dc4c8601ec8cu);
-    CHECK(parameter_id("foobar") == 0x85944171f73967e8u);
 }
 
 TEST_CASE("Random values of each distribution follow its distribution function") {

@@ -66,7 +66,7 @@ TEST_CASE("Every dyadic interval of every coordinate has its share of scrambled 
     const Sobol sobol(20);
     for (const std::uint64_t seed : {1U, 2U}) {
         for (std::size_t d = 0; d < 20; ++d) {
-            const Philox tree(seed, Group::graded, 0, d);
+            const Philox tree(seed, Group::graded, 0, StreamPurpose{d});
             std::set<std::uint32_t> intervals;
             for (std::uint32_t n = 0; n < 256; ++n) {
                 intervals.insert(owen_scrambled(sobol.coordinate(n, d), tree) >> 24);
@@ -83,9 +83,9 @@ TEST_CASE("The first two coordinates are equidistributed over all rectangles of 
         std::set<std::uint64_t> cells;
         for (std::uint32_t n = 0; n < 256; ++n) {
             const std::uint64_t x =
-                owen_scrambled(sobol.coordinate(n, 0), {5, Group::graded, 0, 0});
+                owen_scrambled(sobol.coordinate(n, 0), {5, Group::graded, 0, StreamPurpose{0}});
             const std::uint64_t y =
-                owen_scrambled(sobol.coordinate(n, 1), {5, Group::graded, 0, 1});
+                owen_scrambled(sobol.coordinate(n, 1), {5, Group::graded, 0, StreamPurpose{1}});
             cells.insert((x >> (32 - first)) << 8 | y >> (24 + first));
         }
         CHECK(cells.size() == 256);
@@ -97,7 +97,8 @@ TEST_CASE("A scrambled point is uniform over the seeds") {
     std::vector<double> point_coordinates;
     for (std::uint64_t seed = 0; seed < 5000; ++seed) {
         point_coordinates.push_back(
-            kWhole * owen_scrambled(sobol.coordinate(5, 2), {seed, Group::threshold, 0, 3}));
+            kWhole *
+            owen_scrambled(sobol.coordinate(5, 2), {seed, Group::threshold, 0, StreamPurpose{3}}));
     }
     CHECK(kolmogorov_smirnov(point_coordinates, [](double x) { return x; }) < kKsLimit);
 }
