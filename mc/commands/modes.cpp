@@ -56,7 +56,7 @@ int modes_command(const ModesOptions& options) {
               "masses or inertias are missing, but modes need them", "add them to [gearbox]"}});
         return kBadInput;
     }
-    const auto inputs = body_inputs(*study, Sampler(*study).nominal());
+    const auto inputs = body_inputs(*study, nominal_inputs(*study));
     std::vector<double> frequencies;
     try {
         frequencies = dynamics::natural_frequencies_Hz(

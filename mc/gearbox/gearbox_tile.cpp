@@ -56,24 +56,23 @@ lockstep::TileSettings tile_settings(const Scene& scene, const IntegrationOption
 }
 
 template <int W>
-void integrate(const Scene& scene, std::span<const GearboxId> ids,
-               const IntegrationOptions& options, GearboxTile& tile) {
+void integrate(const Scene& scene, const IntegrationOptions& options, GearboxTile& tile) {
     auto start = WallClock::now();
     std::vector<dynamics::GearboxInputs> inputs;
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
-    for (const InstanceInputs& instance : tile.inputs) {
-        inputs.push_back(scene.inputs(instance));
+    for (const Realization& realization : tile.realizations) {
+        inputs.push_back(scene.inputs(realization.inputs));
         for (int c = 0; c < scene.fault().curves(); ++c) {
             faults.curve[static_cast<std::size_t>(c)].push_back(
-                scene.fault().mesh(c, instance.fault_size));
+                scene.fault().mesh(c, realization.inputs.fault_size));
         }
     }
-    const auto tooth_errors = draw_tooth_errors(scene, ids, tile.inputs);
+    const auto tooth_errors = draw_tooth_errors(scene, tile.realizations);
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
     auto settings = tile_settings(scene, options);
-    const auto excitation = draw_excitation(scene, ids, tile.inputs);
+    const auto excitation = draw_excitation(scene, tile.realizations);
     settings.excitation = excitation ? &*excitation : nullptr;
     const double processor_start = thread_processor_s();
     if constexpr (W <= 8) {
@@ -86,17 +85,17 @@ void integrate(const Scene& scene, std::span<const GearboxId> ids,
     }
     tile.integration_s = lap(start);
     tile.meshes = tile.integration.integrated_meshes;
-    const std::size_t requested = std::min(ids.size(), tile.integration.superposed.size());
+    const std::size_t requested = std::min(tile.gearboxes, tile.integration.superposed.size());
     tile.superposed =
         std::ranges::count(std::span(tile.integration.superposed).first(requested), true);
-    tile.superposition_fallbacks = settings.superpose ? std::ssize(ids) - tile.superposed : 0;
+    tile.superposition_fallbacks =
+        settings.superpose ? static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed : 0;
     tile.integration_cpu_s = thread_processor_s() - processor_start;
 }
 
-void integrate(const Scene& scene, std::span<const GearboxId> ids,
-               const IntegrationOptions& options, GearboxTile& tile) {
-    with_lane_count(static_cast<int>(tile.inputs.size()),
-                    [&](auto width) { integrate<width()>(scene, ids, options, tile); });
+void integrate(const Scene& scene, const IntegrationOptions& options, GearboxTile& tile) {
+    with_lane_count(static_cast<int>(tile.realizations.size()),
+                    [&](auto width) { integrate<width()>(scene, options, tile); });
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
@@ -141,29 +140,38 @@ signals::PathGrid path_grid(const Scene& scene) {
 
 namespace {
 
-GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids, int lanes) {
-    auto start = WallClock::now();
+GearboxTile tile_of(std::vector<Realization> realizations, int lanes) {
     GearboxTile tile;
+    tile.gearboxes = realizations.size();
+    tile.realizations = std::move(realizations);
+    const Realization last = tile.realizations.back();
+    tile.realizations.resize(static_cast<std::size_t>(lanes), last);
+    return tile;
+}
+
+GearboxTile drawn_tile(const Scene& scene, std::span<const GearboxId> ids, int lanes) {
+    auto start = WallClock::now();
+    std::vector<Realization> realizations;
     for (const GearboxId& id : ids) {
-        tile.inputs.push_back(sampler.sample(id));
+        realizations.push_back(scene.sampler().draw(id));
     }
-    tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
+    GearboxTile tile = tile_of(std::move(realizations), lanes);
     tile.sampling_s = lap(start);
     return tile;
 }
 
-void add_status(const Scene& scene, std::span<const GearboxId> ids, GearboxTile& tile) {
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        tile.status.push_back(status_of(scene, tile.inputs[lane], tile.integration.status[lane]));
+void add_status(const Scene& scene, GearboxTile& tile) {
+    for (std::size_t lane = 0; lane < tile.gearboxes; ++lane) {
+        tile.status.push_back(
+            status_of(scene, tile.realizations[lane].inputs, tile.integration.status[lane]));
     }
 }
 
-void integrate_and_record(const Scene& scene, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int signal_meshes,
+void integrate_and_record(const Scene& scene, const signals::PathGrid& path, int signal_meshes,
                           IntegrationOptions options, GearboxTile& tile) {
-    TileSensorRecorder recorder(scene, path, ids, tile.inputs, signal_meshes);
+    TileSensorRecorder recorder(scene, path, tile.realizations, signal_meshes);
     options.on_record = std::ref(recorder);
-    integrate(scene, ids, options, tile);
+    integrate(scene, options, tile);
     tile.sensor_response = recorder.take_response();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
@@ -171,9 +179,8 @@ void integrate_and_record(const Scene& scene, const signals::PathGrid& path,
 }
 
 // Computes the signals of the sensors from an integrated tile.
-void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 GearboxTile& tile) {
-    add_status(scene, ids, tile);
+void add_signals(const Scene& scene, const signals::PathGrid& path, GearboxTile& tile) {
+    add_status(scene, tile);
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
     if (tile.sensor_response != nullptr) {
@@ -182,16 +189,16 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
         tile.signals_s += lap(start);
         return;
     }
-    if (has_gain(tile.inputs)) {
+    if (has_gain(tile.realizations)) {
         for (lockstep::MeshRecord& record : tile.integration.records) {
-            apply_gain(tile.inputs, record.acceleration);
+            apply_gain(tile.realizations, record.acceleration);
         }
     }
     // A quasi-static gearbox has no inertia and therefore no acceleration.
     if (!scene.study().effects.quasi_static()) {
-        tile.tones = draw_tones(scene, ids, tile.inputs);
+        tile.tones = draw_tones(scene, tile.realizations);
         const signals::FoldPlan plan(tile.integration.content, scene.span());
-        signals::fold_squares(tile.views, plan, path, path_exponents(tile.inputs), tile.tones,
+        signals::fold_squares(tile.views, plan, path, path_exponents(tile.realizations), tile.tones,
                               tile.folded);
     }
     signals::average_te(tile.views, tile.integration.content, scene.span(),
@@ -199,8 +206,8 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
     tile.signals_s += lap(start);
 }
 
-void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 const TileOptions& tile_options, GearboxTile& tile) {
+void run_tile(const Scene& scene, const signals::PathGrid& path, const TileOptions& tile_options,
+              GearboxTile& tile) {
     const IntegrationCache* const kept = tile_options.with_motion ? nullptr : tile_options.cache;
     const IntegrationOptions options{.with_motion = tile_options.with_motion,
                                      .contact_meshes = tile_options.contact_meshes,
@@ -208,25 +215,24 @@ void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<co
     const bool recorded =
         tile_options.with_motion || tile_options.keep_states || tile_options.with_records;
     auto start = WallClock::now();
-    if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
+    if (const auto before = kept != nullptr ? kept->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
     } else if (records_during_integration(scene) && !recorded) {
-        integrate_and_record(scene, path, ids, tile_options.signal_meshes, options, tile);
+        integrate_and_record(scene, path, tile_options.signal_meshes, options, tile);
     } else {
-        integrate(scene, ids, options, tile);
+        integrate(scene, options, tile);
         if (kept != nullptr) {
-            kept->keep(tile.inputs, tile.integration);
+            kept->keep(tile.realizations, tile.integration);
         }
     }
-    add_signals(scene, path, ids, tile);
+    add_signals(scene, path, tile);
 }
 
-GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_records(const Scene& scene, const signals::PathGrid& path,
                         std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
-    GearboxTile tile =
-        sampled_tile(sampler, ids, lockstep::lanes_for(scene.plan().precision, fewest));
-    run_sampled(scene, path, ids, options, tile);
+    GearboxTile tile = drawn_tile(scene, ids, lockstep::lanes_for(scene.plan().precision, fewest));
+    run_tile(scene, path, options, tile);
     return tile;
 }
 
@@ -240,11 +246,11 @@ std::vector<GearboxId> baselines_of(std::span<const GearboxId> ids) {
 
 // Computes signals, status and times of the baseline records. Their motion is freed before the test
 // records are integrated.
-GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_baselines(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
     const int meshes = needed_sensor_meshes(scene);
-    GearboxTile tile = run_records(scene, sampler, path, baselines_of(ids), fewest,
+    GearboxTile tile = run_records(scene, path, baselines_of(ids), fewest,
                                    {.signal_meshes = meshes, .cache = cache});
     auto start = WallClock::now();
     tile.baseline = all_lane_signals(scene, path, tile, meshes);
@@ -281,16 +287,15 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 
 // Runs gearboxes that fill at most half of the lanes. Their baseline records take further lanes of
 // the same tile, after the test records.
-GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
-                             const signals::PathGrid& path, std::span<const GearboxId> ids,
-                             int lanes, TileOptions options) {
+GearboxTile run_side_by_side(const Scene& scene, const signals::PathGrid& path,
+                             std::span<const GearboxId> ids, int lanes, TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
     const std::vector<GearboxId> earlier = baselines_of(ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
     if (options.signal_meshes >= 0) {
         options.signal_meshes = std::max(options.signal_meshes, needed_sensor_meshes(scene));
     }
-    GearboxTile tile = run_records(scene, sampler, path, both, lanes, options);
+    GearboxTile tile = run_records(scene, path, both, lanes, options);
     auto start = WallClock::now();
     std::vector<LaneSignals> baseline;
     for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
@@ -307,24 +312,24 @@ GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
 
 }  // namespace
 
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
     if (!compares_records(scene.study())) {
-        return run_records(scene, sampler, path, ids, fewest, options);
+        return run_records(scene, path, ids, fewest, options);
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     if (2 * ids.size() <= static_cast<std::size_t>(lanes)) {
-        return run_side_by_side(scene, sampler, path, ids, lanes, options);
+        return run_side_by_side(scene, path, ids, lanes, options);
     }
-    GearboxTile earlier = run_baselines(scene, sampler, path, ids, fewest, options.cache);
-    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, options);
+    GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);
+    GearboxTile tile = run_records(scene, path, ids, fewest, options);
     add_baselines(std::move(earlier), tile);
     return tile;
 }
 
 std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes) {
     const machine::AlignedVector& ratio = tile.integration.contact_loss;  // [gear pair][lane]
-    const std::size_t lanes = tile.inputs.size();
+    const std::size_t lanes = tile.realizations.size();
     const std::size_t pairs = ratio.size() / lanes / std::max<std::size_t>(1, meshes);
     std::vector<double> mean(meshes, 0.0);
     for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
@@ -336,36 +341,31 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
     return mean;
 }
 
-GearboxTile run_with_inputs(const Scene& scene, const signals::PathGrid& path,
-                            std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                            int fewest, const TileOptions& options) {
-    GearboxTile tile;
-    tile.inputs = std::move(inputs);
-    tile.inputs.resize(
-        static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest)),
-        tile.inputs.back());
-    run_sampled(scene, path, ids, options, tile);
+GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
+                             std::vector<Realization> realizations, int fewest,
+                             const TileOptions& options) {
+    GearboxTile tile =
+        tile_of(std::move(realizations), lockstep::lanes_for(scene.plan().precision, fewest));
+    run_tile(scene, path, options, tile);
     return tile;
 }
 
-GearboxTile run_fault_perturbations(const Scene& scene, std::span<const GearboxId> ids,
-                                    std::vector<InstanceInputs> inputs,
-                                    const std::vector<lockstep::TileState>& healthy) {
-    GearboxTile tile;
-    tile.inputs = std::move(inputs);
-    integrate(scene, ids, {.healthy = &healthy}, tile);
-    add_status(scene, ids, tile);
+GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
+                                    int lanes, const std::vector<lockstep::TileState>& healthy) {
+    GearboxTile tile = tile_of(std::move(realizations), lanes);
+    integrate(scene, {.healthy = &healthy}, tile);
+    add_status(scene, tile);
     return tile;
 }
 
-GearboxTile complete_tile(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile complete_tile(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult integration) {
-    GearboxTile tile = sampled_tile(sampler, ids, static_cast<int>(integration.status.size()));
+    GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
-    add_signals(scene, path, ids, tile);
+    add_signals(scene, path, tile);
     if (compares_records(scene.study())) {
         add_baselines(
-            run_baselines(scene, sampler, path, ids, static_cast<int>(tile.inputs.size()), nullptr),
+            run_baselines(scene, path, ids, static_cast<int>(tile.realizations.size()), nullptr),
             tile);
     }
     return tile;

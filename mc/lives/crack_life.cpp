@@ -52,8 +52,9 @@ double CrackLife::range_per_force(double depth_m) const {
     return crack_.largest_intensity(depth_m, 1.0);
 }
 
-LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs,
-                               bool cracked) const {
+LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
+    const GearboxId& id = gearbox.id;
+    const InstanceInputs& inputs = gearbox.inputs;
     const Study& study = scene_.study();
     const Life& life = study.life;
     LifeHistory history;

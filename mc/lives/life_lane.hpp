@@ -18,10 +18,10 @@ class LifeTiles::Lane {
   public:
     using LaneFeatures = std::vector<const features::Feature*>;
 
-    Lane(const LifeTiles& tiles, const GearboxId& id, bool cracked)
+    Lane(const LifeTiles& tiles, const Realization& gearbox, bool cracked)
         : tiles_(tiles),
-          id_(id),
-          inputs_(tiles.inputs(id)),
+          id_(gearbox.id),
+          inputs_(gearbox.inputs),
           features_(used_features(tiles.scene_.study())),
           compares_(std::ranges::any_of(features_,
                                         [](const features::Feature* one) {
@@ -31,7 +31,7 @@ class LifeTiles::Lane {
           span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
           record_(tiles.scene_, 0, span_.turns * span_.recordings),
           change_(tiles.scene_, 0, span_.turns * span_.recordings) {
-        life_.history = tiles.crack_.history(id, inputs_, cracked);
+        life_.history = tiles.crack_.history(gearbox, cracked);
         life_.values.assign(features_.size(),
                             std::vector<double>(life_.history.records.size(), 0.0));
     }
@@ -153,7 +153,8 @@ class LifeTiles::Lane {
                 coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * one;
             }
         }
-        InstanceInputs inputs = inputs_;
+        Realization own_record{record_id(id_, r, false), inputs_};
+        InstanceInputs& inputs = own_record.inputs;
         inputs.noise_m_s2 *= record.noise;
         inputs.encoder_noise_rad *= tiles_.distributions_.sensor_noise_only ? 1.0 : record.noise;
         const std::vector<std::size_t> starts = starts_of(r);
@@ -161,7 +162,7 @@ class LifeTiles::Lane {
         for (double& value : own.te_turn) {
             value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
         }
-        record_.load(own, inputs, record_id(id_, r, false));
+        record_.load(own, own_record);
         features::FeatureInput input = record_.at(0), change;
         LaneSignals changed;
         if (compares_) {
@@ -170,7 +171,8 @@ class LifeTiles::Lane {
             }
             coefficients.back() = -1.0;
             changed = fold_record(superposed, coefficients, starts);
-            change_.load(changed, inputs, record_id(id_, r, true));
+            own_record.id = record_id(id_, r, true);
+            change_.load(changed, own_record);
             change = change_.at(0);
             input.change = &change;
         }

@@ -16,8 +16,7 @@ namespace gearpod::test {
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};
-    return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
-                             std::span(&id, 1), 1,
+    return mc::run_gearboxes(scene, mc::path_grid(scene), std::span(&id, 1), 1,
                              {.with_motion = with_motion, .with_records = true});
 }
 
@@ -27,7 +26,8 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
-                               mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
+                               mc::path_grid(scene), tile.realizations[0].inputs.path_exponent, 0,
+                               meshes);
 }
 
 // Amplitudes of a signal's spectral lines; line 0 is twice its mean.
