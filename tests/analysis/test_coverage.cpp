@@ -8,6 +8,8 @@
 #include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
 
+namespace test_coverage {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -161,3 +163,5 @@ TEST_CASE("Bounds of a POD from a line with normal scatter cover the truth", "[.
 }
 
 }  // namespace
+
+}  // namespace test_coverage

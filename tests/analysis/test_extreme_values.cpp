@@ -12,6 +12,8 @@
 #include "analysis/statistics/upper_tail.hpp"
 #include "analysis/statistics/wilson.hpp"
 
+namespace test_extreme_values {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -168,3 +170,5 @@ TEST_CASE("tails and quantiles have values at the limits of the number range") {
 }
 
 }  // namespace
+
+}  // namespace test_extreme_values

@@ -10,6 +10,8 @@
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
 
+namespace test_false_alarm_curve {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -188,3 +190,5 @@ TEST_CASE("A threshold of least cost has the bounds of the method that determine
 }
 
 }  // namespace
+
+}  // namespace test_false_alarm_curve

@@ -12,6 +12,8 @@
 #include "analysis/report/text_lines.hpp"
 #include "analysis/smallest_fault.hpp"
 
+namespace test_reliability {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -216,3 +218,5 @@ TEST_CASE("Studies without healthy or without faulty gearboxes are reported, not
 }
 
 }  // namespace
+
+}  // namespace test_reliability

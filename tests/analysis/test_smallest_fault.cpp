@@ -9,6 +9,8 @@
 #include "analysis/pod/outcomes.hpp"
 #include "analysis/smallest_fault.hpp"
 
+namespace test_smallest_fault {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -216,3 +218,5 @@ TEST_CASE("Sizes beyond the misses: 29 in a row, and the confidence holds") {
 }
 
 }  // namespace
+
+}  // namespace test_smallest_fault

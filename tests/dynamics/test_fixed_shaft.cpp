@@ -9,6 +9,8 @@
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 
+namespace test_fixed_shaft {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -202,3 +204,5 @@ TEST_CASE("Unbalanced torques load the mesh with the inertia force of the driven
     CHECK((m.stiffness * q - m.force).norm() < 1e-9 * m.force.norm());
     CHECK(std::abs(m.force.dot(rigid_rotation(layout))) < 1e-12 * m.force.norm());
 }
+
+}  // namespace test_fixed_shaft

@@ -7,6 +7,8 @@
 #include "dynamics/helical_pair.hpp"
 #include "dynamics/planetary.hpp"
 
+namespace test_helical_pair {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE("In the plane the pair equals the planetary model's spur pair at the t
     CHECK(transverse_pressure_angle(kPhi, 0.0) == kPhi);
     CHECK(transverse_stiffness_factor(kPhi, 0.0) == 1.0);
 }
+
+}  // namespace test_helical_pair

@@ -13,6 +13,8 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 
+namespace test_load_sharing {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -109,3 +111,5 @@ TEST_CASE("A radial pin error transfers no load between planets") {
         CHECK(load == Approx(1000.0).epsilon(1e-4));
     }
 }
+
+}  // namespace test_load_sharing

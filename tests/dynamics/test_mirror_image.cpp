@@ -9,6 +9,8 @@
 #include "dynamics/planetary.hpp"
 #include "tests/dynamics/lin_parker.hpp"
 
+namespace test_mirror_image {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -107,3 +109,5 @@ TEST_CASE("The carrier-driven train on its real flanks is the model's mirror ima
               Approx(row.dot(q)).epsilon(1e-9));
     }
 }
+
+}  // namespace test_mirror_image

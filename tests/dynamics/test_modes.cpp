@@ -9,6 +9,8 @@
 #include "dynamics/planetary.hpp"
 #include "tests/dynamics/lin_parker.hpp"
 
+namespace test_modes {
+
 using namespace gearpod::dynamics;
 using test_gearbox::lin_parker_inputs;
 
@@ -76,3 +78,5 @@ TEST_CASE("Rigid planet bearings reduce the full model's rotations to the torsio
         CHECK(full[i] == Approx(torsional[i]).epsilon(1e-3));
     }
 }
+
+}  // namespace test_modes

@@ -11,6 +11,8 @@
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
 
+namespace test_motion_kernels {
+
 using namespace gearpod::dynamics;
 
 namespace {
@@ -204,3 +206,5 @@ TEST_CASE("A free train rotates past its fixed member without deflecting a sprin
         }
     }
 }
+
+}  // namespace test_motion_kernels

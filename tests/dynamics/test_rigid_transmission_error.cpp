@@ -7,6 +7,8 @@
 #include "dynamics/planetary.hpp"
 #include "gears/power_flow.hpp"
 
+namespace test_rigid_transmission_error {
+
 using namespace gearpod;
 using namespace gearpod::dynamics;
 
@@ -38,3 +40,5 @@ TEST_CASE("The free rotation of the model gives no transmission error in any wor
         }
     }
 }
+
+}  // namespace test_rigid_transmission_error

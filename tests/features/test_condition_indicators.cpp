@@ -8,6 +8,8 @@
 #include "features/feature.hpp"
 #include "features/standardised_moment.hpp"
 
+namespace test_condition_indicators {
+
 using namespace gearpod;
 using namespace gearpod::features;
 
@@ -155,3 +157,5 @@ TEST_CASE("Windows of the sun and the ring cover their own teeth") {
 }
 
 }  // namespace
+
+}  // namespace test_condition_indicators

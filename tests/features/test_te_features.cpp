@@ -6,6 +6,8 @@
 
 #include "features/feature.hpp"
 
+namespace test_te_features {
+
 using namespace gearpod;
 using namespace gearpod::features;
 
@@ -102,3 +104,5 @@ TEST_CASE("Every feature is registered once, with its unit, alarm side and defin
 }
 
 }  // namespace
+
+}  // namespace test_te_features

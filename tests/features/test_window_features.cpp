@@ -6,6 +6,8 @@
 #include "features/feature.hpp"
 #include "features/median.hpp"
 
+namespace test_window_features {
+
 using namespace gearpod;
 using namespace gearpod::features;
 
@@ -67,3 +69,5 @@ TEST_CASE("The sensor's rms is the root of its mean square") {
 }
 
 }  // namespace
+
+}  // namespace test_window_features

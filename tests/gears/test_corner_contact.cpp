@@ -9,6 +9,8 @@
 #include "gears/corner_contact.hpp"
 #include "gears/gear.hpp"
 
+namespace test_corner_contact {
+
 using namespace gearpod::gears;
 using std::numbers::pi;
 
@@ -129,3 +131,5 @@ TEST_CASE("reach is the distance at which the corner gap has a given size") {
         CHECK(corner_reach(mesh, 0).after == Approx(0).margin(1e-7));
     }
 }
+
+}  // namespace test_corner_contact

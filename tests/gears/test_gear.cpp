@@ -3,6 +3,8 @@
 
 #include "gears/gear.hpp"
 
+namespace test_gear {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -55,3 +57,5 @@ TEST_CASE("impossible gears are named with every problem at once") {
     CHECK(gear_problems(internal(33)).size() == 1);
     CHECK(gear_problems({19, false, kModule, kPressureAngle, 1.8, 2.0}).size() == 1);  // pointed
 }
+
+}  // namespace test_gear

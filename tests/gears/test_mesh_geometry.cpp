@@ -5,6 +5,8 @@
 
 #include "gears/mesh_geometry.hpp"
 
+namespace test_mesh_geometry {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("pairs with contact below a base circle are refused") {
     other.module_m *= 2;
     CHECK(mesh_problems(external(19), other).size() == 1);
 }
+
+}  // namespace test_mesh_geometry

@@ -5,6 +5,8 @@
 
 #include "gears/planetary.hpp"
 
+namespace test_planet_positions {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -82,3 +84,5 @@ TEST_CASE("A planet meshes with sun and ring only at the allowed positions") {
     two.planets = 3;
     CHECK(contains(assembly_problems(two), "2 planet positions are given for 3 planets"));
 }
+
+}  // namespace test_planet_positions

@@ -4,6 +4,8 @@
 
 #include "gears/planetary.hpp"
 
+namespace test_planetary {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -123,3 +125,5 @@ TEST_CASE("the published trains can be assembled, and invalid ones give the reas
     CHECK(crowded[0].find("at most 4 planets") != std::string::npos);
     CHECK(assembly_problems({0, 31, 81, 4}).size() == 1);
 }
+
+}  // namespace test_planetary

@@ -6,6 +6,8 @@
 
 #include "gears/power_flow.hpp"
 
+namespace test_power_flow {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -127,3 +129,5 @@ TEST_CASE("A fixed member accepts no speed") {
     CHECK_THROWS_AS(signed_speeds(kPark, {FixedMember::ring, Member::sun}, Member::ring, 1.0),
                     std::invalid_argument);
 }
+
+}  // namespace test_power_flow

@@ -9,6 +9,8 @@
 #include "gears/planetary.hpp"
 #include "gears/working_pair.hpp"
 
+namespace test_shift_problems {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -229,3 +231,5 @@ TEST_CASE("the phase of the ring mesh relative to the sun mesh follows from the 
     CHECK(ring_to_sun_phase(train, gear(35), 20 * kDegree, 20 * kDegree, PlanetSense::clockwise) ==
           ring_to_sun_phase(train));
 }
+
+}  // namespace test_shift_problems

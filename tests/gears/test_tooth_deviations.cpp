@@ -7,6 +7,8 @@
 
 #include "gears/tooth_deviations.hpp"
 
+namespace test_tooth_deviations {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -134,3 +136,5 @@ TEST_CASE("Nine gears in ten meet each tolerance of their grade") {
         }
     }
 }
+
+}  // namespace test_tooth_deviations

@@ -7,6 +7,8 @@
 #include "gears/mesh_geometry.hpp"
 #include "gears/working_pair.hpp"
 
+namespace test_working_pair {
+
 using namespace gearpod::gears;
 
 namespace {
@@ -267,3 +269,5 @@ TEST_CASE("the second stage of a 5 MW wind turbine, 18/36/93 teeth, matches KISS
     CHECK(thickness_mm(sun.gear(2)) == Approx(14.858).margin(kLast));
     CHECK(thickness_mm(ring.gear(2)) == Approx(18.937).margin(kLast));
 }
+
+}  // namespace test_working_pair

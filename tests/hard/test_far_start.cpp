@@ -9,6 +9,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_far_start {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 
@@ -100,3 +102,5 @@ TEST_CASE("Tian's stiff gearbox converges from a far start with an L-stable meth
     const MeshRecord record = from_afar(plan, inputs[0], q, v, 200);
     check_same(tile.records[0].motion, record.motion, 1e-6);
 }
+
+}  // namespace test_far_start

@@ -5,6 +5,8 @@
 
 #include "tests/lockstep/pair_of_masses.hpp"
 
+namespace test_impacts {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::PairOfMasses;
@@ -74,3 +76,5 @@ TEST_CASE("For any sequence of impacts the mean contact force carries the load")
         CHECK(largest < 400 * kError_m);
     }
 }
+
+}  // namespace test_impacts

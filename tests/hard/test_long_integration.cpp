@@ -9,6 +9,8 @@
 #include "lockstep/steps/instability.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
+namespace test_long_integration {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::PairOfMasses;
@@ -107,3 +109,5 @@ TEST_CASE("A million mesh periods of changing stiffness neither add nor remove e
     CHECK(size > 0.8e-6);
     CHECK(size < 1.2e-6);
 }
+
+}  // namespace test_long_integration

@@ -9,6 +9,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
+namespace test_parametric_resonance {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using std::numbers::pi;
@@ -213,3 +215,5 @@ TEST_CASE(
     CHECK(stable > 0);
     CHECK(unstable > 0);
 }
+
+}  // namespace test_parametric_resonance

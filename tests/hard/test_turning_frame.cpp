@@ -7,6 +7,8 @@
 #include "lockstep/steps/instability.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_turning_frame {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -120,3 +122,5 @@ TEST_CASE(
     }
     CHECK(outwards / (4.0 * static_cast<double>(samples)) == Approx(expected).epsilon(0.02));
 }
+
+}  // namespace test_turning_frame

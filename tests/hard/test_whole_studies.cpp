@@ -8,6 +8,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_whole_studies {
+
 using namespace gearpod;
 using mc::Status;
 using test::Folder;
@@ -262,3 +264,5 @@ TEST_CASE(
         }
     }
 }
+
+}  // namespace test_whole_studies

@@ -5,6 +5,8 @@
 #include "machine/cancellation.hpp"
 #include "machine/team.hpp"
 
+namespace test_cancellation {
+
 using namespace gearpod;
 using namespace gearpod::machine;
 
@@ -40,3 +42,5 @@ TEST_CASE("A team stops between its tasks on request") {
 }
 
 }  // namespace
+
+}  // namespace test_cancellation

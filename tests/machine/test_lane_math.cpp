@@ -6,6 +6,8 @@
 #include "machine/lane_math.hpp"
 #include "machine/sine_cosine.hpp"
 
+namespace test_lane_math {
+
 using namespace gearpod::machine;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("Sine and cosine along a flank agree with extended-precision ones") {
     CHECK(worst_error(
               -2.0, 2.0, cosine, [](long double x) { return std::cos(x); }, kAbsolute) < 3e-16);
 }
+
+}  // namespace test_lane_math

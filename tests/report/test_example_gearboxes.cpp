@@ -11,6 +11,8 @@
 #include "mc/run/support.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_example_gearboxes {
+
 using namespace gearpod;
 using Json = nlohmann::json;
 
@@ -150,3 +152,5 @@ TEST_CASE(
         CHECK(healthy[i].get<double>() == Approx(healthy[i + period].get<double>()).epsilon(1e-6));
     }
 }
+
+}  // namespace test_example_gearboxes

@@ -6,6 +6,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/report/report_cases.hpp"
 
+namespace test_feature_values {
+
 using namespace gearpod;
 using test::Folder;
 using test::program;
@@ -55,3 +57,5 @@ TEST_CASE("A study without noise prints the values of its file, not dashes") {
     }
     CHECK(found == 4);
 }
+
+}  // namespace test_feature_values

@@ -9,6 +9,8 @@
 #include "mc/results/reliability_of_results.hpp"
 #include "tests/report/report_cases.hpp"
 
+namespace test_report_json {
+
 using namespace gearpod;
 using Json = nlohmann::json;
 
@@ -159,3 +161,5 @@ TEST_CASE("The default noise level is 1, else the least noise, else the first") 
     CHECK(case_json("no_noise")["noise"]["reference"] == 0);
     CHECK(case_json("many")["noise"]["reference"] == 4);
 }
+
+}  // namespace test_report_json

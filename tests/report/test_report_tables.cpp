@@ -10,6 +10,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/report/report_cases.hpp"
 
+namespace test_report_tables {
+
 using namespace gearpod;
 using nlohmann::json;
 
@@ -92,3 +94,5 @@ TEST_CASE("The tables hold the report's numbers, with sizes in the unit of their
     CHECK_THROWS_WITH(mc::write_tables(files.front() + "/below", mc::report_tables(report)),
                       Catch::Contains(files.front()));
 }
+
+}  // namespace test_report_tables

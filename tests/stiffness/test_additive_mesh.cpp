@@ -5,6 +5,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_additive_mesh {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -146,3 +148,5 @@ TEST_CASE("each pair carries the load in proportion to its stiffness") {
     mesh.share(gone, 1.9, {first, 1});
     CHECK(first[0] == 0);
 }
+
+}  // namespace test_additive_mesh

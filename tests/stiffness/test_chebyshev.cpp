@@ -4,6 +4,8 @@
 
 #include "stiffness/teeth/chebyshev.hpp"
 
+namespace test_chebyshev {
+
 using namespace gearpod::stiffness;
 
 TEST_CASE("a Chebyshev series reproduces polynomials exactly and an exponential to rounding") {
@@ -35,3 +37,5 @@ TEST_CASE("values are raised to a given minimum") {
     evaluate_chebyshev(line, -1, 1, t, values, 0);
     CHECK(values == std::vector<double>{0, 0, 0.5});
 }
+
+}  // namespace test_chebyshev

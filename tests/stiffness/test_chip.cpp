@@ -6,6 +6,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_chip {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -103,3 +105,5 @@ TEST_CASE("a chip larger than its tooth is reported as such") {
     CHECK(family.at(1)->contact_width(end) == family.at(kFace)->contact_width(end));
     CHECK(family.at(kFace)->contact_width(end) == Approx(0).margin(1e-12));
 }
+
+}  // namespace test_chip

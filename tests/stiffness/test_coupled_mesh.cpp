@@ -8,6 +8,8 @@
 #include "stiffness/teeth/crack.hpp"
 #include "tests/stiffness/yang_gears.hpp"
 
+namespace test_coupled_mesh {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace yang_gears;
@@ -193,3 +195,5 @@ TEST_CASE("Coupled tooth pairs with a fault: a broken one carries no load, the o
         CHECK(other > 1.01 * healthy);
     }
 }
+
+}  // namespace test_coupled_mesh

@@ -18,6 +18,8 @@
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_cracked_gears {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using finite_elements::Row;
@@ -246,3 +248,5 @@ TEST_CASE("largest loss of the ring mesh in planet-crack.toml by law and profile
                     largest(Profile::root_circle, CrackLaw::fracture_mechanics, depth_m),
                     largest(Profile::fillet, CrackLaw::fracture_mechanics, depth_m));
 }
+
+}  // namespace test_cracked_gears

@@ -10,6 +10,8 @@
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_faulty_mesh {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -127,3 +129,5 @@ TEST_CASE("a crack on gear 1 or 2 weakens the pair according to the curve of its
         }
     }
 }
+
+}  // namespace test_faulty_mesh

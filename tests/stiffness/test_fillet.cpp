@@ -7,6 +7,8 @@
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/yang_forms.hpp"
 
+namespace test_fillet {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -179,3 +181,5 @@ TEST_CASE("a tooth breaks where the crack reaches the other flank") {
                     REQUIRE(sections.cracked_thickness(profile.half_thickness(u)) > 0);
             }
 }
+
+}  // namespace test_fillet

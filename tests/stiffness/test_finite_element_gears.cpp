@@ -21,6 +21,8 @@
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
 
+namespace test_finite_element_gears {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using finite_elements::Row;
@@ -394,3 +396,5 @@ TEST_CASE("helical mesh stiffness over the solids'", "[.fem]") {
                     row.number("solid_N_m") / row.number("slices_N_m"), helical / spur);
     }
 }
+
+}  // namespace test_finite_element_gears

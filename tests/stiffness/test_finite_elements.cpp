@@ -10,6 +10,8 @@
 #include "stiffness/faults/tooth_crack.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_finite_elements {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -188,3 +190,5 @@ TEST_CASE("A load-dependent contact is 12 % softer than the finite elements") {
         CHECK(pair.mesh(row) / row.gears == Approx(0.888).margin(0.01));
     }
 }
+
+}  // namespace test_finite_elements

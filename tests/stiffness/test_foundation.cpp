@@ -8,6 +8,8 @@
 #include "stiffness/foundation/sainsot.hpp"
 #include "tests/stiffness/yang_gears.hpp"
 
+namespace test_foundation {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace yang_gears;
@@ -152,3 +154,5 @@ TEST_CASE("a foundation out of range is reported, an impossible one is refused")
     CHECK(make_foundation(gear(96, true), kSteel, Profile::fillet, FoundationModel::sainsot,
                           kRingOuter) == nullptr);
 }
+
+}  // namespace test_foundation

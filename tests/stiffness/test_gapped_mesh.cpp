@@ -11,6 +11,8 @@
 #include "stiffness/loaded_mesh.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_gapped_mesh {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -222,3 +224,5 @@ TEST_CASE("a fault softens its own tooth pair over the whole extended contact") 
         CHECK(total == Approx(secant(mesh, early)).epsilon(1e-9));
     }
 }
+
+}  // namespace test_gapped_mesh

@@ -3,6 +3,8 @@
 
 #include "stiffness/foundation/gear_blank.hpp"
 
+namespace test_gear_blank {
+
 using gearpod::stiffness::gear_blank_factor;
 
 // A wheel of module 4 mm, 20 mm wide, on a web of 6 mm, its rim 8 mm thick: ln 0.3 = -1.2039728,
@@ -33,3 +35,5 @@ TEST_CASE("Thicker webs and rims are stiffer") {
             CHECK(gear_blank_factor(web, rim + 0.5) > gear_blank_factor(web, rim));
         }
 }
+
+}  // namespace test_gear_blank

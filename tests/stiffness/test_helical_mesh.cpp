@@ -15,6 +15,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_helical_mesh {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -262,3 +264,5 @@ TEST_CASE("the factors of helical teeth are those of the inclined section") {
 TEST_CASE("an overlap ratio must be positive") {
     CHECK_THROWS_WITH(HelicalMesh(additive(), 0), Catch::Contains("must be positive"));
 }
+
+}  // namespace test_helical_mesh

@@ -14,6 +14,8 @@
 #include "stiffness/iso_6336.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
 
+namespace test_iso_6336 {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -164,3 +166,5 @@ TEST_CASE("mean mesh stiffness compared with ISO 6336-1", "[.table]") {
                     p.x_1, p.x_2, p.helix_deg, r.contact_ratio, r.iso, r.rigid, r.ring, r.sainsot);
     }
 }
+
+}  // namespace test_iso_6336

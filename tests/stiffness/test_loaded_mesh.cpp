@@ -9,6 +9,8 @@
 #include "stiffness/loaded_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
+namespace test_loaded_mesh {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -128,3 +130,5 @@ TEST_CASE("on involute teeth the best long relief is near one pair's deflection"
     }
     CHECK(best == Approx(1).margin(0.15));
 }
+
+}  // namespace test_loaded_mesh

@@ -9,6 +9,8 @@
 #include "stiffness/iso_6336.hpp"
 #include "tests/stiffness/mesh_level_pairs.hpp"
 
+namespace test_mesh_stiffness_level {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using mesh_level::LevelPair;
@@ -112,3 +114,5 @@ TEST_CASE("mesh stiffness by every model of the bodies", "[.level]") {
                     l.sainsot / l.iso, l.sainsot_load / l.iso, l.ring / l.iso,
                     l.untwisted_ring / l.iso);
 }
+
+}  // namespace test_mesh_stiffness_level

@@ -9,6 +9,8 @@
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/crack.hpp"
 
+namespace test_nearly_broken {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -66,3 +68,5 @@ TEST_CASE("a crack that starts above the root may exit the tooth below its start
         check_range(mesh, *family.at(1));
     }
 }
+
+}  // namespace test_nearly_broken

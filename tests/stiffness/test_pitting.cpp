@@ -6,6 +6,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_pitting {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -161,3 +163,5 @@ TEST_CASE("pits that do not fit on the flank are reported as such") {
     CHECK(problems({kMesh.gear(1).tip_radius(), 1e-3, 0, 1}, 10e-3).size() == 1);
     CHECK(problems({kMesh.gear(1).pitch_radius(), 0, 0, 1}, 10e-3).size() == 1);
 }
+
+}  // namespace test_pitting

@@ -9,6 +9,8 @@
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
+namespace test_shifted_teeth {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -137,3 +139,5 @@ TEST_CASE("thicker roots stiffen a pinion, and explicit zero shifts change no bi
         CHECK(at_pitch(shifted) < at_pitch(plain));
     }
 }
+
+}  // namespace test_shifted_teeth

@@ -8,6 +8,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/yang_gears.hpp"
 
+namespace test_spatial_crack {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace yang_gears;
@@ -263,3 +265,5 @@ TEST_CASE("an invalid crack is refused with all reasons") {
     CHECK_THROWS_AS(SpatialCrack(sun_planet(), kSteel, Profile::fillet, 3, growth()),
                     std::invalid_argument);
 }
+
+}  // namespace test_spatial_crack

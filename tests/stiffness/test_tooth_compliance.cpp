@@ -5,6 +5,8 @@
 #include "tests/stiffness/gear_pairs.hpp"
 #include "tests/stiffness/printed_forms.hpp"
 
+namespace test_tooth_compliance {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -197,3 +199,5 @@ TEST_CASE("a shallow crack removes only the involute's bulge on one side") {
         }
     }
 }
+
+}  // namespace test_tooth_compliance

@@ -9,6 +9,8 @@
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_tooth_crack {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 using namespace test_pairs;
@@ -171,3 +173,5 @@ TEST_CASE("an invalid crack is refused") {
     CHECK_THROWS_AS(ToothCrack(mesh, kLiangSteel, Profile::root_circle, 1, 0.0),
                     std::invalid_argument);
 }
+
+}  // namespace test_tooth_crack

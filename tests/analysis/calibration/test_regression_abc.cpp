@@ -6,6 +6,8 @@
 
 #include "analysis/calibration/regression_abc.hpp"
 
+namespace test_regression_abc {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -117,3 +119,5 @@ TEST_CASE("Simulations and observations of different shapes are refused") {
 }
 
 }  // namespace
+
+}  // namespace test_regression_abc

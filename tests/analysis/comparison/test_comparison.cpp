@@ -6,6 +6,8 @@
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/wilson.hpp"
 
+namespace test_comparison {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -189,3 +191,5 @@ TEST_CASE("Intervals of differences over many studies", "[.rare-coverage]") {
 }
 
 }  // namespace
+
+}  // namespace test_comparison

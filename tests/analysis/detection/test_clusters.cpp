@@ -10,6 +10,8 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 
+namespace test_clusters {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -198,3 +200,5 @@ TEST_CASE("Equal records of one gearbox do not make a feature constant") {
 }
 
 }  // namespace
+
+}  // namespace test_clusters

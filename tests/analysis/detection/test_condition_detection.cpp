@@ -3,6 +3,8 @@
 
 #include "analysis/detection/condition_detection.hpp"
 
+namespace test_condition_detection {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -97,3 +99,5 @@ TEST_CASE("Conditions without a threshold do not count; continuous inputs are no
 }
 
 }  // namespace
+
+}  // namespace test_condition_detection

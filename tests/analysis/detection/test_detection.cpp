@@ -9,6 +9,8 @@
 #include "analysis/detection/reliable_size.hpp"
 #include "analysis/detection/threshold.hpp"
 
+namespace test_detection {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -178,3 +180,5 @@ TEST_CASE("Features keep their alarm side in detection") {
 }
 
 }  // namespace
+
+}  // namespace test_detection

@@ -6,6 +6,8 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 
+namespace test_false_alarm_rate {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -90,3 +92,5 @@ TEST_CASE("Healthy rates follow the count and the threshold's own law") {
 }
 
 }  // namespace
+
+}  // namespace test_false_alarm_rate

@@ -11,6 +11,8 @@
 #include "analysis/detection/clusters.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
 
+namespace test_importance_sample {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -249,3 +251,5 @@ TEST_CASE("Plain records of gearboxes give order statistics and no tail beyond t
 }
 
 }  // namespace
+
+}  // namespace test_importance_sample

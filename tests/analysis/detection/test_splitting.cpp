@@ -8,6 +8,8 @@
 
 #include "analysis/detection/splitting.hpp"
 
+namespace test_splitting {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -190,3 +192,5 @@ TEST_CASE("Interval coverage of rates by splitting", "[.rare-coverage][splitting
 }
 
 }  // namespace
+
+}  // namespace test_splitting

@@ -10,6 +10,8 @@
 #include "analysis/detection/tail.hpp"
 #include "analysis/detection/threshold.hpp"
 
+namespace test_tail {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -181,3 +183,5 @@ TEST_CASE("A threshold beyond the sample comes from the fitted tail, for either 
 }
 
 }  // namespace
+
+}  // namespace test_tail

@@ -8,6 +8,8 @@
 #include "analysis/statistics/wilson.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_input_effects {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -210,3 +212,5 @@ TEST_CASE("Bounds of the a90 map cover the truth; the test keeps its level", "[.
 }
 
 }  // namespace
+
+}  // namespace test_input_effects

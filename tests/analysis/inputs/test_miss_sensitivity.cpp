@@ -5,6 +5,8 @@
 #include "analysis/inputs/miss_sensitivity.hpp"
 #include "analysis/statistics/link.hpp"
 
+namespace test_miss_sensitivity {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -101,3 +103,5 @@ TEST_CASE("Without misses or hits there is no influence to estimate") {
 }
 
 }  // namespace
+
+}  // namespace test_miss_sensitivity

@@ -7,6 +7,8 @@
 
 #include "analysis/inputs/sobol_indices.hpp"
 
+namespace test_sobol_indices {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -215,3 +217,5 @@ TEST_CASE("Bounds of both indices cover the truth", "[.coverage]") {
 }
 
 }  // namespace
+
+}  // namespace test_sobol_indices

@@ -4,6 +4,8 @@
 
 #include "analysis/inputs/uncertain_inputs.hpp"
 
+namespace test_uncertain_inputs {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -79,3 +81,5 @@ TEST_CASE("Without a varying input, or without a curve, there is no band") {
     CHECK(refused.band().refusal == "no curve");
     CHECK(refused.band().band.empty());
 }
+
+}  // namespace test_uncertain_inputs

@@ -6,6 +6,8 @@
 
 #include "analysis/monitoring/baseline_deviations.hpp"
 
+namespace test_baseline_deviations {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -111,3 +113,5 @@ TEST_CASE("Fused features have unit variance and detect a common shift sooner") 
 }
 
 }  // namespace
+
+}  // namespace test_baseline_deviations

@@ -8,6 +8,8 @@
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/monitoring/false_alarms.hpp"
 
+namespace test_false_alarms {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -144,3 +146,5 @@ TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-cover
 }
 
 }  // namespace
+
+}  // namespace test_false_alarms

@@ -6,6 +6,8 @@
 
 #include "analysis/monitoring/monitor_performance.hpp"
 
+namespace test_monitor_performance {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -111,3 +113,5 @@ TEST_CASE("A quantile's bound has its nominal coverage") {
 }
 
 }  // namespace
+
+}  // namespace test_monitor_performance

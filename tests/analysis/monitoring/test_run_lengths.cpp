@@ -8,6 +8,8 @@
 
 #include "analysis/monitoring/detector.hpp"
 
+namespace test_run_lengths {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -249,3 +251,5 @@ TEST_CASE("A missing value leaves a detector unchanged, and an alarm resets it")
 }
 
 }  // namespace
+
+}  // namespace test_run_lengths

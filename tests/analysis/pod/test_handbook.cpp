@@ -9,6 +9,8 @@
 #include "analysis/inspection.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 
+namespace test_handbook {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -124,3 +126,5 @@ TEST_CASE("Example 4, hit/miss by the complementary log-log", "[handbook]") {
 }
 
 }  // namespace
+
+}  // namespace test_handbook

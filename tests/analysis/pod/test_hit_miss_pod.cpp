@@ -5,6 +5,8 @@
 #include "analysis/pod/pod_bounds.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_hit_miss_pod {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -313,3 +315,5 @@ TEST_CASE("Hosmer-Lemeshow keeps its level for a true curve and rejects a wrong 
 }
 
 }  // namespace
+
+}  // namespace test_hit_miss_pod

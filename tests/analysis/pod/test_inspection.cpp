@@ -8,6 +8,8 @@
 #include "analysis/inspection.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_inspection {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -295,3 +297,5 @@ TEST_CASE("Inspections without a flaw determine the floor of hit/miss curves") {
 }
 
 }  // namespace
+
+}  // namespace test_inspection

@@ -6,6 +6,8 @@
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_signal_response_pod {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -148,3 +150,5 @@ TEST_CASE("Responses without scatter, sizes or values are refused") {
 }
 
 }  // namespace
+
+}  // namespace test_signal_response_pod

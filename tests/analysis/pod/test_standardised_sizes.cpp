@@ -7,6 +7,8 @@
 #include "analysis/pod/pod_likelihood.hpp"
 #include "analysis/pod/standardised_sizes.hpp"
 
+namespace test_standardised_sizes {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -101,3 +103,5 @@ TEST_CASE("log likelihoods over nodes equal those over all gearboxes, for flat a
 }
 
 }  // namespace
+
+}  // namespace test_standardised_sizes

@@ -6,6 +6,8 @@
 #include "analysis/ranking/combined_detector.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_combined_detector {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -175,3 +177,5 @@ TEST_CASE("Complete separation keeps finite weights") {
 }
 
 }  // namespace
+
+}  // namespace test_combined_detector

@@ -7,6 +7,8 @@
 #include "analysis/statistics/holm.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_feature_ranking {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -107,3 +109,5 @@ TEST_CASE("Features and samples that cannot be ranked are named with the reason"
 }
 
 }  // namespace
+
+}  // namespace test_feature_ranking

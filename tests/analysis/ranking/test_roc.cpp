@@ -7,6 +7,8 @@
 #include "analysis/ranking/roc.hpp"
 #include "analysis/statistics/auc.hpp"
 
+namespace test_roc {
+
 using namespace gearpod::analysis;
 
 namespace {
@@ -88,3 +90,5 @@ TEST_CASE("Values that are not finite are left out; with one class only there is
     REQUIRE(points.size() == 2);  // a constant feature: the diagonal
     CHECK(points[1].detection_rate == 1.0);
 }
+
+}  // namespace test_roc

@@ -7,6 +7,8 @@
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/detection_text.hpp"
 
+namespace test_detection_reports {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -132,3 +134,5 @@ TEST_CASE("The JSON holds every number of the detection, and null where there is
 }
 
 }  // namespace
+
+}  // namespace test_detection_reports

@@ -6,6 +6,8 @@
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/reliability_text.hpp"
 
+namespace test_false_alarm_text {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -146,3 +148,5 @@ TEST_CASE("A report names the noise levels without a threshold") {
 }
 
 }  // namespace
+
+}  // namespace test_false_alarm_text

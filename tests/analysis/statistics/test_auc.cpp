@@ -6,6 +6,8 @@
 #include "analysis/statistics/auc.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_auc {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -115,3 +117,5 @@ TEST_CASE("Areas of separated, constant, empty and invalid samples are reported 
 }
 
 }  // namespace
+
+}  // namespace test_auc

@@ -4,6 +4,8 @@
 
 #include "analysis/statistics/clopper_pearson.hpp"
 
+namespace test_clopper_pearson {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -45,3 +47,5 @@ TEST_CASE("Clopper-Pearson bounds leave half the error in each tail") {
 }
 
 }  // namespace
+
+}  // namespace test_clopper_pearson

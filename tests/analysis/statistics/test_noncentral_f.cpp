@@ -10,6 +10,8 @@
 #include "analysis/statistics/noncentral_f.hpp"
 #include "tests/analysis/reference_data.hpp"
 
+namespace test_noncentral_f {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -73,3 +75,5 @@ TEST_CASE("bounds of a share exist for any sample, for inputs that explain nothi
 }
 
 }  // namespace
+
+}  // namespace test_noncentral_f

@@ -3,6 +3,8 @@
 
 #include "analysis/statistics/wilson.hpp"
 
+namespace test_wilson {
+
 using namespace gearpod;
 using namespace gearpod::analysis;
 
@@ -46,3 +48,5 @@ TEST_CASE("Wilson intervals are symmetric, end exactly at 0 and 1, and require a
 }
 
 }  // namespace
+
+}  // namespace test_wilson

@@ -11,6 +11,8 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_variable_speed {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using std::numbers::pi;
@@ -234,3 +236,5 @@ TEST_CASE("a slowly varying speed passes through the periodic orbits of steady s
     CHECK(slow < 5e-3 * (*high - *low));
     CHECK(slower < 0.35 * slow);
 }
+
+}  // namespace test_variable_speed

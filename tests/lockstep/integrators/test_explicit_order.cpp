@@ -11,6 +11,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
+namespace test_explicit_order {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::integrate_meshes;
@@ -186,3 +188,5 @@ TEST_CASE("The error estimate of bs3 is the difference of its two solutions") {
         CHECK(rows[3] == Approx(share * w * std::abs((third - second).imag())).epsilon(1e-6));
     }
 }
+
+}  // namespace test_explicit_order

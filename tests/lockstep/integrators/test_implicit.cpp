@@ -11,6 +11,8 @@
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_implicit {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::integrate_meshes;
@@ -354,3 +356,5 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
         check_lanes<1>(plan, lanes, healthy, settings, 2, wide);
     }
 }
+
+}  // namespace test_implicit

@@ -9,6 +9,8 @@
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/integrators/generalized_alpha.hpp"
 
+namespace test_sensor_filter {
+
 using namespace gearpod::lockstep;
 
 namespace {
@@ -102,3 +104,5 @@ TEST_CASE("The low-pass converges at its integrator's order in the step") {
     CHECK(order(Integrator::generalized_alpha, 80) == Approx(2.0).margin(0.1));
     CHECK(order(Integrator::central_difference, 80) == Approx(2.0).margin(0.1));
 }
+
+}  // namespace test_sensor_filter

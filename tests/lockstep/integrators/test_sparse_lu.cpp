@@ -4,6 +4,8 @@
 
 #include "lockstep/integrators/sparse_lu.hpp"
 
+namespace test_sparse_lu {
+
 using namespace gearpod::lockstep;
 
 namespace {
@@ -64,3 +66,5 @@ TEST_CASE("Entries are the nonzero elements, column by column") {
     CHECK(entries.to == std::vector<int>{0, 1, 1});
     CHECK(entries.from == std::vector<int>{0, 0, 1});
 }
+
+}  // namespace test_sparse_lu

@@ -7,6 +7,8 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
 
+namespace test_kernel_table {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 
@@ -80,3 +82,5 @@ TEST_CASE("A missing kernel is refused by name and not replaced by one of other 
     CHECK_THROWS_WITH(kernel_table().find<dynamics::PlanetaryLanes<2>>(key),
                       Catch::Contains("not 2 doubles by rk4"));
 }
+
+}  // namespace test_kernel_table

@@ -9,6 +9,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
+namespace test_mesh_laws {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using dynamics::MeshLaw;
@@ -396,3 +398,5 @@ TEST_CASE("From a far start a loaded train converges to the periodic orbit reach
         CHECK(record.te[i] == Approx(periodic_orbit.records[0].te[i]).epsilon(1e-6));
     }
 }
+
+}  // namespace test_mesh_laws

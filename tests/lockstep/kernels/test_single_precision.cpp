@@ -10,6 +10,8 @@
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_single_precision {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -186,3 +188,5 @@ TEST_CASE("Two methods alone support single precision, and doubles have at most 
         CHECK_THROWS_AS(make_mesh_integrator<16>(single(plan), inputs), std::invalid_argument);
     }
 }
+
+}  // namespace test_single_precision

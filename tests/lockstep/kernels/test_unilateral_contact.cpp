@@ -14,6 +14,8 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_unilateral_contact {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using dynamics::MeshLaw;
@@ -348,3 +350,5 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
         CHECK(state.q[i] == Approx(own).margin(1e-4 * largest(expected)));
     }
 }
+
+}  // namespace test_unilateral_contact

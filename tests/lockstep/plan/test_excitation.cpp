@@ -10,6 +10,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"
 
+namespace test_excitation {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using std::numbers::pi;
@@ -168,3 +170,5 @@ TEST_CASE("random torque shakes a mass on a spring as the spectra say", "[excita
     // 8 lanes of 600 ms of a resonance 735 Hz wide: 3500 independent values.
     CHECK(sum / count == Approx(variance).epsilon(0.05));
 }
+
+}  // namespace test_excitation

@@ -6,6 +6,8 @@
 #include "lockstep/plan/fault_pattern.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
+namespace test_fault_pattern {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 
@@ -153,3 +155,5 @@ TEST_CASE("a planet tooth meets one side, and a shaft's gear its mate, once a tu
     CHECK(pinion.passages[0].pair == 0);
     CHECK(pinion.passages[0].start == 0.3);
 }
+
+}  // namespace test_fault_pattern

@@ -4,6 +4,8 @@
 
 #include "lockstep/plan/phase_grid.hpp"
 
+namespace test_phase_grid {
+
 using namespace gearpod::lockstep;
 
 TEST_CASE("The phase grid covers a mesh period with a node on every sample and transition") {
@@ -39,3 +41,5 @@ TEST_CASE("A phase grid without samples or steps is refused") {
     CHECK_THROWS_AS(make_phase_grid(0, 100, {}), std::invalid_argument);
     CHECK_THROWS_AS(make_phase_grid(5, 0, {}), std::invalid_argument);
 }
+
+}  // namespace test_phase_grid

@@ -8,6 +8,8 @@
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_stiffness_nodes {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using stiffness::Limit;
@@ -156,3 +158,5 @@ TEST_CASE("A pit's edges are jumps at the ends of steps") {
         CHECK(jumps >= 4);
     }
 }
+
+}  // namespace test_stiffness_nodes

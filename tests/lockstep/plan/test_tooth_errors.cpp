@@ -10,6 +10,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_tooth_errors {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -274,3 +276,5 @@ TEST_CASE(
     }
     CHECK(alone > 10);
 }
+
+}  // namespace test_tooth_errors

@@ -11,6 +11,8 @@
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_tooth_pairs {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -140,3 +142,5 @@ TEST_CASE("More simultaneous tooth pairs than supported are refused with their n
     CHECK_THROWS_WITH(add_tooth_pairs(pairs, grid, nodes),
                       Catch::Contains("9 tooth pairs of a gear pair touch at once"));
 }
+
+}  // namespace test_tooth_pairs

@@ -9,6 +9,8 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_graded_grid {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -206,3 +208,5 @@ TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the to
     // A tolerance that cannot be met is reported.
     CHECK(!choose_grading(pilot, 1.0 / 50, 1e-12, grid_of).reached);
 }
+
+}  // namespace test_graded_grid

@@ -11,6 +11,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_step_limit {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 
@@ -194,3 +196,5 @@ TEST_CASE(
         CHECK(te < 1e-3);
     }
 }
+
+}  // namespace test_step_limit

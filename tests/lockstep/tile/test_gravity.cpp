@@ -5,6 +5,8 @@
 #include "lockstep/tile/quasi_static.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_gravity {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using std::numbers::pi;
@@ -189,3 +191,5 @@ TEST_CASE("the displacement of a shaft's gear is its weight over its bearing's s
     CHECK(q[dynamics::y_1] == Approx(1.5 * y / 1e8));
     CHECK(q[dynamics::y_2] == Approx(4.0 * y / 2e8));
 }
+
+}  // namespace test_gravity

@@ -8,6 +8,8 @@
 #include "lockstep/tile/mesh_integrator.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_integration {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -154,3 +156,5 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness follows its cos
         }
     }
 }
+
+}  // namespace test_integration

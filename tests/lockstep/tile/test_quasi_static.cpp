@@ -5,6 +5,8 @@
 #include "lockstep/tile/quasi_static.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_quasi_static {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -281,3 +283,5 @@ TEST_CASE("Static errors redistribute the load, separate meshes and load back fl
         }
     }
 }
+
+}  // namespace test_quasi_static

@@ -11,6 +11,8 @@
 #include "stiffness/faults/broken.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_tian {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using std::numbers::pi;
@@ -289,3 +291,5 @@ TEST_CASE(
     CHECK(peak(shock) > 10 * peak(healthy));
     CHECK(oscillation_Hz(extremes(shock), 0.1e-3, 1.2e-3) == Approx(2530.0).epsilon(0.08));
 }
+
+}  // namespace test_tian

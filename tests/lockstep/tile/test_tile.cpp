@@ -6,6 +6,8 @@
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
+namespace test_tile {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -185,3 +187,5 @@ TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
         }
     }
 }
+
+}  // namespace test_tile

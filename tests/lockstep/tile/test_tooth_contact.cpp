@@ -15,6 +15,8 @@
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
+namespace test_tooth_contact {
+
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::LiangTrain;
@@ -259,3 +261,5 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
         LiangTrain::instance().plan(24, 1200, dynamics::Motion::translational_torsional);
     CHECK(run_tile<8>(linear, inputs, LiangTrain::instance().no_fault(8), {}).contact_loss.empty());
 }
+
+}  // namespace test_tooth_contact

@@ -15,6 +15,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_accuracy {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using test::shipped_study;
@@ -315,3 +317,5 @@ TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
     CHECK(bad.code == kBadInput);
     CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
 }
+
+}  // namespace test_accuracy

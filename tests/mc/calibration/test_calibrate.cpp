@@ -13,6 +13,8 @@
 #include "mc/numerics/study_scene.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_calibrate {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -293,3 +295,5 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
 }
 
 }  // namespace
+
+}  // namespace test_calibrate

@@ -3,6 +3,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_built_kernels {
+
 using namespace gearpod;
 using test::Outcome;
 using test::study;
@@ -57,3 +59,5 @@ TEST_CASE("A grid for single precision is graded with sixteen lanes") {
     CHECK(described.code == 0);
     CHECK(described.mentions("after a transition"));
 }
+
+}  // namespace test_built_kernels

@@ -5,6 +5,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_compare_command {
+
 using namespace gearpod;
 using test::bytes_of;
 using test::Folder;
@@ -133,3 +135,5 @@ TEST_CASE("compare reports every missing or incomplete file") {
     CHECK(compare.code == 0);
     CHECK(compare.mentions("part 1/2 only"));
 }
+
+}  // namespace test_compare_command

@@ -4,6 +4,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_false_alarms {
+
 using namespace gearpod;
 using test::Folder;
 using test::Outcome;
@@ -129,3 +131,5 @@ TEST_CASE("Uncertainty left by a calibration is a separate band in text, data an
     CHECK(unknown.code == 2);
     CHECK(unknown.mentions("\"sensor.gain\" is not a random input of the gearboxes"));
 }
+
+}  // namespace test_false_alarms

@@ -17,6 +17,8 @@
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_features_command {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -377,3 +379,5 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
 }
 
 }  // namespace
+
+}  // namespace test_features_command

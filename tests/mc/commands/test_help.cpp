@@ -3,6 +3,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_help {
+
 using namespace gearpod;
 using test::bytes_of;
 using test::Folder;
@@ -95,3 +97,5 @@ TEST_CASE("The version states source revision and build") {
         CHECK_THAT(completed.output, Catch::Contains(word));
     }
 }
+
+}  // namespace test_help

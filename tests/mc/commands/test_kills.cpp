@@ -6,6 +6,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_kills {
+
 using namespace gearpod;
 using test::bits;
 using test::Folder;
@@ -72,3 +74,5 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
     CHECK(last.code == 0);
     CHECK(bits(out) == reference);
 }
+
+}  // namespace test_kills

@@ -8,6 +8,8 @@
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_measured_baseline {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -132,3 +134,5 @@ TEST_CASE("Many recordings are compared with one baseline") {
 }
 
 }  // namespace
+
+}  // namespace test_measured_baseline

@@ -2,6 +2,8 @@
 // name.
 #include "tests/mc/program.hpp"
 
+namespace test_merge {
+
 using namespace gearpod;
 using test::bits;
 using test::bytes_of;
@@ -160,3 +162,5 @@ TEST_CASE("An interrupted part is resumed before it is merged; progress is avail
     CHECK(refused.code == 2);
     CHECK(refused.mentions("1-2.h5: contains 16 of its 37 gearboxes"));
 }
+
+}  // namespace test_merge

@@ -4,6 +4,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_misses {
+
 using namespace gearpod;
 using test::program;
 using test::shell;
@@ -120,3 +122,5 @@ TEST_CASE("Invalid requests to misses are refused, every problem at once") {
     CHECK(std::count(deep.output.begin(), deep.output.end(), '\n') == 1);
     CHECK(program("misses " + folder.file("none.h5") + " --feature fm4 --size 1").code == 2);
 }
+
+}  // namespace test_misses

@@ -4,6 +4,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_outputs {
+
 using namespace gearpod;
 using test::bytes_of;
 using test::Folder;
@@ -148,3 +150,5 @@ TEST_CASE("An existing file under the temporary output name is refused and not o
     CHECK(program("run " + place.study + kSmall + " --quiet --out " + out).code == 0);
     CHECK_FALSE(fs::exists(pending));
 }
+
+}  // namespace test_outputs

@@ -7,6 +7,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_pod_command {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -101,3 +103,5 @@ TEST_CASE("pod reports data that determine no curve") {
 }
 
 }  // namespace
+
+}  // namespace test_pod_command

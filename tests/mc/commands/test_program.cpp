@@ -5,6 +5,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_program {
+
 using gearpod::test::Folder;
 using gearpod::test::Outcome;
 using gearpod::test::program;
@@ -217,3 +219,5 @@ TEST_CASE("The C library's choice of elementary functions has no effect on the r
         CHECK(std::system(command.c_str()) == 0);
     }
 }
+
+}  // namespace test_program

@@ -5,6 +5,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_rare {
+
 using namespace gearpod;
 using test::program;
 using test::shell;
@@ -158,3 +160,5 @@ TEST_CASE("Invalid requests to rare are refused, every problem at once") {
     CHECK(program("rare " + results + " --feature window_ratio --size 1 --rate 0.01").code != 0);
     CHECK(program("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01").code == 2);
 }
+
+}  // namespace test_rare

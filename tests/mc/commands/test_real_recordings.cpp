@@ -10,6 +10,8 @@
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_real_recordings {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -309,3 +311,5 @@ TEST_CASE("Ten million rows are processed in bounded time and memory") {
 }
 
 }  // namespace
+
+}  // namespace test_real_recordings

@@ -13,6 +13,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_recordings {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -388,3 +390,5 @@ TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
 }
 
 }  // namespace
+
+}  // namespace test_recordings

@@ -10,6 +10,8 @@
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_runs {
+
 using namespace gearpod;
 using test::bits;
 using test::bytes_of;
@@ -391,3 +393,5 @@ TEST_CASE("A folder without write permission is reported before the run") {
     CHECK(run.mentions("locked/r.h5: cannot be written: Permission denied"));
     CHECK(fs::is_empty(folder.file("locked")));
 }
+
+}  // namespace test_runs

@@ -1,6 +1,8 @@
 // Checks tooth contact in the text of describe.
 #include "tests/mc/program.hpp"
 
+namespace test_describe_contact {
+
 using namespace gearpod;
 using test::program;
 
@@ -17,3 +19,5 @@ TEST_CASE("describe shows no share of time out of contact where teeth cannot sep
     CHECK(!description.mentions("out of contact"));
     CHECK(!description.mentions("time step error"));
 }
+
+}  // namespace test_describe_contact

@@ -3,6 +3,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_describe_gearbox {
+
 using namespace gearpod;
 using test::program;
 
@@ -90,3 +92,5 @@ TEST_CASE("describe states how much stiffer rigid gear bodies make the meshes th
     REQUIRE(elastic.code == 0);
     CHECK(!elastic.mentions("rigid gear bodies"));
 }
+
+}  // namespace test_describe_gearbox

@@ -7,6 +7,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/lives/life_example.hpp"
 
+namespace test_lives_forecast {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -37,3 +39,5 @@ TEST_CASE("The forecast for lives grows with their loads, depths and number") {
     CHECK(lives.records == plain.records + 396 * 40);
     CHECK(lives.file_bytes > 20.0 * plain.file_bytes);
 }
+
+}  // namespace test_lives_forecast

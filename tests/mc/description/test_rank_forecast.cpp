@@ -9,6 +9,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_rank_forecast {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -82,3 +84,5 @@ TEST_CASE("A checkpoint and results have the forecast sizes") {
     const auto written = static_cast<double>(std::filesystem::file_size(path));
     CHECK(written - checkpoint_bytes(plan, shape) == Approx(4096.0));
 }
+
+}  // namespace test_rank_forecast

@@ -7,6 +7,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_ensemble {
+
 using namespace gearpod;
 using test::bits;
 using test::shipped_study;
@@ -167,3 +169,5 @@ TEST_CASE("Detection rates: false alarms at size 0, more with size, never more w
     CHECK(window.levels[0].cells.back().pd == 1.0);
     CHECK(window.levels.back().cells[1].pd < 0.2);
 }
+
+}  // namespace test_ensemble

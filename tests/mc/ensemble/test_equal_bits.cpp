@@ -11,6 +11,8 @@
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
 
+namespace test_equal_bits {
+
 using namespace gearpod;
 using test::bits;
 using test::shipped_study;
@@ -71,3 +73,5 @@ TEST_CASE("Every shipped study gives the same bits by eight lanes and by one or 
         CHECK(of_lanes(any_width && integrates_all_meshes(study) ? 4 : 1) == reference);
     }
 }
+
+}  // namespace test_equal_bits

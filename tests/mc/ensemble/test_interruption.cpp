@@ -8,6 +8,8 @@
 
 #include "mc/ensemble/interruption.hpp"
 
+namespace test_interruption {
+
 using namespace gearpod::mc;
 using namespace std::chrono_literals;
 
@@ -86,3 +88,5 @@ TEST_CASE("A request to stop takes effect at the requested time") {
     std::this_thread::sleep_for(250ms);
     CHECK(interruption.stop());
 }
+
+}  // namespace test_interruption

@@ -9,6 +9,8 @@
 #include "mc/scene/sampling.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_running_pd {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -82,3 +84,5 @@ TEST_CASE(
     REQUIRE(watch.rows_left().has_value());
     CHECK(*watch.rows_left() == 64 * 16 / 9 - 64);
 }
+
+}  // namespace test_running_pd

@@ -7,6 +7,8 @@
 
 #include "machine/team.hpp"
 
+namespace test_team {
+
 using namespace gearpod;
 
 TEST_CASE("Every index is processed once, for any team size") {
@@ -49,3 +51,5 @@ TEST_CASE("An exception in a team is rethrown after the others have finished") {
                       "the fourth");
     CHECK(threads == 3);
 }
+
+}  // namespace test_team

@@ -5,6 +5,8 @@
 #include "machine/team.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_thread_count {
+
 using namespace gearpod;
 using test::Folder;
 
@@ -116,3 +118,5 @@ TEST_CASE("Only the team is bound to places: one per thread, none for the main t
     CHECK(places[1].find_first_of("-,") == std::string::npos);
     CHECK_FALSE(run.mentions("of 3"));
 }
+
+}  // namespace test_thread_count

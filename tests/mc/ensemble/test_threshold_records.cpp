@@ -4,6 +4,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_threshold_records {
+
 using namespace gearpod;
 using test::bits;
 using test::shipped_study;
@@ -178,3 +180,5 @@ TEST_CASE("Tilting without records, with other counts or with coloured noise is 
                        .problems);
     CHECK_THAT(coloured, Catch::Contains("tilting needs white noise"));
 }
+
+}  // namespace test_threshold_records

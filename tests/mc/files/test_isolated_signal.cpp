@@ -11,6 +11,8 @@
 #include "mc/files/isolated_signal.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_isolated_signal {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -83,3 +85,5 @@ TEST_CASE("No child process remains") {
 }
 
 }  // namespace
+
+}  // namespace test_isolated_signal

@@ -12,6 +12,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/recording_bytes.hpp"
 
+namespace test_recording_formats {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -268,3 +270,5 @@ TEST_CASE("rate and scale of an HDF5 file may be integers") {
 }
 
 }  // namespace
+
+}  // namespace test_recording_formats

@@ -4,6 +4,8 @@
 
 #include "tests/mc/program.hpp"
 
+namespace test_bounds {
+
 using namespace gearpod;
 using test::Folder;
 using test::Outcome;
@@ -91,3 +93,5 @@ TEST_CASE("A run that exceeds the memory reports this before it begins") {
     CHECK_FALSE(forced.mentions("std::"));
 }
 #endif
+
+}  // namespace test_bounds

@@ -12,6 +12,8 @@
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
 
+namespace test_forecast {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -271,3 +273,5 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
     CHECK(run.code == 2);
     CHECK(described.output.find(run.output) != std::string::npos);
 }
+
+}  // namespace test_forecast

@@ -7,6 +7,8 @@
 #include "mc/gearbox/healthy_reference.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_baseline {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -162,3 +164,5 @@ TEST_CASE("A baseline torque is refused where no feature uses it") {
     CHECK(format(reading.problems).find("features.baseline_torque_scatter") != std::string::npos);
     CHECK(format(reading.problems).find("change_") != std::string::npos);
 }
+
+}  // namespace test_baseline

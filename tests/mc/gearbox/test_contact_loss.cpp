@@ -12,6 +12,8 @@
 #include "mc/summary/contact_loss.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_contact_loss {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -127,3 +129,5 @@ TEST_CASE("The numerical error decreases with the steps and matches that of fine
     CHECK(fine.sensor > 0.0);
     CHECK_FALSE(find_step_error(Scene(light_study()), 10.0));
 }
+
+}  // namespace test_contact_loss

@@ -6,6 +6,8 @@
 #include "tests/mc/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_healthy_solution {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -58,3 +60,5 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
     CHECK(deep.meshes < healthy.meshes / 4);
     CHECK(deep.integration.records.size() > static_cast<std::size_t>(scene.span().ring_teeth));
 }
+
+}  // namespace test_healthy_solution

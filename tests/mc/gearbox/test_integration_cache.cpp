@@ -6,6 +6,8 @@
 #include "mc/ensemble/batch_worker.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_integration_cache {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -75,3 +77,5 @@ TEST_CASE("Nothing is cached where every gearbox has a different response") {
         study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=full"}));
     CHECK_FALSE(distinct_integrations(errors).has_value());
 }
+
+}  // namespace test_integration_cache

@@ -11,6 +11,8 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_noise_density {
+
 using namespace gearpod;
 using test::bits;
 using test::Folder;
@@ -202,3 +204,5 @@ TEST_CASE("A study with noise by density is calibrated by its density") {
     CHECK(std::ranges::find(inputs, "sensor.noise_m_s2", &mc::CalibratedInput::key) ==
           inputs.end());
 }
+
+}  // namespace test_noise_density

@@ -8,6 +8,8 @@
 #include "mc/gearbox/random_tooth_errors.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_random_tooth_errors {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -156,3 +158,5 @@ TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noi
         }
     }
 }
+
+}  // namespace test_random_tooth_errors

@@ -7,6 +7,8 @@
 #include "tests/mc/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_run_in {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -59,3 +61,5 @@ TEST_CASE("The run-in follows from the slower of gearbox and sensor, and from th
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-2"}) == 46);
     CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-4"}) == 92);
 }
+
+}  // namespace test_run_in

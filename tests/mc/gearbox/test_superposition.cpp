@@ -9,6 +9,8 @@
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_superposition {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -210,3 +212,5 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
     };
     CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);
 }
+
+}  // namespace test_superposition

@@ -8,6 +8,8 @@
 #include "mc/numerics/study_scene.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_tone_level {
+
 using namespace gearpod;
 using test::Folder;
 using test::program;
@@ -80,3 +82,5 @@ TEST_CASE("Calibration uses the given level") {
     REQUIRE(level != usual.end());
     CHECK(level->independent_of_motion());
 }
+
+}  // namespace test_tone_level

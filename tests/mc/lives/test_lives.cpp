@@ -14,6 +14,8 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_lives {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -268,3 +270,5 @@ TEST_CASE("Studies without possible lives are refused with the key") {
 }
 
 }  // namespace
+
+}  // namespace test_lives

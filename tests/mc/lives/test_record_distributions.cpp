@@ -11,6 +11,8 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_record_distributions {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -177,3 +179,5 @@ TEST_CASE("describe shows the law of inputs per record") {
 }
 
 }  // namespace
+
+}  // namespace test_record_distributions

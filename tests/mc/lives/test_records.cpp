@@ -6,6 +6,8 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_records {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -218,3 +220,5 @@ TEST_CASE("describe states which inputs vary per gearbox and which per record") 
 }
 
 }  // namespace
+
+}  // namespace test_records

@@ -11,6 +11,8 @@
 #include "tests/mc/new_study/gear_sets.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_gear_sets {
+
 using namespace gearpod;
 using test::GearSet;
 
@@ -108,3 +110,5 @@ TEST_CASE("The studies of real gear sets detect a crack through half of the root
         CHECK(best.pd >= kDetected);
     }
 }
+
+}  // namespace test_gear_sets

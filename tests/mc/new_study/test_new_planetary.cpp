@@ -6,6 +6,8 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_new_planetary {
+
 using namespace gearpod;
 using test::Folder;
 using test::program;
@@ -219,3 +221,5 @@ TEST_CASE("new refuses inputs that are no gear set and writes nothing") {
     CHECK(folder.empty());
     CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
 }
+
+}  // namespace test_new_planetary

@@ -4,6 +4,8 @@
 
 #include "mc/new_study/rules.hpp"
 
+namespace test_rules {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -78,3 +80,5 @@ TEST_CASE("Masses and inertias are those of steel rings") {
     const Annulus disc{0.1, 0.0, 0.01};
     CHECK(disc.inertia_kg_m2() == Approx(0.5 * disc.mass_kg() * 0.01));
 }
+
+}  // namespace test_rules

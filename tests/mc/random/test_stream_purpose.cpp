@@ -9,6 +9,8 @@
 #include "mc/random/stream_purpose.hpp"
 #include "mc/study/schema/schema.hpp"
 
+namespace test_stream_purpose {
+
 using namespace gearpod::mc;
 
 namespace {
@@ -101,3 +103,5 @@ TEST_CASE("No two streams of a gearbox have the same purpose") {
         }
     }
 }
+
+}  // namespace test_stream_purpose

@@ -10,6 +10,8 @@
 #include "mc/results/checkpoint.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_checkpoint {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using test::bytes_of;
@@ -391,3 +393,5 @@ TEST_CASE("A full disk is a write error, and earlier batches remain") {
         CHECK(same(checkpoint->read(t), rows_of(kPlan, t)));
     }
 }
+
+}  // namespace test_checkpoint

@@ -10,6 +10,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_contact_results {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using test::Folder;
@@ -102,3 +104,5 @@ TEST_CASE("Contact loss with a wrong number of rows is not written") {
     CHECK_THROWS_AS(write_results(folder.file("r.h5"), r), std::invalid_argument);
     CHECK(folder.files() == 0);
 }
+
+}  // namespace test_contact_results

@@ -5,6 +5,8 @@
 #include "tests/mc/edited_results.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_edited_results {
+
 using namespace gearpod;
 using test::edit_results;
 using test::Folder;
@@ -160,3 +162,5 @@ TEST_CASE("Names that are not valid UTF-8 do not prevent a report's JSON") {
     CHECK(outcome.code == 0);
     CHECK(outcome.mentions("caf\xef\xbf\xbd.h5"));
 }
+
+}  // namespace test_edited_results

@@ -4,6 +4,8 @@
 
 #include "mc/results/reliability_of_results.hpp"
 
+namespace test_reliability_of_results {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -62,3 +64,5 @@ TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text rep
     CHECK(!none);
     CHECK_THAT(reliability_text(none, r), Catch::Contains("8388608 with these features"));
 }
+
+}  // namespace test_reliability_of_results

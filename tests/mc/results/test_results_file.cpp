@@ -21,6 +21,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_results_file {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using test::bytes_of;
@@ -394,3 +396,5 @@ TEST_CASE("A study without instances or detections still gives a readable file")
     write_results(folder.file("r.h5"), Results{});
     CHECK(read_results(folder.file("r.h5")).features.empty());
 }
+
+}  // namespace test_results_file

@@ -7,6 +7,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_bad_scenes {
+
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;
@@ -271,3 +273,5 @@ TEST_CASE("A pitted band is refused outside the contact with the mating flank") 
         CHECK(mentions(reading.problems[0], "extends beyond the active flank"));
     }
 }
+
+}  // namespace test_bad_scenes

@@ -7,6 +7,8 @@
 #include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_correlations {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 
@@ -197,3 +199,5 @@ TEST_CASE("Impossible correlations are refused") {
         "unknown key with");
     has(problem_of({torque, mass, list("3")}), "must be a list of pairs");
 }
+
+}  // namespace test_correlations

@@ -4,6 +4,8 @@
 #include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_distributions {
+
 using namespace gearpod::tests;
 
 TEST_CASE("Random values of Weibull and beta laws follow their distribution functions") {
@@ -169,3 +171,5 @@ TEST_CASE("Lists of a study may come from a column of a file") {
     CHECK(format(reading("ring").problems).find("no column ring; its columns are tooth, sun") !=
           std::string::npos);
 }
+
+}  // namespace test_distributions

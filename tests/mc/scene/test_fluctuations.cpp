@@ -11,6 +11,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_fluctuations {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using namespace gearpod::tests;
@@ -274,3 +276,5 @@ TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with 
     CHECK(bits(eight.te_turn, 8, 5) == bits(four.te_turn, 4, 0));
     CHECK(bits(eight.te_turn, 8, 5) != bits(eight.te_turn, 8, 2));
 }
+
+}  // namespace test_fluctuations

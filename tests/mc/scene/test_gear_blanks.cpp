@@ -6,6 +6,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_gear_blanks {
+
 using namespace gearpod;
 using mc::Scene;
 
@@ -85,3 +87,5 @@ TEST_CASE("Every gear has its own bore, and the ring its rim") {
     CHECK(mean(thin_planets, 0) != Approx(sun).epsilon(1e-3));
     CHECK(mean(thin_planets, 1) != Approx(ring).epsilon(1e-3));
 }
+
+}  // namespace test_gear_blanks

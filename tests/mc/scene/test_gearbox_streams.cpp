@@ -8,6 +8,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_gearbox_streams {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 using analysis::InputExchange;
@@ -150,3 +152,5 @@ TEST_CASE("Inputs without an underlying normal number are exchanged as a whole")
     CHECK(taken > 20);
     CHECK(taken < 60);
 }
+
+}  // namespace test_gearbox_streams

@@ -10,6 +10,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_helical_gears {
+
 using namespace gearpod;
 using mc::Member;
 using mc::Scene;
@@ -169,3 +171,5 @@ TEST_CASE("Relief and crowning of helical teeth change the approach under load a
     CHECK(ground.meshes()[0].loaded->range().mean > before + 10e-6 / 3.0);
     CHECK(ground.meshes()[0].loaded->range().mean < before + 30e-6);
 }
+
+}  // namespace test_helical_gears

@@ -12,6 +12,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_instance_inputs {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -47,3 +49,5 @@ TEST_CASE("A drawn value of any input gives the gearbox of a study with this nom
         CHECK(effective > 20);
     }
 }
+
+}  // namespace test_instance_inputs

@@ -7,6 +7,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_planets {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -101,3 +103,5 @@ TEST_CASE("Different planets repeat every mesh: reused records equal integration
     }
     CHECK(moved > 0.02);
 }
+
+}  // namespace test_planets

@@ -11,6 +11,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_relief {
+
 using namespace gearpod;
 using mc::Scene;
 
@@ -139,3 +141,5 @@ TEST_CASE("Long relief lowers the transmission error of teeth of grade 6 as well
     };
     CHECK(varies("45") < 0.4 * varies("0"));
 }
+
+}  // namespace test_relief

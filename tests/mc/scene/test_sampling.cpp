@@ -16,6 +16,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_sampling {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 
@@ -363,3 +365,5 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
                                          drawn.inputs.speed_rad_s, drawn.inputs.path_exponent});
     }
 }
+
+}  // namespace test_sampling

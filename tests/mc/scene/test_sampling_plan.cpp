@@ -13,6 +13,8 @@
 #include "tests/mc/scene/random_samples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_sampling_plan {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 
@@ -211,3 +213,5 @@ TEST_CASE("An unknown sampling plan is refused with the known ones") {
     CHECK(text.find("ensemble.sampling") != std::string::npos);
     CHECK(text.find("one of \"plain\", \"sobol\"") != std::string::npos);
 }
+
+}  // namespace test_sampling_plan

@@ -10,6 +10,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_scenes {
+
 using namespace gearpod;
 using namespace gearpod::tests;
 using mc::Scene;
@@ -288,3 +290,5 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
         last = now;
     }
 }
+
+}  // namespace test_scenes

@@ -8,6 +8,8 @@
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_shifted_gears {
+
 using namespace gearpod;
 using mc::Member;
 using mc::MeshKind;
@@ -214,3 +216,5 @@ TEST_CASE("Real sets that standard teeth cannot form run with their windows on e
         CHECK(windows >= 3);
     }
 }
+
+}  // namespace test_shifted_gears

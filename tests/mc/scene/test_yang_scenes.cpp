@@ -4,6 +4,8 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_yang_scenes {
+
 using namespace gearpod;
 using test::run_one;
 using test::shipped_study;
@@ -216,3 +218,5 @@ TEST_CASE("Tones of the drive reduce the contrast of the cracked tooth's windows
     }
     CHECK(signal_rms * signal_rms - quiet_rms * quiet_rms == Approx(power).epsilon(0.1));
 }
+
+}  // namespace test_yang_scenes

@@ -4,6 +4,8 @@
 
 #include "tests/mc/study_file.hpp"
 
+namespace test_crack_studies {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -51,3 +53,5 @@ TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
 }
 
 }  // namespace
+
+}  // namespace test_crack_studies

@@ -2,6 +2,8 @@
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_liang {
+
 using namespace gearpod;
 using test::kNothing;
 using test::largest_off_multiples_of_4;
@@ -174,3 +176,5 @@ TEST_CASE("With the carrier fixed the planets still mesh, driven from either sid
         }
     }
 }
+
+}  // namespace test_liang

@@ -3,6 +3,8 @@
 
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_liang_studies {
+
 using namespace gearpod;
 using test::kNothing;
 using test::run_one;
@@ -254,3 +256,5 @@ TEST_CASE("Section 2.3: with the carrier or the sun fixed the shipped gearboxes 
     }
     CHECK(sidebands > 0.01 * top);
 }
+
+}  // namespace test_liang_studies

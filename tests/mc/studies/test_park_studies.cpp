@@ -4,6 +4,8 @@
 
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_park_studies {
+
 using namespace gearpod;
 using test::feature_index;
 using test::run_one;
@@ -331,3 +333,5 @@ TEST_CASE(
     CHECK(rises(quiet.kurtosis));
     CHECK(quiet.kurtosis[0] == Approx(still.kurtosis[0]).epsilon(0.05));
 }
+
+}  // namespace test_park_studies

@@ -9,6 +9,8 @@
 #include "signals/spectra/fourier_transform.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_pass_orders {
+
 using namespace gearpod;
 using namespace gearpod::test;
 
@@ -70,3 +72,5 @@ TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth wit
     const auto ring = amplitudes(11 * 35, " --set gearbox.ring_quality=6");
     CHECK(rms(ring, 11, false) < 1e-6 * rms(ring, 11, true));
 }
+
+}  // namespace test_pass_orders

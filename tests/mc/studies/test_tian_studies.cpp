@@ -4,6 +4,8 @@
 
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_tian_studies {
+
 using namespace gearpod;
 using test::kNothing;
 using test::run_one;
@@ -235,3 +237,5 @@ TEST_CASE("The Runge-Kutta method is refused: the motor coupling's damper is too
         CHECK(error.remedy().find("sdirk3") != std::string::npos);
     }
 }
+
+}  // namespace test_tian_studies

@@ -2,6 +2,8 @@
 // displacements of sun and fourth planet, sections 4.1 and 4.2.
 #include "tests/mc/liang_signals.hpp"
 
+namespace test_yang_studies {
+
 using namespace gearpod;
 using test::run_one;
 using test::shipped_study;
@@ -253,3 +255,5 @@ TEST_CASE("At Yang's load no tooth loses contact, with a transmission error of 0
         CHECK(largest(difference(planet4("one-sided"), held)) < 1e-9 * range(held));
     }
 }
+
+}  // namespace test_yang_studies

@@ -4,6 +4,8 @@
 #include "mc/study/assumptions.hpp"
 #include "tests/mc/study_file.hpp"
 
+namespace test_assumptions {
+
 using gearpod::test::shipped_study;
 
 namespace {
@@ -40,3 +42,5 @@ TEST_CASE("Crack growth is an assumption of results on lives, not of a run of th
     CHECK_THAT(gearpod::mc::assumptions(study, true), Catch::Contains("grow by Paris' law"));
     CHECK_THAT(gearpod::mc::assumptions(study, false), !Catch::Contains("Paris"));
 }
+
+}  // namespace test_assumptions

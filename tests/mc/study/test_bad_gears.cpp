@@ -6,6 +6,8 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_bad_gears {
+
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;
@@ -85,3 +87,5 @@ TEST_CASE("Gears without tooth contact at some phase are refused") {
     CHECK(problems[1].key == "gearbox.planet_teeth");
     CHECK(mentions(problems[1], "planet and ring do not mesh (the contact ratio of 31 against 81"));
 }
+
+}  // namespace test_bad_gears

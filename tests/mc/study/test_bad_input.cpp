@@ -7,6 +7,8 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_bad_input {
+
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::Problems;
@@ -372,3 +374,5 @@ TEST_CASE("No damage to a study file leads to an exception") {
         }
     }
 }
+
+}  // namespace test_bad_input

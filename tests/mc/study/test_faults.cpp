@@ -12,6 +12,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_faults {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 using gearpod::test::Folder;
@@ -211,3 +213,5 @@ TEST_CASE("A crack's fraction of the critical section is reported") {
     CHECK(holds(origin, "root circle"));
     CHECK(holds(origin, "mm is 25, 50 % of that section"));
 }
+
+}  // namespace test_faults

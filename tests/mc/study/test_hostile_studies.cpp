@@ -5,6 +5,8 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_hostile_studies {
+
 using gearpod::mc::format;
 using gearpod::mc::read_study_text;
 using gearpod::tests::kExampleStudy;
@@ -85,3 +87,5 @@ TEST_CASE("A long file that makes toml++ fail is refused immediately, with its l
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].line == 20001);
 }
+
+}  // namespace test_hostile_studies

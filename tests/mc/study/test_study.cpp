@@ -13,6 +13,8 @@
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 
+namespace test_study {
+
 using namespace gearpod::mc;
 using namespace gearpod::tests;
 
@@ -368,3 +370,5 @@ TEST_CASE("The help lists every key of the schema with its section") {
     CHECK(sensor.size() < help.size() / 3);
     CHECK(schema_help("no such word") == "");
 }
+
+}  // namespace test_study

@@ -3,6 +3,8 @@
 
 #include "mc/sweep/grid.hpp"
 
+namespace test_grid {
+
 using namespace gearpod;
 using namespace gearpod::mc;
 
@@ -70,3 +72,5 @@ TEST_CASE("Malformed lists of values are refused with their key") {
     keys.push_back({"a.c", keys[0].values});
     CHECK(grid_of(keys).empty());  // 101 x 101
 }
+
+}  // namespace test_grid

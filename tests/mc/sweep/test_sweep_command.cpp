@@ -4,6 +4,8 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
+namespace test_sweep_command {
+
 using namespace gearpod;
 using test::bits;
 using test::bytes_of;
@@ -194,3 +196,5 @@ TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
     CHECK(lives.mentions("life.interval_h: missing"));
     CHECK(folder.empty());
 }
+
+}  // namespace test_sweep_command

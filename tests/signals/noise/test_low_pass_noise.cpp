@@ -7,6 +7,8 @@
 #include "signals/noise/low_pass_noise.hpp"
 #include "signals/noise/sensor_noise.hpp"
 
+namespace test_low_pass_noise {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -111,3 +113,5 @@ TEST_CASE("Random noise of any colour folds as the noisy signal does, at every l
 }
 
 }  // namespace
+
+}  // namespace test_low_pass_noise

@@ -9,6 +9,8 @@
 #include "signals/noise/normals.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
 
+namespace test_normals {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -151,3 +153,5 @@ TEST_CASE("Normal values have the moments, the distribution and the tails of the
 }
 
 }  // namespace
+
+}  // namespace test_normals

@@ -7,6 +7,8 @@
 #include "signals/noise/sensor_noise.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
 
+namespace test_sensor_noise {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -166,3 +168,5 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
 }
 
 }  // namespace
+
+}  // namespace test_sensor_noise

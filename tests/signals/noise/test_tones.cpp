@@ -8,6 +8,8 @@
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 
+namespace test_tones {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -203,3 +205,5 @@ TEST_CASE("Tones of another shape than the tile are refused") {
     CHECK_THROWS_AS(fold_squares(tile.signals, plan, path, kExponents, tones, folded),
                     std::invalid_argument);
 }
+
+}  // namespace test_tones

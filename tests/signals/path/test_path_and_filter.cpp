@@ -5,6 +5,8 @@
 
 #include "signals/path/path_window.hpp"
 
+namespace test_path_and_filter {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -93,3 +95,5 @@ TEST_CASE("The low-pass may be applied before the path: they commute to the rati
 }
 
 }  // namespace
+
+}  // namespace test_path_and_filter

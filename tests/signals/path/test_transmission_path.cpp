@@ -4,6 +4,8 @@
 
 #include "signals/path/transmission_path.hpp"
 
+namespace test_transmission_path {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -117,3 +119,5 @@ TEST_CASE("An unknown path window is refused by naming the known ones") {
 }
 
 }  // namespace
+
+}  // namespace test_transmission_path

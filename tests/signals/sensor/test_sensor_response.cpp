@@ -10,6 +10,8 @@
 #include "signals/windowing/folded_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 
+namespace test_sensor_response {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -119,3 +121,5 @@ TEST_CASE("Samples that are not requested are not stored") {
     CHECK_THROWS_AS(SensorResponse(path, kLayout, {8, kExponents, nullptr, kTePhases, 62, 0}),
                     std::invalid_argument);
 }
+
+}  // namespace test_sensor_response

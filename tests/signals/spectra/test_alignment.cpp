@@ -8,6 +8,8 @@
 
 #include "signals/spectra/alignment.hpp"
 
+namespace test_alignment {
+
 using namespace gearpod::signals;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("Signals that cannot be aligned have no correlation") {
     CHECK_THROWS_AS(align(ramp, constant), std::invalid_argument);
     CHECK_THROWS_AS(align({}, {}), std::invalid_argument);
 }
+
+}  // namespace test_alignment

@@ -6,6 +6,8 @@
 #include "signals/spectra/averaged_te.hpp"
 #include "tests/signals/random_tile.hpp"
 
+namespace test_averaged_te {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -90,3 +92,5 @@ TEST_CASE("Encoder noise decreases with the root of the number of averaged turns
 }
 
 }  // namespace
+
+}  // namespace test_averaged_te

@@ -6,6 +6,8 @@
 #include "machine/dispatch.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
+namespace test_fourier_transform {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -97,3 +99,5 @@ TEST_CASE("A Fourier transform refuses other lengths than its own") {
 }
 
 }  // namespace
+
+}  // namespace test_fourier_transform

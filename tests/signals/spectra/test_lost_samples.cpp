@@ -7,6 +7,8 @@
 
 #include "signals/spectra/lost_samples.hpp"
 
+namespace test_lost_samples {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -79,3 +81,5 @@ TEST_CASE("Few turns, noise alone and silence give no result") {
 }
 
 }  // namespace
+
+}  // namespace test_lost_samples

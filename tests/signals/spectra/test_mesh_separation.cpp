@@ -5,6 +5,8 @@
 
 #include "signals/spectra/mesh_separation.hpp"
 
+namespace test_mesh_separation {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -92,3 +94,5 @@ TEST_CASE("The parts of any turn add up to it") {
 }
 
 }  // namespace
+
+}  // namespace test_mesh_separation

@@ -8,6 +8,8 @@
 
 #include "signals/spectra/mesh_speed.hpp"
 
+namespace test_mesh_speed {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -91,3 +93,5 @@ TEST_CASE("Noise, a single tone and short records give no speed") {
 }
 
 }  // namespace
+
+}  // namespace test_mesh_speed

@@ -5,6 +5,8 @@
 
 #include "signals/spectra/order_spectrum.hpp"
 
+namespace test_order_spectrum {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -101,3 +103,5 @@ TEST_CASE("A spectrum refuses signals that are not one turn") {
 }
 
 }  // namespace
+
+}  // namespace test_order_spectrum

@@ -4,6 +4,8 @@
 
 #include "signals/spectra/order_tracking.hpp"
 
+namespace test_order_tracking {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -83,3 +85,5 @@ TEST_CASE("Decreasing phases and recordings that are too short are refused") {
 }
 
 }  // namespace
+
+}  // namespace test_order_tracking

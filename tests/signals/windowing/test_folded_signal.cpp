@@ -8,6 +8,8 @@
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 
+namespace test_folded_signal {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -184,3 +186,5 @@ TEST_CASE("Tile, plan and path of different shapes are refused") {
 }
 
 }  // namespace
+
+}  // namespace test_folded_signal

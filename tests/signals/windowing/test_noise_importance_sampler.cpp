@@ -7,6 +7,8 @@
 #include "signals/windowing/noise_importance_sampler.hpp"
 #include "signals/windowing/windowing.hpp"
 
+namespace test_noise_importance_sampler {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -166,3 +168,5 @@ TEST_CASE("Without noise there is no tilting, and bins must match the layout") {
 }
 
 }  // namespace
+
+}  // namespace test_noise_importance_sampler

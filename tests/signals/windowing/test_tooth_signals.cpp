@@ -7,6 +7,8 @@
 #include "signals/windowing/tooth_signals.hpp"
 #include "signals/windowing/windowing.hpp"
 
+namespace test_tooth_signals {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -135,3 +137,5 @@ TEST_CASE("The average over turns keeps the repeating part, the rest is the resi
 }
 
 }  // namespace
+
+}  // namespace test_tooth_signals

@@ -6,6 +6,8 @@
 #include "machine/dispatch.hpp"
 #include "signals/windowing/windowing.hpp"
 
+namespace test_windowing {
+
 using namespace gearpod;
 using namespace gearpod::signals;
 
@@ -279,3 +281,5 @@ TEST_CASE("The window search gives the same bits on every instruction set") {
 }
 
 }  // namespace
+
+}  // namespace test_windowing

@@ -5,6 +5,8 @@
 
 #include "stiffness/growth/paris_growth.hpp"
 
+namespace test_paris_growth {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -73,3 +75,5 @@ TEST_CASE("Growth requires depths and a load that opens the crack", "[growth]") 
 }
 
 }  // namespace
+
+}  // namespace test_paris_growth

@@ -8,6 +8,8 @@
 #include "tests/stiffness/finite_element_tables.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
+namespace test_root_crack {
+
 using namespace gearpod;
 using namespace gearpod::stiffness;
 
@@ -158,3 +160,5 @@ TEST_CASE(
 }
 
 }  // namespace
+
+}  // namespace test_root_crack
