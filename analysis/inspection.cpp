@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "analysis/detection/reliable_size.hpp"
@@ -12,8 +11,8 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kPod = 0.9;
-constexpr int kBandPoints = 61;
+constexpr double kInspectionPod = 0.9;
+constexpr int kInspectionBandPoints = 61;
 
 BoundRule rule_of(const InspectionRequest& request) {
     const BoundConvention handbooks =
@@ -64,7 +63,7 @@ void add_hit_miss(const Inspections& data, const InspectionRequest& request,
     pod_request.floor = request.floor.value_or(rate);
     pod_request.without_floor = !request.floor;
     pod_request.confidence = request.confidence;
-    pod_request.band_points = kBandPoints;
+    pod_request.band_points = kInspectionBandPoints;
     pod_request.rule = rule_of(request);
     // Outcomes of one specimen are correlated. Only the robust covariance accounts for this.
     if (result.repeats > 0) {
@@ -154,7 +153,7 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
     pod_request.threshold = result.threshold;
     pod_request.alarm = request.alarm;
     pod_request.confidence = request.confidence;
-    pod_request.band_points = kBandPoints;
+    pod_request.band_points = kInspectionBandPoints;
     pod_request.method = LineMethod::maximum_likelihood;
     pod_request.rule = rule_of(request);
     pod_request.limits = request.limits;
@@ -178,7 +177,7 @@ InspectionResult inspect(const Inspections& data, const InspectionRequest& reque
         result.without_flaw += size == 0.0;
     }
     count_specimens(data, result);
-    result.all_found = hits_in_a_row(kPod, request.confidence);
+    result.all_found = hits_in_a_row(kInspectionPod, request.confidence);
     if (request.responses) {
         add_responses(data, request, result);
     } else {

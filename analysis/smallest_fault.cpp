@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
 namespace gearpod::analysis {
 namespace {
 
+using Where = SizeEstimate::Where;
+
 std::optional<SmallestFault> single_feature_fault(const std::string& feature,
                                                   const LevelReliability& at) {
-    using Where = SizeEstimate::Where;
     const HitMissPod& pod = at.hit_miss;
     const SmallestFault::Source source{feature, at.noise_level};
     if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {

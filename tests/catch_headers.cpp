@@ -1,1 +1,1 @@
-// Headers shared by all test programs, compiled in advance (cmake/quick_build.cmake).
+// Headers shared by all test programs, compiled in advance (CMakeLists.txt).

@@ -12,7 +12,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kPod = 0.9;
+constexpr double kComparedPod = 0.9;
 
 // a90 of a table. Where the curve cannot be fitted: the smallest size if all are detected, infinite
 // if none is, otherwise NaN.
@@ -28,7 +28,7 @@ double a90_of(const HitMissTable& table, const PodForm& form) {
     if (!fit.refusal.empty()) {
         return kNan;
     }
-    const auto size = fit.curve.size_at(kPod);
+    const auto size = fit.curve.size_at(kComparedPod);
     return size && *size <= table.back().size ? std::max(*size, table.front().size)
                                               : std::numeric_limits<double>::infinity();
 }

@@ -7,7 +7,6 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
-#include "analysis/statistics/bivariate_tail.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/midranks.hpp"
 
@@ -81,7 +80,7 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
         const std::size_t own = std::min(kMost, gearbox.values.size());
         double sum = 0.0, sum2 = 0.0;
         for (std::size_t i = 0; i < own; ++i, ++at) {
-            const double score = -normal_upper_tail_quantile((ranks[at] - 0.5) / n);
+            const double score = -normal_upper_quantile((ranks[at] - 0.5) / n);
             sum += score;
             sum2 += score * score;
         }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/statistics/bivariate_tail.hpp"
 #include "analysis/statistics/distributions.hpp"
 
 namespace gearpod::analysis {
@@ -16,7 +15,7 @@ constexpr double kRarest = 1e-12, kMostFrequent = 0.999;
 std::vector<double> scores_of(const std::vector<double>& rates) {
     std::vector<double> scores;
     for (const double rate : rates) {
-        scores.push_back(normal_upper_tail_quantile(std::clamp(rate, kRarest, kMostFrequent)));
+        scores.push_back(normal_upper_quantile(std::clamp(rate, kRarest, kMostFrequent)));
     }
     std::sort(scores.begin(), scores.end());
     return scores;

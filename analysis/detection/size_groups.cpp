@@ -8,7 +8,6 @@
 #include "analysis/statistics/wilson.hpp"
 
 namespace gearpod::analysis {
-namespace {}  // namespace
 
 std::optional<std::size_t> group_of(double size, const std::vector<SizeGroup>& groups) {
     constexpr double kSameSize = 1e-9;

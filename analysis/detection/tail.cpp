@@ -13,11 +13,11 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr double kTailRounding = 1e-9;
-constexpr long kShare = 10;  // a tenth of the sample
+constexpr long kTailDivisor = 10;  // a tenth of the sample
 // Initial search range of the posterior, in units of the median excess: a shape of 2 has a scale of
 // 2/3 there, a shape of -1/2 one of 1.7.
 constexpr double kLargestShapeOverScale = 3.0, kLogScales = 2.0;
-constexpr int kNodes = 81;
+constexpr int kTailNodes = 81;
 constexpr double kReach = 6.0;  // standard deviations of the posterior covered by the nodes
 
 // Survival function at x, with shape = pace * scale.
@@ -80,7 +80,7 @@ Interval middle_of(std::vector<Weighted>& values, double weight, double confiden
 }  // namespace
 
 long exceedances_of(long sample) {
-    return std::min(kMostExceedances, sample / kShare);
+    return std::min(kMostExceedances, sample / kTailDivisor);
 }
 
 bool tail_reaches(long sample, double false_alarm_rate) {
@@ -90,7 +90,7 @@ bool tail_reaches(long sample, double false_alarm_rate) {
 }
 
 long sample_for_tail(double false_alarm_rate) {
-    return std::max(kShare * kLeastExceedances,
+    return std::max(kTailDivisor * kLeastExceedances,
                     static_cast<long>(std::ceil(1.0 / (kFarthestExtrapolation * false_alarm_rate) -
                                                 kTailRounding)));
 }
@@ -137,19 +137,20 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
     std::vector<Node> nodes;
     std::vector<double> logs;
     double most = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kNodes; ++i) {
+    for (int i = 0; i < kTailNodes; ++i) {
         // Midpoints, because the likelihood is 0 at the smallest pace.
         const double shape_over_scale =
             shape_over_scale_low +
-            (i + 0.5) / kNodes * (shape_over_scale_high - shape_over_scale_low);
+            (i + 0.5) / kTailNodes * (shape_over_scale_high - shape_over_scale_low);
         double sum = 0.0;
         for (const double y : excess) {
             sum += std::log1p(shape_over_scale * y);
         }
         const double slope =
             std::abs(shape_over_scale) < kTailRounding ? total : sum / shape_over_scale;
-        for (int j = 0; j < kNodes; ++j) {
-            const double s = log_scale_low + (j + 0.5) / kNodes * (log_scale_high - log_scale_low);
+        for (int j = 0; j < kTailNodes; ++j) {
+            const double s =
+                log_scale_low + (j + 0.5) / kTailNodes * (log_scale_high - log_scale_low);
             const double scale = std::exp(s), shape = shape_over_scale * scale;
             if (shape <= -0.5) {
                 continue;

@@ -17,7 +17,7 @@ namespace {
 using Where = SizeEstimate::Where;
 constexpr std::size_t kBins = 5;
 constexpr std::size_t kFewValues = 9;  // an input with at most this many values has an a90 at each
-constexpr double kPod = 0.9;
+constexpr double kReportedPod = 0.9;
 
 // Faulty gearboxes with an outcome.
 struct Outcomes {
@@ -204,10 +204,10 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
     effect.degrees = powers;
     effect.statistic = std::max(0.0, 2.0 * (curve.fit.log_likelihood - without.log_likelihood));
     effect.p_value = chi_squared_upper_tail(effect.statistic, powers);
-    const bool reachable = kPod < model.ceiling;
-    curve.target =
-        reachable ? link_quantile(model.link, (kPod - model.floor) / (model.ceiling - model.floor))
-                  : 0.0;
+    const bool reachable = kReportedPod < model.ceiling;
+    curve.target = reachable ? link_quantile(model.link, (kReportedPod - model.floor) /
+                                                             (model.ceiling - model.floor))
+                             : 0.0;
     for (const double value : effect.values) {
         const SizeEstimate never{Where::not_reached, kNan};
         effect.a90.push_back(reachable ? curve.a90(value, pod.smallest, pod.largest, confidence)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "analysis/statistics/auc.hpp"
 #include "analysis/statistics/holm.hpp"

@@ -12,7 +12,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr std::size_t kFewest = 100;
+constexpr std::size_t kFewestGearboxes = 100;
 constexpr std::size_t kMost = 20000;
 
 bool varies(std::span<const double> values) {
@@ -85,8 +85,9 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
     SobolIndices result;
     output = output.first(std::min(output.size(), kMost));
     result.count = static_cast<long>(output.size());
-    if (output.size() < kFewest) {
-        result.refusal = fmt::format("only {} gearboxes, {} are needed", output.size(), kFewest);
+    if (output.size() < kFewestGearboxes) {
+        result.refusal =
+            fmt::format("only {} gearboxes, {} are needed", output.size(), kFewestGearboxes);
         return result;
     }
     if (!varies(output)) {

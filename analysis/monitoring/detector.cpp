@@ -1,7 +1,5 @@
 #include "analysis/monitoring/detector.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 
 namespace gearpod::analysis {
@@ -44,22 +42,6 @@ std::optional<DetectionRule> parse_rule(std::string_view text) {
     return m ? std::optional<DetectionRule>(MOfNRule{*m, *n}) : std::nullopt;
 }
 
-struct RuleText {
-    std::string operator()(const SingleRule& /*rule*/) const { return "single"; }
-    std::string operator()(const MOfNRule& rule) const {
-        return fmt::format("{} of {}", rule.m, rule.n);
-    }
-    std::string operator()(const EwmaRule& rule) const {
-        return fmt::format("ewma {}", rule.lambda);
-    }
-    std::string operator()(const CusumRule& rule) const {
-        return fmt::format("cusum {}", rule.reference);
-    }
-    std::string operator()(const TrendRule& rule) const {
-        return fmt::format("trend {}", rule.window);
-    }
-};
-
 double next_of(DetectionRule& rule, double value) {
     return std::visit([&](auto& one) { return one.next(value); }, rule);
 }
@@ -73,11 +55,6 @@ std::optional<Detector> parse_detector(std::string_view text) {
     }
     const auto rule = parse_rule(text);
     return rule ? std::optional(Detector{*rule, two_sided}) : std::nullopt;
-}
-
-std::string detector_text(const Detector& detector) {
-    return std::visit(RuleText(), detector.rule) +
-           std::string(detector.two_sided ? kTwoSided : std::string_view());
 }
 
 std::string detector_forms() {

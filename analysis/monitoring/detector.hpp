@@ -23,7 +23,6 @@ struct Detector {
 // Parses "single", "2 of 3", "ewma 0.1", "cusum 0.5" or "trend 100", each optionally followed by "
 // two-sided". Empty for other text.
 std::optional<Detector> parse_detector(std::string_view text);
-std::string detector_text(const Detector& detector);
 // Accepted forms, for messages: "single, 2 of 3, ...".
 std::string detector_forms();
 

@@ -9,7 +9,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
 
 // Order statistic of rank ceil(n q); NaN if there are no values.
 double sample_quantile(std::vector<double> values, double quantile) {
@@ -88,7 +88,7 @@ MonitorPerformance monitor_performance(const Detector& detector,
             continue;
         }
         ++performance.ended;
-        sizes.push_back(record ? life.sizes[*record] : kNever);
+        sizes.push_back(record ? life.sizes[*record] : kNeverSeen);
         if (record) {
             ++performance.found;
             warnings.push_back(*life.end_hours - life.hours[*record]);

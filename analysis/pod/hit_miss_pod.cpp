@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kLackOfFit = 0.05;
 constexpr double kSupported = 2.0;  // difference in AIC
-constexpr double kPod = 0.9;
+constexpr double kBoundedPod = 0.9;
 
 // Reason why no curve can be fitted to these outcomes, or "".
 std::string outcome_refusal(const HitMissTable& table,
@@ -170,11 +170,11 @@ LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& req
 double factor_for(double target, const HitMissPod& pod, const Fitted& best, Scales& scales,
                   const HitMissRequest& request) {
     if (pod.rule.method == BoundMethod::likelihood_ratio) {
-        return specimens_for_bound(scales.likelihood(best.fit.curve.form), best.maximum, kPod,
-                                   target, pod.rule);
+        return specimens_for_bound(scales.likelihood(best.fit.curve.form), best.maximum,
+                                   kBoundedPod, target, pod.rule);
     }
     const LocationScale wald = location_scale_of(best.fit.curve, request);
-    return wald_specimens(wald, best.fit.curve.form, kPod, target, pod.rule.limit());
+    return wald_specimens(wald, best.fit.curve.form, kBoundedPod, target, pod.rule.limit());
 }
 
 // Sets the bounds from the first curve, or widens them to one more curve's.
@@ -187,12 +187,13 @@ void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, cons
         const PodCurve& curve = fitted.fit.curve;
         const LocationScale wald = location_scale_of(curve, request);
         a50 = wald_size_bounds(wald, curve.form, 0.5, pod.rule.limit(), pod.smallest, pod.largest);
-        a90 = wald_size_bounds(wald, curve.form, kPod, pod.rule.limit(), pod.smallest, pod.largest);
+        a90 = wald_size_bounds(wald, curve.form, kBoundedPod, pod.rule.limit(), pod.smallest,
+                               pod.largest);
         band = wald_band(wald, curve.form, pod.rule.limit(), sizes);
     } else {
         const PodLikelihood likelihood = scales.likelihood(fitted.fit.curve.form);
         a50 = size_bounds(table, likelihood, fitted.maximum, 0.5, pod.rule);
-        a90 = size_bounds(table, likelihood, fitted.maximum, kPod, pod.rule);
+        a90 = size_bounds(table, likelihood, fitted.maximum, kBoundedPod, pod.rule);
         band = pod_band(likelihood, fitted.maximum, sizes, pod.rule);
     }
     pod.supported.push_back(fitted.fit.curve.form);

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/statistics/link_block.hpp"
@@ -11,7 +10,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kTiny = 1e-290;
+constexpr double kLeastProduct = 1e-290;
 constexpr double kInTransition = 1e-6;
 // Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
 // the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
@@ -77,7 +76,7 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
         const Block miss = (1.0 - ceiling) + rise * link.down;
         slopes.value += (weight * block_log(detected ? hit : miss)).sum();
         const Block both = hit * miss;
-        const Block bend = (both < kTiny).select(0.0, weight / both.max(kTiny));
+        const Block bend = (both < kLeastProduct).select(0.0, weight / both.max(kLeastProduct));
         const Block left = detected ? Block(bend * miss) : Block(-bend * hit);
         const Block by_eta = rise * link.density;
         const Block by_slope = by_eta * (u - origin);

@@ -11,7 +11,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr std::size_t kFewest = 10;  // fewest points for meaningful checks
+constexpr std::size_t kFewestResponses = 10;  // fewest points for meaningful checks
 constexpr double kFoundShare = 0.9;
 
 ResponseRows rows_of(std::span<const double> sizes, std::span<const double> responses,
@@ -45,9 +45,9 @@ std::string data_refusal(const ResponseRows& rows, const std::set<double>& disti
     if (!std::isfinite(request.threshold)) {
         return "no threshold";
     }
-    if (rows.size.size() < kFewest) {
+    if (rows.size.size() < kFewestResponses) {
         return fmt::format("only {} {} with a value, the checks need {}", rows.size.size(),
-                           request.tested, kFewest);
+                           request.tested, kFewestResponses);
     }
     if (distinct.size() < 3) {
         return fmt::format("only {} fault sizes, the linearity check needs three", distinct.size());

@@ -8,7 +8,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr int kNodes = StandardisedSizes::kNodes;
+constexpr int kSizeNodes = StandardisedSizes::kNodes;
 constexpr int kMostHalvings = 14;
 
 // Division of the range of u into 2^halvings cells.
@@ -28,15 +28,15 @@ struct Cells {
 // within about -1 and 1. Every vector is orthogonalised against all previous ones, twice, which is
 // necessary with few more points than nodes.
 GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) {
-    Eigen::MatrixXd basis(t.size(), kNodes);
-    Eigen::VectorXd diagonal(kNodes), off_diagonal(kNodes - 1);
+    Eigen::MatrixXd basis(t.size(), kSizeNodes);
+    Eigen::VectorXd diagonal(kSizeNodes), off_diagonal(kSizeNodes - 1);
     const double total = weight.sum();
     Eigen::VectorXd next = weight.cwiseSqrt() / std::sqrt(total);
-    for (int k = 0; k < kNodes; ++k) {
+    for (int k = 0; k < kSizeNodes; ++k) {
         basis.col(k) = next;
         next = t.cwiseProduct(basis.col(k));
         diagonal[k] = next.dot(basis.col(k));
-        if (k + 1 == kNodes) {
+        if (k + 1 == kSizeNodes) {
             break;
         }
         const auto so_far = basis.leftCols(k + 1);
@@ -56,7 +56,7 @@ GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) 
 
 // Adds the points of one cell, or its Gauss rule if that has fewer nodes.
 void add_cell(WeightedSizes& out, const WeightedSizes& in, std::size_t first, std::size_t last) {
-    if (last - first <= static_cast<std::size_t>(kNodes)) {
+    if (last - first <= static_cast<std::size_t>(kSizeNodes)) {
         out.u.insert(out.u.end(), in.u.begin() + static_cast<std::ptrdiff_t>(first),
                      in.u.begin() + static_cast<std::ptrdiff_t>(last));
         out.weight.insert(out.weight.end(), in.weight.begin() + static_cast<std::ptrdiff_t>(first),
@@ -98,7 +98,7 @@ std::size_t nodes_left(const WeightedSizes& sizes, const Cells& cells) {
         const std::size_t here = cells.of(u);
         in_cell = here == cell ? in_cell + 1 : 1;
         cell = here;
-        nodes += in_cell <= static_cast<std::size_t>(kNodes) ? 1 : 0;
+        nodes += in_cell <= static_cast<std::size_t>(kSizeNodes) ? 1 : 0;
     }
     return nodes;
 }

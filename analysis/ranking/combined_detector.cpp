@@ -15,8 +15,8 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr double kRidge = 1.0;
-constexpr long kFewest = 50;
-constexpr int kBandPoints = 5;
+constexpr long kFewestTraining = 50;
+constexpr int kCombinedBandPoints = 5;
 
 // Row indices of one half of the gearboxes, in the threshold sample and in the graded ones.
 struct Half {
@@ -108,10 +108,10 @@ std::string fit_covariate(Covariate& covariate, const Half& half,
 }
 
 std::string sample_refusal(long healthy, long faulty) {
-    return std::min(healthy, faulty) >= kFewest
+    return std::min(healthy, faulty) >= kFewestTraining
                ? ""
                : fmt::format("{} healthy and {} faulty training gearboxes, {} of each are needed",
-                             healthy, faulty, kFewest);
+                             healthy, faulty, kFewestTraining);
 }
 
 // Design matrix and outcomes of the training gearboxes that have a value of every feature.
@@ -205,8 +205,8 @@ HeldOutDetector grade(const std::string& name, const HeldOut& held, const Detect
         *warnings = detection.warnings;
     }
     const auto hit = outcomes(held.graded, detector.detection.threshold, held.alarm);
-    detector.pod =
-        pod_of_outcomes(held.graded_size, hit, detector.detection, request.confidence, kBandPoints);
+    detector.pod = pod_of_outcomes(held.graded_size, hit, detector.detection, request.confidence,
+                                   kCombinedBandPoints);
     return detector;
 }
 

@@ -30,7 +30,8 @@ LABELS = 30  # points from an axis to the text below its tick labels and axis la
 GAP = "#d3d8dd"  # colour of a map square that has no number
 
 # Colours from low to high noise. (light scheme, dark scheme)
-QUIET, LOUD = ((0.42, 0.68, 0.88), (0.65, 0.85, 1.0)), ((0.33, 0.07, 0.20), (0.90, 0.36, 0.47))
+LOW_NOISE = ((0.42, 0.68, 0.88), (0.65, 0.85, 1.0))
+HIGH_NOISE = ((0.33, 0.07, 0.20), (0.90, 0.36, 0.47))
 SHADES = 13
 
 matplotlib.rcParams.update({
@@ -96,7 +97,7 @@ def between(low, high, share):
     return tuple(a + share * (b - a) for a, b in zip(low, high))
 
 
-_SHADES = [tuple(to_hex(between(QUIET[i], LOUD[i], step / (SHADES - 1))) for i in (0, 1))
+_SHADES = [tuple(to_hex(between(LOW_NOISE[i], HIGH_NOISE[i], step / (SHADES - 1))) for i in (0, 1))
            for step in range(SHADES)]
 _SCHEME.update({light: f"--shade-{i}" for i, (light, _) in enumerate(_SHADES)})
 

@@ -13,7 +13,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr long kFewest = 10;  // fewest healthy and faulty gearboxes for a report
+constexpr long kFewestReported = 10;  // fewest healthy and faulty gearboxes for a report
 
 std::string auc_text(const Auc& auc) {
     if (std::isnan(auc.auc)) {
@@ -313,11 +313,11 @@ std::string figures_text(const DetectionRequest& request) {
 void add_levels(std::string& out, const Reliability& reliability, const DetectionRequest& request,
                 Subject subject) {
     const Sample sample = largest_sample(reliability);
-    if (std::min(sample.healthy, sample.faulty) < kFewest) {
+    if (std::min(sample.healthy, sample.faulty) < kFewestReported) {
         add_wrapped(out,
                     fmt::format("no POD curves, areas and ranking: only {} healthy and {} faulty "
                                 "{} have values, {} of each are needed",
-                                sample.healthy, sample.faulty, many(subject), kFewest),
+                                sample.healthy, sample.faulty, many(subject), kFewestReported),
                     4);
         return;
     }

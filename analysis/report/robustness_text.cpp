@@ -10,7 +10,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kShare = 0.01;  // smallest share of the variance for which an input is named
+constexpr double kNamedShare = 0.01;  // smallest share of the variance for which an input is named
 
 std::string a90_text(const HeldOutDetector& detector, const SizeUnit& unit) {
     const HitMissPod& pod = detector.pod;
@@ -107,7 +107,7 @@ void add_sensitivity(std::string& out, const LevelSensitivity& sensitivity, cons
     }
     std::string list;
     for (const SobolIndex& index : misses.inputs) {
-        if (index.first.bounds.lower > kShare || index.total_bounds.lower > kShare) {
+        if (index.first.bounds.lower > kNamedShare || index.total_bounds.lower > kNamedShare) {
             list += fmt::format("{} {} {:.2f} [{:.2f}, {:.2f}], total {:.2f} [{:.2f}, {:.2f}]",
                                 list.empty() ? "" : ";", index.name, index.first.share,
                                 index.first.bounds.lower, index.first.bounds.upper, index.total,

@@ -1,10 +1,14 @@
 #include "analysis/statistics/distributions.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/owens_t.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "analysis/statistics/quiet_policy.hpp"
 
@@ -27,8 +31,23 @@ double normal_quantile(double probability) {
     return boost::math::quantile(Normal(), probability);
 }
 
+double normal_upper_tail(double value) {
+    return 0.5 * std::erfc(value / std::numbers::sqrt2);
+}
+
 double normal_upper_quantile(double tail) {
     return boost::math::quantile(boost::math::complement(Normal(), tail));
+}
+
+// D. B. Owen, Tables for computing bivariate normal probabilities, Ann. Math. Statist. 27 (1956),
+// Eq. 2.1 for equal limits. The correlation raises the probability of independent values.
+double both_exceed(double rate, double correlation) {
+    if (correlation <= 0.0) {
+        return rate * rate;
+    }
+    const double slope = std::sqrt((1.0 - correlation) / (1.0 + correlation));
+    const double beyond = boost::math::owens_t(normal_upper_quantile(rate), slope, QuietPolicy());
+    return std::max(rate * rate, rate - 2.0 * beyond);
 }
 
 double student_quantile(double freedom, double probability) {

@@ -7,7 +7,12 @@ namespace gearpod::analysis {
 
 double normal_cdf(double value);
 double normal_quantile(double probability);
+double normal_upper_tail(double value);
 double normal_upper_quantile(double tail);
+
+// Probability that both of two standard normals with `correlation` (0 to 1) exceed the value that
+// each exceeds with probability `rate`. Rounding errors are about 1e-15 of `rate`.
+double both_exceed(double rate, double correlation);
 
 double student_quantile(double freedom, double probability);
 

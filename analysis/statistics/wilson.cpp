@@ -1,6 +1,5 @@
 #include "analysis/statistics/wilson.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

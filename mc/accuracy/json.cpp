@@ -9,34 +9,34 @@
 namespace gearpod::mc {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // Number, or null if it is not finite, which JSON cannot represent.
-json number(double value) {
-    return std::isfinite(value) ? json(value) : json(nullptr);
+Json number_json(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-json errors(const AccuracyReport& report, const PilotError& error) {
-    json all{{"sensor", number(error.sensor)},
-             {"te", number(error.te)},
-             {"worst_feature", number(error.largest_feature())}};
+Json errors(const AccuracyReport& report, const PilotError& error) {
+    Json all{{"sensor", number_json(error.sensor)},
+             {"te", number_json(error.te)},
+             {"worst_feature", number_json(error.largest_feature())}};
     for (std::size_t f = 0; f < report.features.size(); ++f) {
         all["features"][report.features[f]] =
-            number(error.feature(static_cast<int>(f), report.levels()));
+            number_json(error.feature(static_cast<int>(f), report.levels()));
     }
     return all;
 }
 
-json setting_json(const AccuracyReport& report, const SettingResult& r) {
-    json row{{"name", r.setting.text()},
-             {"integrator", r.setting.integrator},
+Json setting_json(const AccuracyReport& report, const SettingResult& r) {
+    Json row{{"name", r.setting.text()},
+             {"integrator", r.setting.integrator()},
              {"overrides", r.setting.overrides()}};
     if (!r.refusal.empty()) {
         row["refused"] = r.refusal;
         return row;
     }
     row.update({{"steps", r.steps},
-                {"settle_tolerance", r.setting.convergence_tolerance},
+                {"settle_tolerance", r.setting.numerics.convergence_tolerance},
                 {"meshes_marched", r.meshes},
                 {"failed", r.failed},
                 {"gearbox_s", r.integration_s},
@@ -52,14 +52,14 @@ json setting_json(const AccuracyReport& report, const SettingResult& r) {
                             {"alarms_changed", d.alarms},
                             {"pd_change", d.pd},
                             {"pd_half_width", d.pd_half_width},
-                            {"a90_change", d.a90 < 0.0 ? json(nullptr) : json(d.a90)},
-                            {"a90_interval", number(d.a90_interval)}};
+                            {"a90_change", d.a90 < 0.0 ? Json(nullptr) : Json(d.a90)},
+                            {"a90_interval", number_json(d.a90_interval)}};
     }
     return row;
 }
 
-json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
-    json row{{"tolerance", c.tolerance}};
+Json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
+    Json row{{"tolerance", c.tolerance}};
     if (c.chosen < 0) {
         row["refused"] = c.refusal;
         return row;
@@ -72,15 +72,15 @@ json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
     return row;
 }
 
-json peer_json(const PeerResult& p) {
-    json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.integration_s},
+Json peer_json(const PeerResult& p) {
+    Json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.integration_s},
              {"mesh_s", p.mesh_s}, {"sensor", p.sensor},   {"te", p.te}};
     double worst = 0.0;
     for (const auto& [feature, error] : p.features) {
-        row["features"][feature] = number(error);
+        row["features"][feature] = number_json(error);
         worst = std::max(worst, error);
     }
-    row["worst_feature"] = p.features.empty() ? json(nullptr) : number(worst);
+    row["worst_feature"] = p.features.empty() ? Json(nullptr) : number_json(worst);
     return row;
 }
 
@@ -89,7 +89,7 @@ json peer_json(const PeerResult& p) {
 std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     const Reference& r = report.reference;
     const ExplicitLimit& e = report.explicit_limit;
-    json all{{"title", study.title},
+    Json all{{"title", study.title},
              {"gearboxes", report.gearboxes},
              {"signal_meshes", report.signal_meshes},
              {"span_meshes", report.span_meshes},

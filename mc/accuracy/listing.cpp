@@ -7,21 +7,20 @@
 
 #include "mc/numerics/solver_families.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 // Candidates have up to this many times the steps of an integrator's own rule, which aims at 0.1 %.
-constexpr double kBeyondOwnRule = 1.5;
+constexpr double kListedBeyondOwnRule = 1.5;
 // Only three graded grids are measured, because each one costs a pilot. None is made if its fewest
 // steps would cost more than this many times the least expensive integrator's own steps.
-constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
+constexpr double kListedGridTolerances[] = {1e-2, 1e-3, 1e-4};
 constexpr double kWorthGrading = 3.0;
 
 // Cost of the integrator's own uniform steps, in rk4 steps.
 double own_cost(const Study& study, const SolverFamily& family) {
-    const auto cost = step_cost(study, family.integrator, family.other);
+    const auto cost = step_cost(study, family.common);
     return cost && family.own_steps > 0 ? *cost * family.own_steps : INFINITY;
 }
 
@@ -29,15 +28,15 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
                 std::vector<ListedSetting>& all) {
     const double over = kFewestGradedFraction * own_cost(study, family) / least_cost;
     if (over > kWorthGrading) {
-        all.push_back({{family.integrator, 0, study.numerics.convergence_tolerance, family.other},
+        all.push_back({family.common,
                        fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
                                    "times as much as the steps of the least expensive integrator",
                                    family.own_steps, over)});
         return;
     }
     for (std::size_t i = 0; i < family.size(); ++i) {
-        if (std::find(std::begin(kGridTolerances), std::end(kGridTolerances),
-                      family.grid_tolerances[i]) != std::end(kGridTolerances)) {
+        if (std::find(std::begin(kListedGridTolerances), std::end(kListedGridTolerances),
+                      family.grid_tolerances[i]) != std::end(kListedGridTolerances)) {
             all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
@@ -54,7 +53,7 @@ Study without_steps(const Study& study) {
 
 std::vector<ListedSetting> listed_settings(const Study& study) {
     const std::vector<SolverFamily> all_families =
-        solver_families(without_steps(study), kBeyondOwnRule);
+        solver_families(without_steps(study), kListedBeyondOwnRule);
     double least_cost = INFINITY;
     for (const SolverFamily& family : all_families) {
         least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(study, family));
@@ -66,29 +65,27 @@ std::vector<ListedSetting> listed_settings(const Study& study) {
             continue;
         }
         if (family.size() == 0) {
-            all.push_back(
-                {{family.integrator, 0, study.numerics.convergence_tolerance, family.other},
-                 family.refusal});
+            all.push_back({family.common, family.refusal});
         }
         for (std::size_t i = 0; i < family.size(); ++i) {
             all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
     if (study.numerics.horizon == Horizon::superposed || reason_not_periodic(study).empty()) {
-        all.push_back({own_setting(study), ""});
-        all.back().setting.other.push_back("numerics.horizon=full");
+        SolverSetting full = own_setting(study);
+        full.numerics.horizon = Horizon::full;
+        full.options.emplace_back("horizon");
+        all.push_back({full, ""});
     }
     return all;
 }
 
 bool integrates_every_mesh(const SolverSetting& setting) {
-    return !setting.other.empty() && setting.other.back() == "numerics.horizon=full";
+    return setting.chooses("horizon");
 }
 
 std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResult>& settings) {
-    const auto same = std::find_if(settings.begin(), settings.end(), [&](const SettingResult& r) {
-        return r.setting.text() == setting.text();
-    });
+    const auto same = std::ranges::find(settings, setting, &SettingResult::setting);
     return static_cast<std::size_t>(same - settings.begin());
 }
 
@@ -98,8 +95,9 @@ std::vector<std::size_t> cheapest_first(const Study& study,
     std::vector<std::pair<double, std::size_t>> costs;
     for (std::size_t i = from; i < settings.size(); ++i) {
         const SolverSetting& setting = settings[i].setting;
-        const auto step = step_cost(study, setting.integrator, setting.other);
-        const double cost = step && setting.steps > 0 ? *step * setting.steps : INFINITY;
+        const auto step = step_cost(study, setting);
+        const int steps = setting.numerics.steps_per_mesh;
+        const double cost = step && steps > 0 ? *step * steps : INFINITY;
         costs.emplace_back(i == 0 ? 0.0 : cost, i);
     }
     std::sort(costs.begin(), costs.end());

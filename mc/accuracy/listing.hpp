@@ -21,7 +21,7 @@ Study without_steps(const Study& study);
 // tightest convergence tolerance; last the study's own with every mesh period integrated.
 std::vector<ListedSetting> listed_settings(const Study& study);
 bool integrates_every_mesh(const SolverSetting& setting);
-// Index of a setting in `settings`; rungs.size() if it is not among them.
+// Index of a setting in `settings`; settings.size() if it is not among them.
 std::size_t index_of(const SolverSetting& setting, const std::vector<SettingResult>& settings);
 
 // Indices of `settings` from `from` on in the order of measurement: index 0 first, then by the cost

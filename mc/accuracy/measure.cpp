@@ -26,13 +26,13 @@ constexpr double kNearFrontier = 3.0;
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
 // Fraction of the processor time for the reference.
-constexpr double kReferenceShare = 1.0 / 3.0;
+constexpr double kReferenceErrorShare = 1.0 / 3.0;
 // Stiffness tolerances tried with the fastest setting for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
-class Measurement {
+class AccuracyMeasurement {
   public:
-    Measurement(const Study& study, const AccuracyRequest& request)
+    AccuracyMeasurement(const Study& study, const AccuracyRequest& request)
         : study_(plain(study)),
           request_(request),
           time_(request.seconds),
@@ -51,7 +51,7 @@ class Measurement {
     AccuracyReport run() {
         request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
-        reference.seconds = kReferenceShare * time_.seconds();
+        reference.seconds = kReferenceErrorShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
         report_.own = 0;
         for (const ListedSetting& listed : listed_settings(study_)) {
@@ -106,13 +106,9 @@ class Measurement {
         std::vector<SolverSetting> fastest_settings;
         for (const ChoiceCheck& check : report_.choices) {
             const double best = fastest(check.tolerance);
-            const auto known = [&](const SolverSetting& setting) {
-                return std::ranges::any_of(
-                    fastest_settings, [&](const auto& r) { return r.text() == setting.text(); });
-            };
             for (const SettingResult& result : report_.settings) {
                 if (holds(result, check.tolerance) && result.integration_s == best &&
-                    !known(result.setting)) {
+                    std::ranges::find(fastest_settings, result.setting) == fastest_settings.end()) {
                     fastest_settings.push_back(result.setting);
                 }
             }
@@ -121,7 +117,8 @@ class Measurement {
         for (const SolverSetting& setting : fastest_settings) {
             for (const double tolerance : kStiffnessTolerances) {
                 SolverSetting thin = setting;
-                thin.other.push_back(fmt::format("numerics.stiffness_tolerance={:g}", tolerance));
+                thin.numerics.stiffness_tolerance = tolerance;
+                thin.options.emplace_back("stiffness_tolerance");
                 add(thin);
             }
         }
@@ -140,13 +137,13 @@ class Measurement {
         std::vector<SolverSetting> loose;
         for (const SettingResult& result : report_.settings) {
             if (!result.refusal.empty() || !near_frontier(result) ||
-                result.setting.convergence_tolerance != convergence_tolerances().front() ||
-                result.setting.integrator == "auto" || integrates_every_mesh(result.setting)) {
+                result.setting.numerics.convergence_tolerance != convergence_tolerances().front() ||
+                !result.setting.numerics.integrator || integrates_every_mesh(result.setting)) {
                 continue;
             }
             for (std::size_t i = 1; i < convergence_tolerances().size(); ++i) {
                 loose.push_back(result.setting);
-                loose.back().convergence_tolerance = convergence_tolerances()[i];
+                loose.back().numerics.convergence_tolerance = convergence_tolerances()[i];
             }
         }
         const std::size_t first = report_.settings.size();
@@ -231,12 +228,10 @@ class Measurement {
         result.meshes = record.meshes_per_tile();
         result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
         result.error = pilot_error(record, report_.reference.record);
-        // The study's own setting may have the integrator "auto".
-        const std::string integrator = result.setting.integrator == "auto"
-                                           ? std::string(lockstep::name(own_integrator_))
-                                           : result.setting.integrator;
-        result.cost = step_cost(study_, integrator, result.setting.other).value_or(0.0) *
-                      result.steps * result.meshes;
+        SolverSetting setting = result.setting;
+        // The integrator of the study's own setting may be chosen by the program.
+        setting.numerics.integrator = setting.numerics.integrator.value_or(own_integrator_);
+        result.cost = step_cost(study_, setting).value_or(0.0) * result.steps * result.meshes;
     }
 
     bool holds(const SettingResult& result, double tolerance) const {
@@ -357,24 +352,29 @@ class Measurement {
         limit.step_s = explicit_step_s(scenes_.of(own_setting(study_)));
         limit.meshes = report_.settings[0].meshes;
         limit.refused = std::ranges::none_of(report_.settings, [](const auto& r) {
-            return r.setting.integrator == "rk4" && r.refusal.empty();
+            return r.setting.numerics.integrator == lockstep::kUsualExplicit && r.refusal.empty();
         });
     }
 
-    // Compares the measured time of a step relative to rk4's with the cost model's table.
+    // Compares the measured times of steps with the cost model's table.
     void check_step_costs() {
-        std::map<std::string, std::vector<double>> measured;
+        struct StepCosts {
+            std::vector<double> measured;
+            double modelled = 0.0;
+        };
+        std::map<std::string_view, StepCosts> all;
         for (const SettingResult& r : report_.settings) {
-            if (r.steps > 0 && r.setting.integrator != "auto" && r.setting.other.empty()) {
-                measured[r.setting.integrator].push_back(r.mesh_s / r.steps);
+            if (r.steps > 0 && r.setting.numerics.integrator && r.setting.options.empty()) {
+                StepCosts& costs = all[r.setting.integrator()];
+                costs.measured.push_back(r.mesh_s / r.steps);
+                costs.modelled = step_cost(study_, r.setting).value();
             }
         }
-        for (auto& [integrator, steps] : measured) {
-            const auto known = step_cost(study_, integrator, {});
+        for (auto& [integrator, costs] : all) {
             report_.step_costs.push_back(
-                fmt::format("{}: {:.1f} measured, {} in the table", integrator,
-                            machine::upper_median(steps) / report_.explicit_limit.step_s,
-                            known ? fmt::format("{:.1f}", *known) : "none"));
+                fmt::format("{}: {:.1f} measured, {:.1f} in the table", integrator,
+                            machine::upper_median(costs.measured) / report_.explicit_limit.step_s,
+                            costs.modelled));
         }
     }
 
@@ -394,7 +394,7 @@ class Measurement {
 }  // namespace
 
 AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request) {
-    return Measurement(study, request).run();
+    return AccuracyMeasurement(study, request).run();
 }
 
 }  // namespace gearpod::mc

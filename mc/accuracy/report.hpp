@@ -31,7 +31,7 @@ struct SettingResult {
     std::optional<DetectionChange> detection;
 };
 
-// rk4 at its stability limit, whether it can be used or not.
+// lockstep::kUsualExplicit at its stability limit, whether it can be used or not.
 struct ExplicitLimit {
     double steps = 0.0;   // per mesh period
     double step_s = 0.0;  // per gearbox and step, measured

@@ -1,5 +1,7 @@
 #include "mc/accuracy/setting_scenes.hpp"
 
+#include <algorithm>
+
 namespace gearpod::mc {
 
 SettingScenes::SettingScenes(const Study& study)
@@ -18,12 +20,14 @@ const Scene& SettingScenes::of(const SolverSetting& setting) {
 // The convergence tolerance does not affect the grid.
 const Scene& SettingScenes::graded(const SolverSetting& setting) {
     SolverSetting grid = setting;
-    grid.convergence_tolerance = own_.study().numerics.convergence_tolerance;
-    auto& scene = graded_[grid.text()];
-    if (scene == nullptr) {
-        scene = std::make_unique<const Scene>(own_.with(with_setting(own_.study(), grid).numerics));
+    grid.numerics.convergence_tolerance = own_.study().numerics.convergence_tolerance;
+    const auto known = std::ranges::find(graded_, grid, [](const auto& one) { return one.first; });
+    if (known != graded_.end()) {
+        return *known->second;
     }
-    return *scene;
+    auto scene =
+        std::make_unique<const Scene>(own_.with(with_setting(own_.study(), grid).numerics));
+    return *graded_.emplace_back(std::move(grid), std::move(scene)).second;
 }
 
 }  // namespace gearpod::mc

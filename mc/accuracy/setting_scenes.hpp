@@ -2,9 +2,9 @@
 // for each graded grid, because making one costs a pilot.
 #pragma once
 
-#include <map>
 #include <memory>
-#include <string>
+#include <utility>
+#include <vector>
 
 #include "mc/numerics/solver_setting.hpp"
 
@@ -26,7 +26,7 @@ class SettingScenes {
     // Last scene with uniform steps: the next setting often differs only in its convergence
     // tolerance.
     std::unique_ptr<const Scene> last_;
-    std::map<std::string, std::unique_ptr<const Scene>> graded_;
+    std::vector<std::pair<SolverSetting, std::unique_ptr<const Scene>>> graded_;
     std::unique_ptr<const Scene> graded_scene_;  // last scene with a graded grid
 };
 

@@ -63,7 +63,7 @@ void add_heading(Text out) {
 
 void add_row(const AccuracyReport& report, const SettingResult& r, const char* mark, Text out) {
     if (!r.refusal.empty()) {
-        fmt::format_to(out, "{}\n", mark + r.setting.integrator);
+        fmt::format_to(out, "{}{}\n", mark, r.setting.integrator());
         add_words("refused: " + r.refusal, 4, out);
         return;
     }
@@ -75,19 +75,15 @@ void add_row(const AccuracyReport& report, const SettingResult& r, const char* m
                    worst_feature(report, r.error));
 }
 
-// True for settings with fewer terms in the stiffness curves.
-bool has_truncated_stiffness(const SolverSetting& setting) {
-    return !setting.other.empty() &&
-           setting.other.back().starts_with("numerics.stiffness_tolerance");
-}
-
 // True for settings that are listed: those of each family with the tightest convergence tolerance,
-// the frontier, the chosen ones and the study's own.
+// those with fewer terms in the stiffness curves, the frontier, the chosen ones and the study's
+// own.
 bool is_listed(const AccuracyReport& report, std::size_t i) {
     const SettingResult& r = report.settings[i];
     return r.frontier || static_cast<int>(i) == report.own ||
            (!r.refusal.empty() && r.refusal != kNotTried) ||
-           r.setting.convergence_tolerance <= 1e-10 || has_truncated_stiffness(r.setting) ||
+           r.setting.numerics.convergence_tolerance <= 1e-10 ||
+           r.setting.chooses("stiffness_tolerance") ||
            std::any_of(report.choices.begin(), report.choices.end(),
                        [&](const ChoiceCheck& c) { return c.chosen == static_cast<int>(i); });
 }

@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kShare = 0.2;  // fraction of the simulated sets that ABC accepts
+constexpr double kAcceptedShare = 0.2;  // fraction of the simulated sets that ABC accepts
 
 // Simulated sets whose parameters lie inside a region, with parameters relative to it.
 struct SetsInRegion {
@@ -208,13 +208,14 @@ CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
     const SetsInRegion coarse = sets_in_region(prior, first, summaries);
     check_count(coarse, first.size(), inputs);
     const PriorRegion region =
-        narrowed(analysis::regression_abc(coarse.abc, observed, kShare), prior);
+        narrowed(analysis::regression_abc(coarse.abc, observed, kAcceptedShare), prior);
 
     std::vector<SimulatedSet> sets = simulate(region, task.integrated);
     sets.insert(sets.end(), first.begin(), first.end());
     const SetsInRegion fine = sets_in_region(region, sets, summaries);
     check_count(fine, sets.size(), inputs);
-    const analysis::AbcPosterior posterior = analysis::regression_abc(fine.abc, observed, kShare);
+    const analysis::AbcPosterior posterior =
+        analysis::regression_abc(fine.abc, observed, kAcceptedShare);
 
     CalibrationResult result;
     result.sets = sets.size();

@@ -18,7 +18,7 @@ using features::Feature;
 
 // True for features of a single sensor record that need no healthy reference.
 bool is_plain_sensor_feature(const Feature& feature) {
-    return feature.from_sensor && (feature.needs & features::kHealthy) == 0;
+    return feature.from_sensor && !feature.needs.has<features::HealthyRecords>();
 }
 
 std::vector<std::string_view> usable_names() {
@@ -144,7 +144,7 @@ std::vector<const Feature*> select_features(const std::vector<HealthyRecord>& re
         return chosen;
     }
     for (const Feature& feature : features::record_features()) {
-        const bool central = (feature.needs & (features::kSun | features::kRing)) != 0;
+        const bool central = feature.needs.overlaps(features::kCentralGears);
         if (is_plain_sensor_feature(feature) && !central && all_have(records, feature)) {
             chosen.push_back(&feature);
         }

@@ -32,9 +32,9 @@ std::vector<std::string> random_keys() {
     return names;
 }
 
-class Reader {
+class ParameterReader {
   public:
-    explicit Reader(Problems& problems) : problems_(problems) {}
+    explicit ParameterReader(Problems& problems) : problems_(problems) {}
 
     void read(const std::string& text, std::vector<CalibratedInput>& inputs) {
         const std::size_t equals = text.find('=');
@@ -104,7 +104,7 @@ std::string CalibratedInput::as_override() const {
 std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts,
                                          Problems& problems) {
     std::vector<CalibratedInput> inputs;
-    Reader reader(problems);
+    ParameterReader reader(problems);
     for (const std::string& text : texts) {
         reader.read(text, inputs);
     }

@@ -46,7 +46,7 @@ class Simulator {
             inputs.gain = inputs.tone_level = 1.0;
         }
         const GearboxTile tile = run_realizations(scene_, path_, std::move(realizations), lanes(),
-                                                  {.with_records = true});
+                                                  {.records = lockstep::RecordOptions{}});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             if (tile.status[lane] == Status::ok) {

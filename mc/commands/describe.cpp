@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <numbers>
@@ -30,31 +29,21 @@
 namespace gearpod::mc {
 namespace {
 
-// Prints the lengths of the time steps and where the short ones lie.
+// Prints the lengths of graded time steps and where the short ones lie.
 void print_steps(const Scene& scene) {
     const lockstep::PhaseGrid& grid = scene.plan().grid;
     const auto [shortest, longest] = std::minmax_element(grid.lengths.begin(), grid.lengths.end());
     print_entry("step lengths", fmt::format("{:.3g} to {:.3g} mesh periods, {} different lengths",
                                             *shortest, *longest, grid.lengths.size()));
-    if (!scene.calibration()) {
-        return;
-    }
     const Calibration& how = *scene.calibration();
-    const Numerics& n = scene.study().numerics;
-    if (how.estimated) {
-        print_entry("calibrated by", fmt::format("pilot run of {} gearboxes: estimated error of a "
-                                                 "step {:g} of the largest displacement",
-                                                 lockstep::kPilotLanes, n.step_tolerance));
-    } else {
-        print_entry("calibrated by",
-                    fmt::format("pilot run of {} gearboxes: signal error {:.2g} rms (allowed: "
-                                "{:g})",
-                                lockstep::kPilotLanes, how.signal_error, n.grid_tolerance));
-        print_entry("graded steps",
-                    fmt::format("{:.3g} after a transition, then up to {:g} of the phase since "
-                                "the transition, never more than {:.3g}",
-                                how.grading.first, how.grading.growth, how.grading.longest));
-    }
+    print_entry("calibrated by",
+                fmt::format("pilot run of {} gearboxes: signal error {:.2g} rms (allowed: {:g})",
+                            lockstep::kPilotLanes, how.signal_error,
+                            scene.study().numerics.grid_tolerance));
+    print_entry("graded steps",
+                fmt::format("{:.3g} after a transition, then up to {:g} of the phase since the "
+                            "transition, never more than {:.3g}",
+                            how.grading.first, how.grading.growth, how.grading.longest));
     std::vector<double> since;
     for (const lockstep::Step& step : grid.steps) {
         since.push_back(lockstep::since_transition(scene.transitions(), step.phase));
@@ -121,7 +110,7 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     if (choice) {
         print_entry("chosen for the tolerance", choice->text());
     }
-    if (scene.study().numerics.grid == StepGrid::graded || scene.calibration()) {
+    if (scene.calibration()) {
         print_steps(scene);
     }
     if (plan.precision == lockstep::Precision::single_precision) {

@@ -140,7 +140,7 @@ bool check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
     for (const MeasuredFeature& one : all) {
         const bool there = (one.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
                            !(one.feature->from_sensor && scene.study().effects.quasi_static());
-        const bool central = (one.feature->needs & (features::kSun | features::kRing)) != 0;
+        const bool central = one.feature->needs.overlaps(features::kCentralGears);
         const int needed = central ? 0 : meshes_of(*one.feature, scene);
         const int has = one.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
         if (there && has < needed) {

@@ -24,17 +24,18 @@ constexpr long kMostRows = 100'000'000;
 constexpr int kMostRecords = 10'000;  // the limit of ensemble.threshold_records
 
 // Finds the threshold set by the file's healthy gearboxes.
-void find_threshold(const StudyResults& results, const MissesOptions& options,
-                    OptionProblems& wrong_options, MissRateRequest& question) {
+void find_threshold(const StudyResults& results, const MissesOptions& options, Problems& problems,
+                    MissRateRequest& question) {
     const features::Feature* feature = features::find_feature(options.feature);
     if (feature != nullptr && !feature->from_sensor) {
-        wrong_options.add("--feature",
-                          fmt::format("\"{}\" does not use the acceleration signal, but `misses` "
-                                      "varies its noise; choose a feature of the acceleration",
-                                      options.feature));
+        problems.push_back(
+            {.file = "--feature",
+             .what = fmt::format("\"{}\" does not use the acceleration signal, but `misses` "
+                                 "varies its noise; choose a feature of the acceleration",
+                                 options.feature)});
     }
     const auto requested =
-        find_feature_at_level(results, options.feature, options.noise_level, wrong_options);
+        find_feature_at_level(results, options.feature, options.noise_level, problems);
     if (!requested) {
         return;
     }
@@ -42,30 +43,32 @@ void find_threshold(const StudyResults& results, const MissesOptions& options,
     question.noise_level = requested->detection->noise_level;
     question.threshold = requested->detection->threshold;
     if (question.noise_level == 0.0) {
-        wrong_options.add(
-            "--noise-level",
-            "0 has no noise; use `rare` for misses due to variation between gearboxes");
+        problems.push_back(
+            {.file = "--noise-level",
+             .what = "0 has no noise; use `rare` for misses due to variation between gearboxes"});
     }
-    require_threshold(*requested, wrong_options);
+    require_threshold(*requested, problems);
 }
 
-void check_numbers(const Study& study, const MissesOptions& options,
-                   OptionProblems& wrong_options) {
+void check_numbers(const Study& study, const MissesOptions& options, Problems& problems) {
     constexpr auto kKinds = static_cast<int>(signals::NoiseImportanceSampler::kKinds);
     if (noise_by_density(study)) {
-        wrong_options.add(options.results,
-                          "its study gives the noise by density, which is not white after the "
-                          "low-pass; `misses` needs white noise (sensor.noise_m_s2)");
+        problems.push_back(
+            {.file = options.results,
+             .what = "its study gives the noise by density, which is not white after the "
+                     "low-pass; `misses` needs white noise (sensor.noise_m_s2)"});
     }
     if (options.records < kKinds || options.records % kKinds != 0 ||
         options.records > kMostRecords) {
-        wrong_options.add("--records", fmt::format("must be a multiple of {} up to {}, but is {}",
-                                                   kKinds, kMostRecords, options.records));
+        problems.push_back({.file = "--records",
+                            .what = fmt::format("must be a multiple of {} up to {}, but is {}",
+                                                kKinds, kMostRecords, options.records)});
     }
     const int records = std::clamp(options.records, kKinds, kMostRecords);
     if (options.gearboxes < 2 || options.gearboxes > kMostRows / records) {
-        wrong_options.add("--gearboxes", fmt::format("must be between 2 and {}, but is {}",
-                                                     kMostRows / records, options.gearboxes));
+        problems.push_back({.file = "--gearboxes",
+                            .what = fmt::format("must be between 2 and {}, but is {}",
+                                                kMostRows / records, options.gearboxes)});
     }
 }
 
@@ -82,12 +85,12 @@ Prepared prepare(const MissesOptions& options) {
     if (study.fault.kind == nullptr) {
         throw std::runtime_error(options.results + ": its study has no fault");
     }
-    OptionProblems wrong_options;
+    Problems problems;
     Prepared prepared;
-    check_numbers(study, options, wrong_options);
-    prepared.size = read_requested_size(study, options.size, wrong_options);
-    find_threshold(results, options, wrong_options, prepared.question);
-    wrong_options.end();
+    check_numbers(study, options, problems);
+    prepared.size = read_requested_size(study, options.size, problems);
+    find_threshold(results, options, problems, prepared.question);
+    require_none(problems);
     prepared.confidence = study.detection.confidence;
     prepared.question.size = prepared.size.si;
     prepared.question.gearboxes = options.gearboxes;

@@ -29,40 +29,17 @@ constexpr const char* kUsualSizes[] = {"size", "a", "Size"};
 constexpr const char* kUsualHits[] = {"hit", "hit.miss", "hit_miss", "hitmiss", "Hit"};
 constexpr const char* kUsualValues[] = {"response", "ahat", "a-hat", "a_hat", "a.hat", "value"};
 
-// Collects problems with the table and shows the first kShown.
-class Refusals {
-  public:
-    explicit Refusals(const std::string& path) : path_(path) {}
-    void add(const std::string& what, long line = 0) {
-        constexpr long kShown = 20;
-        if (++count_ <= kShown) {
-            text_ += line > 0 ? fmt::format("{}:{}: {}\n", path_, line, printable(what))
-                              : fmt::format("{}: {}\n", path_, printable(what));
-        }
-    }
-    bool any() const { return count_ > 0; }
-    std::string text() const {
-        constexpr long kShown = 20;
-        return count_ > kShown ? text_ + fmt::format("{}: and {} more\n", path_, count_ - kShown)
-                               : text_;
-    }
-
-  private:
-    const std::string& path_;
-    std::string text_;
-    long count_ = 0;
-};
-
 // Finds the named columns, or else the first column with a usual name. Reports named columns that
 // do not exist.
 std::vector<std::size_t> columns(const TextTable& table, const std::vector<std::string>& named,
-                                 std::span<const char* const> usual, Refusals& refusals) {
+                                 std::span<const char* const> usual, Problems& problems) {
     std::vector<std::size_t> found;
     for (const std::string& name : named) {
         if (const auto at = table.find(name)) {
             found.push_back(*at);
         } else {
-            refusals.add(fmt::format("no column {}; its columns are {}", name, table.names()));
+            problems.push_back(
+                {.what = fmt::format("no column {}; its columns are {}", name, table.names())});
         }
     }
     for (const char* name : usual) {
@@ -80,39 +57,41 @@ struct Columns {
     bool responses = false;
 };
 
-Columns choose_columns(const TextTable& table, const PodOptions& options, Refusals& refusals) {
+Columns choose_columns(const TextTable& table, const PodOptions& options, Problems& problems) {
     Columns chosen;
     std::vector<std::string> size;
     if (!options.size.empty()) {
         size.push_back(options.size);
     }
-    const auto sizes = columns(table, size, kUsualSizes, refusals);
+    const auto sizes = columns(table, size, kUsualSizes, problems);
     if (!sizes.empty()) {
         chosen.size = sizes.front();
     } else if (size.empty()) {
-        refusals.add(
-            fmt::format("no column size; its columns are {}; choose with --size", table.names()));
+        problems.push_back(
+            {.what = fmt::format("no column size; its columns are {}; choose with --size",
+                                 table.names())});
     }
     if (!options.hits.empty() && !options.values.empty()) {
-        refusals.add("--hit and --response exclude each other");
+        problems.push_back({.what = "--hit and --response exclude each other"});
     }
     chosen.responses = !options.values.empty();
     chosen.values = columns(table, chosen.responses ? options.values : options.hits,
                             chosen.responses ? std::span<const char* const>()
                                              : std::span<const char* const>(kUsualHits),
-                            refusals);
+                            problems);
     if (chosen.values.empty() && options.hits.empty() && !chosen.responses) {
-        chosen.values = columns(table, {}, kUsualValues, refusals);
+        chosen.values = columns(table, {}, kUsualValues, problems);
         chosen.responses = true;
         if (chosen.values.empty()) {
-            refusals.add(
-                fmt::format("no column hit or response; its columns are {}; choose with --hit "
-                            "or --response",
-                            table.names()));
+            problems.push_back(
+                {.what =
+                     fmt::format("no column hit or response; its columns are {}; choose with --hit "
+                                 "or --response",
+                                 table.names())});
         }
     }
     if (!options.specimen.empty()) {
-        const auto found = columns(table, {options.specimen}, {}, refusals);
+        const auto found = columns(table, {options.specimen}, {}, problems);
         if (!found.empty()) {
             chosen.specimen = found.front();
         }
@@ -124,27 +103,29 @@ bool is_missing(const std::string& field) {
     return field.empty() || field == "NA" || field == "-";
 }
 
-Inspections read_inspections(const TextTable& table, const Columns& chosen, Refusals& refusals) {
+Inspections read_inspections(const TextTable& table, const Columns& chosen, Problems& problems) {
     Inspections data;
     const bool comma = table.separator != ',';
     std::map<std::string, long> specimens;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const auto& row = table.rows[r];
-        const long line = table.lines[r];
+        const int line = static_cast<int>(table.lines[r]);
         const auto number = [&](std::size_t c) {
             const auto value = number_of(row[c], comma);
             if (!value || !std::isfinite(*value)) {
-                refusals.add(fmt::format("column {}: \"{}\" is not a finite number",
-                                         table.columns[c].name, row[c].substr(0, 40)),
-                             line);
+                problems.push_back(
+                    {.line = line,
+                     .what = fmt::format("column {}: \"{}\" is not a finite number",
+                                         table.columns[c].name, row[c].substr(0, 40))});
             }
             return value.value_or(0.0);
         };
         const double size = number(chosen.size);
         if (size < 0.0) {
-            refusals.add(fmt::format("column {}: {:g} is negative; use 0 for no flaw",
-                                     table.columns[chosen.size].name, size),
-                         line);
+            problems.push_back(
+                {.line = line,
+                 .what = fmt::format("column {}: {:g} is negative; use 0 for no flaw",
+                                     table.columns[chosen.size].name, size)});
         }
         const long specimen =
             chosen.specimen
@@ -157,17 +138,18 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
             }
             const double value = number(c);
             if (!chosen.responses && value != 0.0 && value != 1.0) {
-                refusals.add(fmt::format("column {}: {:g} is neither 1 (hit) nor 0 (miss)",
-                                         table.columns[c].name, value),
-                             line);
+                problems.push_back(
+                    {.line = line,
+                     .what = fmt::format("column {}: {:g} is neither 1 (hit) nor 0 (miss)",
+                                         table.columns[c].name, value)});
             }
             data.size.push_back(size);
             data.value.push_back(value);
             data.specimen.push_back(specimen);
         }
     }
-    if (data.size.empty() && !refusals.any()) {
-        refusals.add("no line has a value");
+    if (data.size.empty() && problems.empty()) {
+        problems.push_back({.what = "no line has a value"});
     }
     return data;
 }
@@ -178,7 +160,7 @@ std::vector<bool> log_sizes(const std::string& scale) {
                              : std::vector<bool>{false, true};
 }
 
-std::vector<double> powers(const std::string& scale, Refusals& refusals) {
+std::vector<double> powers(const std::string& scale, Problems& problems) {
     if (scale.empty()) {
         return {1.0, 0.0};
     }
@@ -189,15 +171,15 @@ std::vector<double> powers(const std::string& scale, Refusals& refusals) {
     }
     const auto power = number_of(scale, false);
     if (!power || !(std::abs(*power) <= 10.0)) {
-        refusals.add(
-            fmt::format("--response-scale {}: must be linear, log, box-cox or a power "
-                        "between -10 and 10",
-                        scale));
+        problems.push_back(
+            {.what = fmt::format("--response-scale {}: must be linear, log, box-cox or a power "
+                                 "between -10 and 10",
+                                 scale)});
     }
     return {power.value_or(1.0)};
 }
 
-InspectionRequest request_of(const PodOptions& options, const Columns& chosen, Refusals& refusals) {
+InspectionRequest request_of(const PodOptions& options, const Columns& chosen, Problems& problems) {
     using analysis::BoundConvention;
     InspectionRequest request;
     request.responses = chosen.responses;
@@ -230,20 +212,21 @@ InspectionRequest request_of(const PodOptions& options, const Columns& chosen, R
     request.limits = {options.left.value_or(request.limits.left),
                       options.right.value_or(request.limits.right)};
     if (!(request.limits.left < request.limits.right)) {
-        refusals.add("--left must be less than --right");
+        problems.push_back({.what = "--left must be less than --right"});
     }
-    request.powers = powers(options.response_scale, refusals);
+    request.powers = powers(options.response_scale, problems);
     request.accept_failed_checks = !options.size_scale.empty() && !options.response_scale.empty();
     return request;
 }
 
 // Reports options that have no effect on this kind of data.
-void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals& refusals) {
+void refuse_misplaced(const PodOptions& options, const Columns& chosen, Problems& problems) {
     const auto refuse = [&](bool given, const char* name) {
         if (given) {
-            refusals.add(fmt::format("{} is only for {}, but the table has {}", name,
+            problems.push_back(
+                {.what = fmt::format("{} is only for {}, but the table has {}", name,
                                      chosen.responses ? "hits and misses" : "responses",
-                                     chosen.responses ? "responses" : "hits and misses"));
+                                     chosen.responses ? "responses" : "hits and misses")});
         }
     };
     if (chosen.responses) {
@@ -252,7 +235,7 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals
         refuse(options.fit_ceiling, "--fit-ceiling");
         refuse(options.firth, "--firth");
         if (options.threshold && options.false_call_rate) {
-            refusals.add("--threshold and --false-call-rate exclude each other");
+            problems.push_back({.what = "--threshold and --false-call-rate exclude each other"});
         }
     } else {
         refuse(options.threshold.has_value(), "--threshold");
@@ -262,10 +245,10 @@ void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals
         refuse(!options.response_scale.empty(), "--response-scale");
         refuse(options.alarm != "high", "--alarm");
         if (options.fit_ceiling && options.bounds == "wald") {
-            refusals.add("--fit-ceiling needs --bounds likelihood-ratio");
+            problems.push_back({.what = "--fit-ceiling needs --bounds likelihood-ratio"});
         }
         if (options.fit_ceiling && options.firth) {
-            refusals.add("--firth and --fit-ceiling exclude each other");
+            problems.push_back({.what = "--firth and --fit-ceiling exclude each other"});
         }
     }
 }
@@ -294,16 +277,20 @@ int pod_command(const PodOptions& options) {
     }
     try {
         const TextTable table = read_text_table(options.table);
-        Refusals refusals(options.table);
-        const Columns chosen = choose_columns(table, options, refusals);
-        const InspectionRequest request = request_of(options, chosen, refusals);
-        refuse_misplaced(options, chosen, refusals);
+        Problems problems;
+        const Columns chosen = choose_columns(table, options, problems);
+        const InspectionRequest request = request_of(options, chosen, problems);
+        refuse_misplaced(options, chosen, problems);
         Inspections data;
-        if (!refusals.any()) {
-            data = read_inspections(table, chosen, refusals);
+        if (problems.empty()) {
+            data = read_inspections(table, chosen, problems);
         }
-        if (refusals.any()) {
-            fmt::print(stderr, "{}", refusals.text());
+        if (!problems.empty()) {
+            constexpr std::size_t kShown = 20;
+            for (Problem& problem : problems) {
+                problem.file = options.table;
+            }
+            fmt::print(stderr, "{}", format(problems, kShown));
             return kBadInput;
         }
         const analysis::InspectionResult result = analysis::inspect(data, request);

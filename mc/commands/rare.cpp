@@ -26,44 +26,45 @@ struct PreparedRare {
 };
 
 void request_misses(const StudyResults& results, const RareOptions& options,
-                    const FeatureAtLevel& requested, OptionProblems& wrong_options,
-                    PreparedRare& prepared) {
+                    const FeatureAtLevel& requested, Problems& problems, PreparedRare& prepared) {
     if (results.study.fault.kind == nullptr) {
-        wrong_options.add(options.results, "its study has no fault");
+        problems.push_back({.file = options.results, .what = "its study has no fault"});
         return;
     }
-    prepared.size = read_requested_size(results.study, *options.size, wrong_options);
-    require_threshold(requested, wrong_options);
+    prepared.size = read_requested_size(results.study, *options.size, problems);
+    require_threshold(requested, problems);
     prepared.question.size = prepared.size.si;
     prepared.question.threshold = requested.detection->threshold;
 }
 
 PreparedRare prepare_rare(const RareOptions& options) {
     const StudyResults results = read_study_results(options.results);
-    OptionProblems wrong_options;
+    Problems problems;
     PreparedRare prepared;
     RareRateRequest& question = prepared.question;
     if (!options.rate && !options.size) {
-        wrong_options.add("--rate", "missing; give a false-alarm rate (--rate 1e-4), or --size");
+        problems.push_back({.file = "--rate",
+                            .what = "missing; give a false-alarm rate (--rate 1e-4), or --size"});
     }
     if (options.rate && !(*options.rate >= kRarestAlarms && *options.rate <= 0.1)) {
-        wrong_options.add("--rate", fmt::format("must be between {:g} and 0.1, but is {:g}",
-                                                kRarestAlarms, *options.rate));
+        problems.push_back({.file = "--rate",
+                            .what = fmt::format("must be between {:g} and 0.1, but is {:g}",
+                                                kRarestAlarms, *options.rate)});
     }
     if (options.gearboxes < kFewestOfLevel || options.gearboxes > kMostOfLevel) {
-        wrong_options.add("--gearboxes",
-                          fmt::format("must be between {} and {}, but is {}", kFewestOfLevel,
-                                      kMostOfLevel, options.gearboxes));
+        problems.push_back({.file = "--gearboxes",
+                            .what = fmt::format("must be between {} and {}, but is {}",
+                                                kFewestOfLevel, kMostOfLevel, options.gearboxes)});
     }
     const auto requested =
-        find_feature_at_level(results, options.feature, options.noise_level, wrong_options);
+        find_feature_at_level(results, options.feature, options.noise_level, problems);
     if (requested) {
         question.noise_level = requested->detection->noise_level;
     }
     if (requested && options.size) {
-        request_misses(results, options, *requested, wrong_options, prepared);
+        request_misses(results, options, *requested, problems, prepared);
     }
-    wrong_options.end();
+    require_none(problems);
     question.feature = options.feature;
     question.rate = options.rate;
     question.gearboxes = options.gearboxes;

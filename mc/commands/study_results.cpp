@@ -20,21 +20,11 @@
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
-namespace {
 
-[[noreturn]] void fail_with(const std::string& lines) {
-    throw std::runtime_error(lines.substr(0, lines.size() - 1));
-}
-
-}  // namespace
-
-void OptionProblems::add(const std::string& option, const std::string& what) {
-    text_ += fmt::format("{}: {}\n", option, what);
-}
-
-void OptionProblems::end() const {
-    if (!text_.empty()) {
-        fail_with(text_);
+void require_none(const Problems& problems) {
+    if (!problems.empty()) {
+        const std::string lines = format(problems);
+        throw std::runtime_error(lines.substr(0, lines.size() - 1));
     }
 }
 
@@ -54,7 +44,7 @@ StudyResults read_study_results(const std::string& path) {
 std::optional<FeatureAtLevel> find_feature_at_level(const StudyResults& results,
                                                     const std::string& feature,
                                                     const std::optional<double>& noise_level,
-                                                    OptionProblems& wrong_options) {
+                                                    Problems& problems) {
     const Results& frame = results.frame;
     const auto found =
         std::ranges::find(frame.detection, feature, &analysis::FeatureDetection::feature);
@@ -63,36 +53,40 @@ std::optional<FeatureAtLevel> find_feature_at_level(const StudyResults& results,
         for (const FeatureResult& known : frame.features) {
             names.push_back(known.name);
         }
-        wrong_options.add("--feature", fmt::format("\"{}\" is not in {}; its features are {}",
-                                                   feature, results.path, fmt::join(names, ", ")));
+        problems.push_back({.file = "--feature",
+                            .what = fmt::format("\"{}\" is not in {}; its features are {}", feature,
+                                                results.path, fmt::join(names, ", "))});
         return std::nullopt;
     }
     const double requested_level =
         noise_level.value_or(frame.noise_levels[reference_level(frame.noise_levels)]);
     const auto level = std::ranges::find(frame.noise_levels, requested_level);
     if (level == frame.noise_levels.end()) {
-        wrong_options.add("--noise-level",
-                          fmt::format("{:g} is not a noise level of the file; choose from {:g}",
-                                      requested_level, fmt::join(frame.noise_levels, ", ")));
+        problems.push_back(
+            {.file = "--noise-level",
+             .what = fmt::format("{:g} is not a noise level of the file; choose from {:g}",
+                                 requested_level, fmt::join(frame.noise_levels, ", "))});
         return std::nullopt;
     }
     const auto at = static_cast<std::size_t>(level - frame.noise_levels.begin());
     return FeatureAtLevel{features::find_feature(feature), &found->levels[at]};
 }
 
-void require_threshold(const FeatureAtLevel& requested, OptionProblems& wrong_options) {
+void require_threshold(const FeatureAtLevel& requested, Problems& problems) {
     if (std::isnan(requested.detection->threshold)) {
-        wrong_options.add("--feature",
-                          fmt::format("\"{}\" has no threshold at noise x {:g}: too few healthy "
-                                      "gearboxes for the false-alarm rate; run the study with more "
-                                      "(ensemble.threshold_instances)",
-                                      requested.feature->name, requested.detection->noise_level));
+        problems.push_back(
+            {.file = "--feature",
+             .what = fmt::format("\"{}\" has no threshold at noise x {:g}: too few healthy "
+                                 "gearboxes for the false-alarm rate; run the study with more "
+                                 "(ensemble.threshold_instances)",
+                                 requested.feature->name, requested.detection->noise_level)});
     }
 }
 
-RequestedSize read_requested_size(const Study& study, double size, OptionProblems& wrong_options) {
+RequestedSize read_requested_size(const Study& study, double size, Problems& problems) {
     if (!(size > 0.0) || std::isinf(size)) {
-        wrong_options.add("--size", fmt::format("must be > 0 and finite, but is {:g}", size));
+        problems.push_back(
+            {.file = "--size", .what = fmt::format("must be > 0 and finite, but is {:g}", size)});
     }
     const Unit& unit = fault_size_key(study).unit;
     return {size * unit.to_si, size, unit.suffix.empty() ? "" : std::string(unit.name)};
@@ -120,7 +114,7 @@ StudyScene scene_for_results(const StudyResults& results, const Study& study) {
             problem.line = 0;
             problem.key = of_size ? "" : problem.key;
         }
-        fail_with(format(made.problems));
+        require_none(made.problems);
     }
     return made;
 }

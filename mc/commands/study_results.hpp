@@ -12,21 +12,14 @@
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
+#include "mc/input/problems.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
 
-// Collects one line for each wrong option.
-class OptionProblems {
-  public:
-    void add(const std::string& option, const std::string& what);
-    // Throws std::runtime_error with all lines if there are any.
-    void end() const;
-
-  private:
-    std::string text_;
-};
+// Throws std::runtime_error with all problems, one line each, if there are any.
+void require_none(const Problems& problems);
 
 struct StudyResults {
     std::string path;
@@ -42,21 +35,21 @@ struct FeatureAtLevel {
     const analysis::LevelDetection* detection;
 };
 // Finds the requested feature. Without a noise level it uses reference_level(). Reports wrong
-// values of --feature and --noise-level to `wrong_options`.
+// values of --feature and --noise-level to `problems`.
 std::optional<FeatureAtLevel> find_feature_at_level(const StudyResults& results,
                                                     const std::string& feature,
                                                     const std::optional<double>& noise_level,
-                                                    OptionProblems& wrong_options);
-// Reports --feature to `wrong_options` if the feature has no threshold.
-void require_threshold(const FeatureAtLevel& requested, OptionProblems& wrong_options);
+                                                    Problems& problems);
+// Reports --feature to `problems` if the feature has no threshold.
+void require_threshold(const FeatureAtLevel& requested, Problems& problems);
 
 // Fault size given by --size.
 struct RequestedSize {
     double si = 0.0, given = 0.0;
     std::string unit;  // of the study's key; "": a pure number
 };
-// Reads --size and reports a wrong value to `wrong_options`. The study must have a fault.
-RequestedSize read_requested_size(const Study& study, double size, OptionProblems& wrong_options);
+// Reads --size and reports a wrong value to `problems`. The study must have a fault.
+RequestedSize read_requested_size(const Study& study, double size, Problems& problems);
 // Alarm direction of a feature: ">" or "<".
 const char* alarm_symbol_of(const std::string& feature);
 // "probability that fm4 misses a fault of 2 mm at noise x 1 (alarm if > 3.1): "

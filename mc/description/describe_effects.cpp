@@ -27,18 +27,6 @@ bool random(const Study& study, const char* key) {
     return study.find_random(key) != nullptr;
 }
 
-const char* damping_text(MeshDamping kind) {
-    switch (kind) {
-        case MeshDamping::ratio:
-            return "ratio of critical damping";
-        case MeshDamping::proportional:
-            return "proportional to stiffness";
-        case MeshDamping::constant:
-            return "constant";
-    }
-    return "";
-}
-
 void print_motion(const Study& study) {
     const Effects& e = study.effects;
     std::string text = e.torsional() ? "rotation only (rigid bearings)" : "x, y and rotation";
@@ -47,7 +35,8 @@ void print_motion(const Study& study) {
     }
     print_entry("motion", text);
     if (!e.quasi_static()) {
-        print_entry("mesh damping", damping_text(e.mesh_damping));
+        print_entry("mesh damping", std::string(dynamics::with_mesh_damping(
+                                        e.mesh_damping, [](auto law) { return law.kText; })));
     }
     if (study.gearbox.kind == GearboxKind::planetary && e.inertial_terms && !e.torsional()) {
         print_entry("inertial terms", e.quasi_static()

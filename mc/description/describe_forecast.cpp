@@ -9,6 +9,7 @@
 #include "mc/description/entries.hpp"
 #include "mc/description/lives_forecast.hpp"
 #include "mc/description/rank_forecast.hpp"
+#include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/forecast.hpp"
 #include "mc/gearbox/mesh_time.hpp"
@@ -124,7 +125,7 @@ void print_step_error(const Scene& scene) {
     print_entry("time step error",
                 error ? step_error_text(*error)
                       : "not measured, because it would take too long; contact loss lowers the "
-                        "order of the method, and step_tolerance does not bound the error");
+                        "order of the method");
 }
 
 // Prints the forecast of lives. Prints nothing and returns false for a study without lives, or

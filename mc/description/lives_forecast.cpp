@@ -10,8 +10,8 @@
 #include "mc/description/entries.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/memory.hpp"
-#include "mc/gearbox/healthy_solution.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/solution_choice.hpp"
 #include "mc/lives/life_rows.hpp"
 
 namespace gearpod::mc {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "mc/scene/instance_inputs.hpp"
@@ -16,16 +17,13 @@ bool none(const Study& study, const std::string& key, double nominal) {
     return nominal == 0.0 && study.find_random(key) == nullptr;
 }
 
-std::string mesh_damping_key(const Study& study) {
-    switch (study.effects.mesh_damping) {
-        case MeshDamping::ratio:
-            return "gearbox.mesh_damping_ratio";
-        case MeshDamping::proportional:
-            return "gearbox.mesh_damping_time_s";
-        case MeshDamping::constant:
-            return "gearbox.mesh_damping_N_s_m";
-    }
-    return "";
+bool no_mesh_damping(const Study& study, const dynamics::DampingParameters& nominal) {
+    return dynamics::with_mesh_damping(study.effects.mesh_damping, [&](auto law) {
+        std::size_t next = 0;
+        return std::ranges::all_of(law.kParameters, [&](const dynamics::DampingParameter& one) {
+            return none(study, "gearbox." + std::string(one.key), nominal[next++]);
+        });
+    });
 }
 
 std::vector<Member> supported_members(const Study& study) {
@@ -44,7 +42,7 @@ std::string undamped(const Study& study) {
     const Gearbox& g = study.gearbox;
     const InstanceInputs nominal = nominal_inputs(study);
     std::vector<std::string> parts, bearings;
-    if (none(study, mesh_damping_key(study), nominal.mesh_damping)) {
+    if (no_mesh_damping(study, nominal.mesh_damping)) {
         parts.push_back("meshes");
     }
     for (const Member member : supported_members(study)) {

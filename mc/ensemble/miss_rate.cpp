@@ -11,8 +11,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Records of several gearboxes, in the form that ImportanceSample takes.
-struct Records {
+// MissRecords of several gearboxes, in the form that ImportanceSample takes.
+struct MissRecords {
     std::vector<double> values, weights;
     std::vector<std::size_t> gearbox;
     long gearboxes = 0, failed = 0;
@@ -99,7 +99,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
         throw std::runtime_error(why);
     }
     const RowShape shape = row_shape(scene.study());
-    Records all;
+    MissRecords all;
     for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
         all.add(store.read(batch), shape, records);
     }

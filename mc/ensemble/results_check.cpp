@@ -145,7 +145,8 @@ void check_against(const std::string& path, const Results& frame, const RowSourc
             why = "its attribute part is invalid";
         }
         if (why.empty() && rows.rows() > most) {
-            why = fmt::format("it has {} gearboxes, but the study{} has {}", rows.rows(),
+            why = fmt::format("it has {} {}, but the study{} has {}", rows.rows(),
+                              expected->plan.counted(),
                               part && !part->whole() ? "'s part " + part->text() : "", most);
         }
     }

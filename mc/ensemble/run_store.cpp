@@ -47,16 +47,16 @@ void BatchFiller::add(const RowBlock& block) {
 
 std::string why_not_extendable(const Results& old, const std::string& path, const Study& study,
                                const Part& part) {
-    const auto there = read_study_text(old.provenance_value("study"), path).study;
-    Study as_there = study;
-    const auto healthy = there ? there->ensemble.threshold_instances : 0;
+    const auto old_study = read_study_text(old.provenance_value("study"), path).study;
+    Study requested = study;
+    const auto healthy = old_study ? old_study->ensemble.threshold_instances : 0;
     // Trending features are relative to the first healthy gearboxes, so the old results must
     // contain all of these.
     if (part.whole() && healthy >= HealthyReference::kRecords &&
         healthy < study.ensemble.threshold_instances) {
-        as_there.ensemble.threshold_instances = healthy;
+        requested.ensemble.threshold_instances = healthy;
     }
-    return difference(identity_of(old, path), run_identity(as_there, row_shape(old), part));
+    return difference(identity_of(old, path), run_identity(requested, row_shape(old), part));
 }
 
 namespace {
@@ -121,9 +121,9 @@ std::string why_not_overwritable(const std::string& results_path, const RunIdent
     }
     try {
         const Results old = read_frame(results_path);
-        RunIdentity there = identity_of(old, results_path);
-        there.version = identity.version;
-        const std::string why = difference(there, identity);
+        RunIdentity existing = identity_of(old, results_path);
+        existing.version = identity.version;
+        const std::string why = difference(existing, identity);
         return why.empty() ? "" : results_path + ": contains results of another run: it " + why;
     } catch (const std::exception& error) {
         return error.what();

@@ -36,7 +36,7 @@ constexpr NumberClass kNumberClasses[] = {
 };
 
 // Values of the matrix as doubles; empty unless they are real numbers.
-std::vector<double> numbers(const matvar_t& matrix, std::size_t count) {
+std::vector<double> matrix_numbers(const matvar_t& matrix, std::size_t count) {
     if (matrix.data == nullptr || matrix.isComplex != 0 ||
         matrix.nbytes != count * static_cast<std::size_t>(matrix.data_size)) {
         return {};
@@ -139,7 +139,7 @@ class SignalMat : public SignalFile {
         }
         std::vector<double> values;
         if (matrix != nullptr && is_real_vector(*matrix)) {
-            values = numbers(*matrix, matrix->dims[0] * matrix->dims[1]);
+            values = matrix_numbers(*matrix, matrix->dims[0] * matrix->dims[1]);
         }
         if (values.empty()) {
             throw SignalError(fmt::format("{}: {} cannot be read", path_, name));

@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::size_t kMostRows = 1000000;
+constexpr std::size_t kMostTableRows = 1000000;
 constexpr std::size_t kMostColumns = 10000;
 constexpr std::size_t kLongestLine = 1 << 20;
 
@@ -68,8 +68,9 @@ void read_header(TextTable& table, std::string_view line, long number) {
 }
 
 void read_row(TextTable& table, std::string_view line, long number) {
-    if (table.rows.size() == kMostRows) {
-        throw SignalError(fmt::format("{}:{}: more than {} rows", table.path, number, kMostRows));
+    if (table.rows.size() == kMostTableRows) {
+        throw SignalError(
+            fmt::format("{}:{}: more than {} rows", table.path, number, kMostTableRows));
     }
     table.rows.push_back(quoted_fields(line, table.separator));
     table.lines.push_back(number);

@@ -90,9 +90,9 @@ struct MeasuredTile {
 };
 
 // Measures tiles on several threads. Its members are common to all threads.
-class Measurement {
+class CostMeasurement {
   public:
-    Measurement(const BatchTask& task, const SpreadTiles& tiles, bool reusable, double budget_s)
+    CostMeasurement(const BatchTask& task, const SpreadTiles& tiles, bool reusable, double budget_s)
         : task_(task), tiles_(tiles), reusable_(reusable), budget_s_(budget_s) {}
 
     std::vector<MeasuredTile> run(int threads) {
@@ -234,7 +234,7 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
     result.task_s = seconds_since(start);
     const bool reusable = distinct_integrations(scene).has_value();
     start = WallClock::now();
-    Measurement measurement(
+    CostMeasurement measurement(
         task, SpreadTiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
         budget_s);
     const std::vector<MeasuredTile> all = measurement.run(result.threads);

@@ -6,13 +6,13 @@
 
 #include "lockstep/kernels/built_kernels.hpp"
 #include "lockstep/steps/instability.hpp"
-#include "lockstep/tile/quasi_static.hpp"
 #include "machine/thread_clock.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"
+#include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "signals/path/path_window.hpp"
@@ -29,73 +29,42 @@ double lap(WallClock::time_point& start) {
     return std::chrono::duration<double>(now - std::exchange(start, now)).count();
 }
 
-// Optional outputs of a time integration, and the healthy states that it may start from.
-struct IntegrationOptions {
-    bool with_motion = false;
-    int contact_meshes = 0;
-    bool keep_states = false;
-    const std::vector<lockstep::TileState>* healthy = nullptr;
-    std::function<void(int, const lockstep::MeshRecord&)> on_record = nullptr;
-};
-
-lockstep::TileSettings tile_settings(const Scene& scene, const IntegrationOptions& options) {
-    lockstep::TileSettings settings;
-    settings.tolerance = convergence_tolerance(scene.study());
-    settings.max_meshes = scene.max_meshes();
-    settings.recorded_meshes =
-        scene.study().numerics.horizon == Horizon::periodic ? 0 : scene.recorded_meshes();
-    settings.run_in_meshes = run_in_meshes(scene);
-    settings.superpose = superposition(scene).healthy && options.healthy == nullptr;
-    settings.superpose_faulty = superposition(scene).faulty;
-    settings.with_motion = options.with_motion;
-    settings.contact_meshes = options.contact_meshes;
-    settings.keep_states = options.keep_states;
-    settings.healthy = options.healthy;
-    settings.on_record = options.on_record;
-    return settings;
-}
-
-template <int W>
-void integrate(const Scene& scene, const IntegrationOptions& options, GearboxTile& tile) {
-    auto start = WallClock::now();
-    std::vector<dynamics::GearboxInputs> inputs;
+lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realization> realizations) {
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
-    for (const Realization& realization : tile.realizations) {
-        inputs.push_back(scene.inputs(realization.inputs));
-        for (int c = 0; c < scene.fault().curves(); ++c) {
+    for (int c = 0; c < scene.fault().curves(); ++c) {
+        for (const Realization& realization : realizations) {
             faults.curve[static_cast<std::size_t>(c)].push_back(
                 scene.fault().mesh(c, realization.inputs.fault_size));
         }
     }
-    const auto tooth_errors = draw_tooth_errors(scene, tile.realizations);
-    faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
-    tile.stiffness_s = lap(start);
-    auto settings = tile_settings(scene, options);
-    const auto excitation = draw_excitation(scene, tile.realizations);
-    settings.excitation = excitation ? &*excitation : nullptr;
-    const double processor_start = thread_processor_s();
-    if constexpr (W <= 8) {
-        tile.integration =
-            scene.study().effects.quasi_static()
-                ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
-                : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
-    } else {
-        tile.integration = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
-    }
-    tile.integration_s = lap(start);
-    tile.meshes = tile.integration.integrated_meshes;
-    const std::size_t requested = std::min(tile.gearboxes, tile.integration.superposed.size());
-    tile.superposed =
-        std::ranges::count(std::span(tile.integration.superposed).first(requested), true);
-    tile.superposition_fallbacks =
-        settings.superpose ? static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed : 0;
-    tile.integration_cpu_s = thread_processor_s() - processor_start;
+    return faults;
 }
 
-void integrate(const Scene& scene, const IntegrationOptions& options, GearboxTile& tile) {
-    with_lane_count(static_cast<int>(tile.realizations.size()),
-                    [&](auto width) { integrate<width()>(scene, options, tile); });
+// Solves the tile by the strategy that solution_of(loads) returns.
+template <class SolutionOf>
+void solve(const Scene& scene, SolutionOf solution_of, GearboxTile& tile) {
+    auto start = WallClock::now();
+    std::vector<dynamics::GearboxInputs> inputs;
+    for (const Realization& realization : tile.realizations) {
+        inputs.push_back(scene.inputs(realization.inputs));
+    }
+    const lockstep::FaultCurves faults = fault_curves(scene, tile.realizations);
+    TileLoads loads{draw_tooth_errors(scene, tile.realizations), std::nullopt};
+    tile.stiffness_s = lap(start);
+    loads.excitation = draw_excitation(scene, tile.realizations);
+    const lockstep::Solution solution = solution_of(loads);
+    const double processor_start = thread_processor_s();
+    tile.integration = with_lane_count(static_cast<int>(inputs.size()), [&](auto lanes) {
+        return lockstep::run_tile<lanes()>(scene.plan(), inputs, faults, solution);
+    });
+    tile.integration_s = lap(start);
+    tile.meshes = tile.integration.integrated_meshes;
+    if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
+        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
+        tile.superposition_fallbacks = static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
+    }
+    tile.integration_cpu_s = thread_processor_s() - processor_start;
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
@@ -167,11 +136,16 @@ void add_status(const Scene& scene, GearboxTile& tile) {
     }
 }
 
-void integrate_and_record(const Scene& scene, const signals::PathGrid& path, int signal_meshes,
-                          IntegrationOptions options, GearboxTile& tile) {
+// Solves the tile and records its sensor signals meanwhile.
+void solve_and_record(const Scene& scene, const signals::PathGrid& path, int signal_meshes,
+                      GearboxTile& tile) {
     TileSensorRecorder recorder(scene, path, tile.realizations, signal_meshes);
-    options.on_record = std::ref(recorder);
-    integrate(scene, options, tile);
+    solve(
+        scene,
+        [&](const TileLoads& loads) {
+            return choose_solution(scene, loads, {}, std::ref(recorder));
+        },
+        tile);
     tile.sensor_response = recorder.take_response();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
@@ -206,24 +180,23 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, GearboxTile&
     tile.signals_s += lap(start);
 }
 
-void run_tile(const Scene& scene, const signals::PathGrid& path, const TileOptions& tile_options,
+void run_tile(const Scene& scene, const signals::PathGrid& path, const TileOptions& options,
               GearboxTile& tile) {
-    const IntegrationCache* const kept = tile_options.with_motion ? nullptr : tile_options.cache;
-    const IntegrationOptions options{.with_motion = tile_options.with_motion,
-                                     .contact_meshes = tile_options.contact_meshes,
-                                     .keep_states = tile_options.keep_states};
-    const bool recorded =
-        tile_options.with_motion || tile_options.keep_states || tile_options.with_records;
+    const IntegrationCache* const cache = options.records ? nullptr : options.cache;
     auto start = WallClock::now();
-    if (const auto before = kept != nullptr ? kept->find(tile.realizations) : nullptr) {
+    if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
-    } else if (records_during_integration(scene) && !recorded) {
-        integrate_and_record(scene, path, tile_options.signal_meshes, options, tile);
+    } else if (records_during_integration(scene) && !options.records) {
+        solve_and_record(scene, path, options.signal_meshes, tile);
     } else {
-        integrate(scene, options, tile);
-        if (kept != nullptr) {
-            kept->keep(tile.realizations, tile.integration);
+        const auto records = options.records.value_or(lockstep::RecordOptions{});
+        solve(
+            scene,
+            [&](const TileLoads& loads) { return choose_solution(scene, loads, records, nullptr); },
+            tile);
+        if (cache != nullptr) {
+            cache->keep(tile.realizations, tile.integration);
         }
     }
     add_signals(scene, path, tile);
@@ -351,9 +324,11 @@ GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
 }
 
 GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
-                                    int lanes, const std::vector<lockstep::TileState>& healthy) {
+                                    int lanes, const lockstep::SpanStates& healthy) {
     GearboxTile tile = tile_of(std::move(realizations), lanes);
-    integrate(scene, {.healthy = &healthy}, tile);
+    solve(
+        scene, [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); },
+        tile);
     add_status(scene, tile);
     return tile;
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/tile/tile_inputs.hpp"
+#include "lockstep/tile/tile_records.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
@@ -59,15 +61,12 @@ signals::PathGrid path_grid(const Scene& scene);
 
 // Optional outputs of a tile.
 struct TileOptions {
-    // If with_motion, keep_states or with_records is set, the records of every mesh period are
-    // kept.
-    bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
-    int contact_meshes = 0;                         // as in lockstep::TileSettings
-    bool with_records = false;
+    // If set, the records of every mesh period are kept. Motions are recorded only then.
+    std::optional<lockstep::RecordOptions> records = {};
     // Number of mesh periods of sensor samples to keep if the signal is recorded during
     // integration; -1 keeps all.
     int signal_meshes = -1;
-    const IntegrationCache* cache = nullptr;  // earlier results, which are reused
+    const IntegrationCache* cache = nullptr;  // earlier results, which are reused without `records`
 };
 
 // Runs the gearboxes in `ids`, at most one per lane. The number of lanes is `fewest` (16, 8, 4 or
@@ -86,10 +85,11 @@ GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
                              const TileOptions& options = {});
 
 // Integrates only the mesh periods that the faults of these gearboxes change. Starts from the
-// healthy states of the same gearboxes in a tile of `lanes` lanes. Sets only realizations,
-// integration and status of the result.
+// healthy states of the same gearboxes in a tile of `lanes` lanes. Requires
+// integrates_perturbation_only(scene). Sets only realizations, integration and status of the
+// result.
 GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
-                                    int lanes, const std::vector<lockstep::TileState>& healthy);
+                                    int lanes, const lockstep::SpanStates& healthy);
 
 // Views of the recorded motion of a tile, which must outlive them.
 signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);

@@ -30,13 +30,14 @@ HealthyRecordsMean::HealthyRecordsMean(std::size_t levels) : records_(levels, 0)
 }
 
 void HealthyRecordsMean::add(std::size_t level, const features::FeatureInput& input) {
+    const auto& sensor = input.get<features::SensorTurn>();
     ++records_[level];
-    sum_.residual_variance[level] += variance(input.sensor.residual);
-    sum_.envelope_variance[level] += variance(input.sensor.envelope);
+    sum_.residual_variance[level] += variance(sensor.residual);
+    sum_.envelope_variance[level] += variance(sensor.envelope);
     std::vector<double>& amplitude = sum_.amplitude[level];
-    amplitude.resize(input.sensor.amplitude.size(), 0.0);
+    amplitude.resize(sensor.amplitude.size(), 0.0);
     for (std::size_t k = 0; k < amplitude.size(); ++k) {
-        amplitude[k] += input.sensor.amplitude[k];
+        amplitude[k] += sensor.amplitude[k];
     }
 }
 
@@ -53,7 +54,7 @@ HealthyReference HealthyRecordsMean::mean() const {
 }
 
 HealthyReference healthy_reference(const Scene& scene, const signals::PathGrid& path) {
-    if ((needs_of(used_features(scene.study())) & features::kHealthy) == 0) {
+    if (!needs_of(used_features(scene.study())).has<features::HealthyRecords>()) {
         return {};
     }
     return simulated_reference(scene, path);
@@ -61,7 +62,7 @@ HealthyReference healthy_reference(const Scene& scene, const signals::PathGrid& 
 
 HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid& path) {
     const int lanes = scene.study().numerics.lanes;
-    RealizationSignals records(scene, features::kSensorTurn);
+    RealizationSignals records(scene, features::SignalSet::of<features::SensorTurn>());
     const std::size_t levels = scene.study().sensor.noise_levels.size();
     HealthyRecordsMean mean(levels);
     for (int first = 0; first < HealthyReference::kRecords; first += lanes) {

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
-
-bool integrates_perturbation_only(const Scene& scene) {
-    return scene.study().numerics.horizon != Horizon::periodic &&
-           scene.recorded_meshes() == scene.span_meshes();
-}
 
 namespace {
 
@@ -57,7 +53,11 @@ HealthySolution::HealthySolution(const Scene& scene, const signals::PathGrid& pa
         one.inputs.gain = 1.0;
     }
     const bool keep = integrates_perturbation_only(scene);
-    GearboxTile tile = run_realizations(scene, path, with_size(0.0), fewest, {.keep_states = keep});
+    TileOptions options;
+    if (keep) {
+        options.records.emplace().states = true;
+    }
+    GearboxTile tile = run_realizations(scene, path, with_size(0.0), fewest, options);
     healthy_ = signals_of(tile);
     lanes_ = static_cast<int>(tile.realizations.size());
     if (keep) {
@@ -83,7 +83,7 @@ HealthySolution::Signals HealthySolution::signals_of(const GearboxTile& tile) co
 }
 
 HealthySolution::Signals HealthySolution::with_fault(double size) const {
-    if (states_.empty()) {
+    if (states_.all.empty()) {
         return signals_of(run_realizations(scene_, path_, with_size(size), lanes_));
     }
     const GearboxTile changed = run_fault_perturbations(scene_, with_size(size), lanes_, states_);

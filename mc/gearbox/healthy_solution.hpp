@@ -1,6 +1,6 @@
-// Integrates gearboxes once without a fault, then again for any fault size. If every mesh period is
-// integrated separately, a fault changes only its passages and the mesh periods of decay after
-// them. Only these are integrated again.
+// Integrates gearboxes once without a fault, then again for any fault size. A fault changes only
+// its passages and the mesh periods of decay after them. Only these are integrated again if
+// integrates_perturbation_only (solution_choice.hpp).
 #pragma once
 
 #include <vector>
@@ -8,9 +8,6 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 
 namespace gearpod::mc {
-
-// True if only the perturbation from the healthy solution has to be integrated.
-bool integrates_perturbation_only(const Scene& scene);
 
 // Healthy reference solution of a tile, and its solutions with a fault. The scene and the path must
 // outlive it.
@@ -42,7 +39,7 @@ class HealthySolution {
     const signals::PathGrid& path_;
     std::vector<Realization> realizations_;
     int lanes_ = 0;
-    std::vector<lockstep::TileState> states_;
+    lockstep::SpanStates states_;
     std::vector<machine::AlignedVector> te_;  // MeshRecord::te of every mesh period
     Signals healthy_;
 };

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/tile/tile_records.hpp"
 #include "mc/results/batch_rows.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"

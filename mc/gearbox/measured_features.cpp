@@ -20,6 +20,7 @@ namespace gearpod::mc {
 namespace {
 
 using features::Feature;
+using PlanetRms = features::ToothRms<features::Gear::planet>;
 
 constexpr int kFewestOfParts = 4;  // samples per mesh period that mesh_separation.hpp needs
 
@@ -27,7 +28,7 @@ constexpr int kFewestOfParts = 4;  // samples per mesh period that mesh_separati
 std::string why_unavailable(const Feature& feature, const Scene& scene,
                             const MeasuredSignal& signal, bool has_reference) {
     const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
-    if ((feature.needs & (features::kSun | features::kRing)) != 0 && !planetary) {
+    if (feature.needs.overlaps(features::kCentralGears) && !planetary) {
         return "the gearbox has no sun and no ring";
     }
     if (feature.from_sensor && scene.study().effects.quasi_static()) {
@@ -41,12 +42,12 @@ std::string why_unavailable(const Feature& feature, const Scene& scene,
     if (has < needed) {
         return fmt::format("{} mesh periods, but {} are needed", has, needed);
     }
-    if ((feature.needs & features::kTeParts) != 0 && scene.te_samples_per_mesh() < kFewestOfParts) {
+    if (feature.needs.has<features::TeParts>() && scene.te_samples_per_mesh() < kFewestOfParts) {
         return fmt::format(
             "the study's encoders take {} samples per mesh period, but {} are needed",
             scene.te_samples_per_mesh(), kFewestOfParts);
     }
-    if ((feature.needs & features::kHealthy) != 0 && !has_reference) {
+    if (feature.needs.has<features::HealthyRecords>() && !has_reference) {
         return "no healthy reference at this noise level: give --healthy or --noise-level";
     }
     return "";
@@ -55,12 +56,11 @@ std::string why_unavailable(const Feature& feature, const Scene& scene,
 // Prepares the signals of a recording for feature computation.
 class MeasuredInput {
   public:
-    MeasuredInput(const Scene& scene, unsigned needs) : scene_(scene), analysis_(scene, needs) {}
+    MeasuredInput(const Scene& scene, features::SignalSet needs)
+        : scene_(scene), analysis_(scene, needs) {}
 
     features::FeatureInput of(const MeasuredSignal& signal) {
         features::FeatureInput input;
-        input.planet_teeth = scene_.span().planet_teeth;
-        input.te_harmonics = scene_.study().features.te_harmonics;
         if (signal.te_meshes >= scene_.span().planet_teeth) {
             add_te(signal, input);
         }
@@ -95,8 +95,8 @@ class MeasuredInput {
         spectrum.load(te_);
         amplitude_.resize(static_cast<std::size_t>(spectrum.orders()));
         spectrum.amplitudes(0.0, amplitude_);
-        input.te_turn = te_;
-        input.te_amplitude = amplitude_;
+        input.get<features::TeTurn>() = {te_, amplitude_, scene_.span().planet_teeth,
+                                         scene_.study().features.te_harmonics};
         analysis_.te(te_, input);
     }
 
@@ -117,8 +117,8 @@ class MeasuredInput {
         tooth_rms_.resize(static_cast<std::size_t>(scene_.span().planet_teeth));
         windowing.load(folded);
         const int offset = windowing.search(0.0, tooth_rms_);
-        input.tooth_rms = tooth_rms_;
-        input.sensor_mean_square = windowing.mean_square(0.0);
+        input.get<PlanetRms>() = {tooth_rms_};
+        input.get<features::SensorPower>() = {windowing.mean_square(0.0)};
         analysis_.sensor(signal.sensor, turns, offset, input);
     }
 
@@ -135,14 +135,14 @@ std::string why_no_value(const Feature& feature, const features::FeatureInput& i
     const auto zero = [](std::span<const double> values) {
         return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
     };
-    if (!feature.from_sensor && zero(input.te_turn)) {
+    if (!feature.from_sensor && zero(input.get<features::TeTurn>().turn)) {
         return "the transmission error is constant";
     }
-    if (feature.compute == features::te_fm0 && scene.te_samples_per_mesh() <= 2) {
+    if (feature.name.ends_with("te_fm0") && scene.te_samples_per_mesh() <= 2) {
         return fmt::format("no mesh harmonic: the study's encoders take {} samples per mesh period",
                            scene.te_samples_per_mesh());
     }
-    if (feature.from_sensor && input.sensor_mean_square == 0.0) {
+    if (feature.from_sensor && input.get<features::SensorPower>().mean_square == 0.0) {
         return "the sensor's signal is zero";
     }
     return "not finite: its definition divides by a quantity that is zero in this signal";
@@ -163,8 +163,8 @@ int planet_turns(const MeasuredSignal& signal, const Scene& scene) {
 }
 
 int meshes_of(const Feature& feature, const Scene& scene) {
-    constexpr unsigned kOfSpan = features::kSun | features::kRing | features::kFiltered;
-    return feature.from_sensor && (feature.needs & kOfSpan) != 0
+    return feature.needs.overlaps(features::kCentralGears) ||
+                   feature.needs.has<features::FilteredSensor>()
                ? meshes_needed(scene.study(), scene.span(), feature.needs)
                : scene.span().planet_teeth;
 }
@@ -225,7 +225,8 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
         input.change = &change;
     }
     if (has_reference) {
-        input.healthy = before.healthy = healthy.at(0);
+        input.get<features::HealthyRecords>() = before.get<features::HealthyRecords>() =
+            healthy.at(0);
     }
     for (MeasuredFeature& one : all) {
         if (one.missing.empty()) {
@@ -237,7 +238,9 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
     }
     const features::FeatureInput& shown = measurement.change ? change : input;
     const std::pair<const char*, std::span<const double>> gears[] = {
-        {"planet", shown.tooth_rms}, {"sun", shown.sun.rms}, {"ring", shown.ring.rms}};
+        {"planet", shown.get<PlanetRms>().rms},
+        {"sun", shown.get<features::ToothRms<features::Gear::sun>>().rms},
+        {"ring", shown.get<features::ToothRms<features::Gear::ring>>().rms}};
     for (const auto& [gear, rms] : gears) {
         if (!rms.empty()) {
             measurement.teeth.push_back(worst_tooth(gear, rms));
@@ -248,11 +251,11 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
 
 std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
                                     std::span<const Feature* const> requested) {
-    unsigned needs = 0;
+    features::SignalSet needs;
     std::vector<char> available;
     for (const Feature* feature : requested) {
         available.push_back(why_unavailable(*feature, scene, signal, false).empty() ? 1 : 0);
-        needs |= available.back() != 0 ? feature->needs : 0U;
+        needs |= available.back() != 0 ? feature->needs : features::SignalSet();
     }
     MeasuredInput measured(scene, needs);
     const features::FeatureInput input = measured.of(signal);
@@ -275,7 +278,7 @@ HealthyReference measured_reference(const std::vector<std::string>& paths,
                 "as many planet turns as the signal",
                 path, signal.sensor_meshes, std::max(1, turns) * scene.span().planet_teeth));
         }
-        MeasuredInput input(scene, features::kSensorTurn);
+        MeasuredInput input(scene, features::SignalSet::of<features::SensorTurn>());
         mean.add(0, input.of(signal));
     }
     return mean.mean();

@@ -23,7 +23,7 @@ constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
-constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
+constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     if (factor != 1.0) {
@@ -327,9 +327,9 @@ class SignalReader {
         }
         std::vector<double> frequency_Hz;
         for (const double rpm : speed_rpm) {
-            frequency_Hz.push_back(
-                std::abs(scene_.drivetrain().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
-                (2.0 * std::numbers::pi));
+            frequency_Hz.push_back(std::abs(scene_.drivetrain().mesh_frequency_rad_s(
+                                       std::abs(rpm) * kRadPerSecondPerRpm)) /
+                                   (2.0 * std::numbers::pi));
         }
         return rising(integral(time, frequency_Hz));
     }
@@ -375,7 +375,7 @@ class SignalReader {
     int most_meshes() const {
         const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
         return meshes_needed(scene_.study(), scene_.span(),
-                             planetary ? features::kSun | features::kRing : 0U);
+                             planetary ? features::kCentralGears : features::SignalSet());
     }
 
     static constexpr double kFewestSamples = 2.0;  // per mesh period

@@ -60,14 +60,14 @@ double least_mesh_s(const Scene& scene, const lockstep::IntegrationPlan& plan, b
     return least;
 }
 
-// Integration plan of the scene with the classical Runge-Kutta method.
+// Integration plan of the scene with the usual explicit method.
 lockstep::IntegrationPlan explicit_plan(const Scene& scene, int steps) {
     lockstep::IntegrationPlan plan = scene.plan();
-    plan.integrator = lockstep::Integrator::rk4;
+    plan.integrator = lockstep::kUsualExplicit;
     plan.grid = lockstep::make_phase_grid(plan.grid.samples, steps, {});
     plan.grid.stage_nodes = lockstep::stage_nodes(plan.integrator);
     plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, scene.study().effects.mesh_damping);
-    if (plan.mesh_law != dynamics::MeshLaw::linear) {
+    if (dynamics::has_error(plan.mesh_law)) {
         lockstep::add_errors(
             scene.pairs(), plan.grid,
             std::vector<lockstep::MeshError>(static_cast<std::size_t>(scene.pairs().pairs())),
@@ -163,7 +163,7 @@ bool records_during_integration(const Scene& scene) {
            !scene.study().effects.quasi_static() && !distinct_integrations(scene);
 }
 
-int needed_sensor_meshes(const Scene& scene, unsigned needs) {
+int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
     return needs_samples(needs)              ? scene.signal_meshes()
            : noise_by_density(scene.study()) ? scene.span_meshes()
                                              : 0;

@@ -2,6 +2,7 @@
 // records.
 #pragma once
 
+#include "features/signals.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
@@ -31,9 +32,9 @@ Superposition superposition(const Scene& scene);
 // every mesh period is integrated and no other tile can use the result.
 bool records_during_integration(const Scene& scene);
 
-// Number of mesh periods of sensor samples that must be synthesized: for features with these needs
-// (features::Need), or for all features of the study.
-int needed_sensor_meshes(const Scene& scene, unsigned needs);
+// Number of mesh periods of sensor samples that must be synthesized: for features that need these
+// signals, or for all features of the study.
+int needed_sensor_meshes(const Scene& scene, features::SignalSet needs);
 int needed_sensor_meshes(const Scene& scene);
 
 // Memory in bytes for the motion that a tile keeps, and for the records of all its mesh periods.

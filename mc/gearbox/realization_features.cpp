@@ -14,10 +14,10 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
       healthy_(healthy),
       levels_(scene.study().sensor.noise_levels.size()) {
     const ComparedNeeds needs = compared_needs(features_);
-    if (needs.baseline != 0) {
+    if (!needs.baseline.empty()) {
         baseline_ = std::make_unique<RealizationSignals>(scene, needs.baseline);
     }
-    if (needs.change != 0) {
+    if (!needs.change.empty()) {
         change_ = std::make_unique<RealizationSignals>(scene, needs.change);
     }
 }
@@ -57,16 +57,16 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
         }
         for (features::FeatureInput* of : {&input, &before}) {
             if (!healthy_->amplitude.empty()) {
-                of->healthy = healthy_->at(level);
+                of->get<features::HealthyRecords>() = healthy_->at(level);
             }
         }
         if (signals != nullptr) {
             const auto copy_of = [](std::span<const double> signal) {
                 return std::vector<double>(signal.begin(), signal.end());
             };
-            signals->push_back({copy_of(input.te_turn), gearbox.folded.empty()
-                                                            ? std::vector<double>{}
-                                                            : copy_of(input.tooth_rms)});
+            signals->push_back(
+                {copy_of(input.get<features::TeTurn>().turn),
+                 copy_of(input.get<features::ToothRms<features::Gear::planet>>().rms)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
             const double value = features_[f]->value(input);

@@ -64,10 +64,10 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
     }
 }
 
-RealizationSignals::RealizationSignals(const Scene& scene, unsigned needs)
+RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet needs)
     : RealizationSignals(scene, needs, scene.span().ring_teeth) {}
 
-RealizationSignals::RealizationSignals(const Scene& scene, unsigned needs, int turns)
+RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet needs, int turns)
     : scene_(scene),
       span_{scene.span().planet_teeth, turns, scene.span().carrier_meshes},
       sensor_noise_(turns),
@@ -182,7 +182,8 @@ void RealizationSignals::load_signals(const LaneSignals& gearbox, const Instance
 
 void RealizationSignals::sensor_features(double noise, features::FeatureInput& input) {
     const int offset = windowing_.search(noise, tooth_rms_);
-    input.sensor_mean_square = windowing_.mean_square(noise);
+    input.get<features::ToothRms<features::Gear::planet>>() = {tooth_rms_};
+    input.get<features::SensorPower>() = {windowing_.mean_square(noise)};
     if (needs_samples_) {
         samples_ = gearbox_->sensor;
         add_noise(noise_.samples, noise, samples_);
@@ -196,6 +197,8 @@ void RealizationSignals::te_features(double noise, features::FeatureInput& input
         te_[i] = gearbox_->te_turn[i] + noise * noise_.encoder[i];
     }
     spectrum_.amplitudes(noise, amplitude_);
+    input.get<features::TeTurn>() = {te_, amplitude_, span_.planet_teeth,
+                                     scene_.study().features.te_harmonics};
     analysis_.te(te_, input);
 }
 
@@ -207,11 +210,6 @@ features::FeatureInput RealizationSignals::at(std::size_t level) {
         sensor_features(factor * sensor_rms_, input);
     }
     te_features(factor * encoder_rms_, input);
-    input.te_turn = te_;
-    input.te_amplitude = amplitude_;
-    input.planet_teeth = span_.planet_teeth;
-    input.te_harmonics = scene_.study().features.te_harmonics;
-    input.tooth_rms = tooth_rms_;
     return input;
 }
 

@@ -41,11 +41,11 @@ struct RealizationNoise {
 // thread.
 class RealizationSignals {
   public:
-    // `needs`: needs of the features (features::Need).
-    RealizationSignals(const Scene& scene, unsigned needs);
+    // `needs`: signals that features need.
+    RealizationSignals(const Scene& scene, features::SignalSet needs);
     // The same for signals folded over `turns` planet turns instead of the scene's span, at least
     // 3. Only for features that do not need samples.
-    RealizationSignals(const Scene& scene, unsigned needs, int turns);
+    RealizationSignals(const Scene& scene, features::SignalSet needs, int turns);
 
     // Number of mesh periods of sensor signal that LaneSignals must hold; may be 0.
     int meshes() const { return meshes_; }

@@ -112,9 +112,9 @@ GearboxId id_of_row(const Study& study, long row) {
 
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
-    const GearboxTile tile =
-        run_gearboxes(scene, path, std::span(&id, 1), 1,
-                      {.with_motion = true, .contact_meshes = static_cast<int>(meshes)});
+    const GearboxTile tile = run_gearboxes(
+        scene, path, std::span(&id, 1), 1,
+        {.records = lockstep::RecordOptions{.motion_meshes = static_cast<int>(meshes)}});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }

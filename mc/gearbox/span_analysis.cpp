@@ -10,17 +10,17 @@
 namespace gearpod::mc {
 namespace {
 
-features::TurnSignals views(std::span<const double> turn, const signals::MeshSeparation& parts) {
+using features::Gear;
+
+features::SeparatedTurn views(std::span<const double> turn, const signals::MeshSeparation& parts,
+                              int mesh_order) {
     return {turn,
             parts.regular(),
             parts.residual(),
             parts.difference(),
             parts.envelope(),
-            parts.amplitude()};
-}
-
-features::ToothSignals views(const signals::ToothStatistics& teeth) {
-    return {teeth.rms, teeth.kurtosis, teeth.crest, teeth.m8a};
+            parts.amplitude(),
+            mesh_order};
 }
 
 // Divides the statistics by their trend along the path; the squared RMS becomes a ratio, too.
@@ -39,17 +39,18 @@ void remove_path_trend(int planets, signals::ToothStatistics& teeth) {
 
 }  // namespace
 
-SpanAnalysis::SpanAnalysis(const Scene& scene, unsigned needs) : scene_(scene), needs_(needs) {
+SpanAnalysis::SpanAnalysis(const Scene& scene, features::SignalSet needs)
+    : scene_(scene), needs_(needs) {
     const int teeth = scene.span().planet_teeth;
     if (needs_samples(needs)) {
         window_ =
             signals::tukey_window(scene.samples_per_mesh(), scene.study().features.tukey_taper);
     }
-    if ((needs & features::kSensorTurn) != 0) {
+    if (needs.has<features::SensorTurn>()) {
         sensor_turn_ =
             std::make_unique<signals::MeshSeparation>(teeth * scene.samples_per_mesh(), teeth);
     }
-    if ((needs & features::kTeParts) != 0) {
+    if (needs.has<features::TeParts>()) {
         te_turn_ =
             std::make_unique<signals::MeshSeparation>(teeth * scene.te_samples_per_mesh(), teeth);
     }
@@ -58,7 +59,7 @@ SpanAnalysis::SpanAnalysis(const Scene& scene, unsigned needs) : scene_(scene), 
 void SpanAnalysis::te(std::span<const double> turn, features::FeatureInput& input) {
     if (te_turn_) {
         te_turn_->load(turn);
-        input.te = views(turn, *te_turn_);
+        input.get<features::TeParts>() = {views(turn, *te_turn_, scene_.span().planet_teeth)};
     }
 }
 
@@ -67,35 +68,39 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
     const signals::GearTurns planet{scene_.span().planet_teeth, planet_turns};
     const auto span = samples.first(static_cast<std::size_t>(planet.meshes()) * phases);
+    input.get<features::SensorSamples>() = {span};
     if (sensor_turn_) {
         average_ = signals::synchronous_average(
             span, static_cast<std::size_t>(scene_.span().planet_teeth) * phases);
         sensor_turn_->load(average_);
-        input.sensor = views(average_, *sensor_turn_);
+        input.get<features::SensorTurn>() = {
+            views(average_, *sensor_turn_, scene_.span().planet_teeth)};
     }
-    if ((needs_ & features::kFiltered) != 0) {
-        input.filtered_rms = signals::rms_without_average(
+    if (needs_.has<features::FilteredSensor>()) {
+        input.get<features::FilteredSensor>().rms = signals::rms_without_average(
             span, static_cast<std::size_t>(scene_.path_meshes()) * phases);
     }
-    if ((needs_ & features::kPlanetMoments) != 0) {
+    if (needs_.has<features::ToothMoments<Gear::planet>>()) {
         planet_ = signals::tooth_statistics(span, planet, window_, planet_offset);
-        input.planet = views(planet_);
+        input.get<features::ToothMoments<Gear::planet>>() = {planet_.kurtosis, planet_.crest,
+                                                             planet_.m8a};
     }
-    if ((needs_ & features::kSun) != 0) {
-        input.sun = central_teeth(samples, *teeth_of(scene_.study(), Member::sun),
-                                  (needs_ & features::kSunMoments) != 0, sun_);
-    }
-    if ((needs_ & features::kRing) != 0) {
-        input.ring = central_teeth(samples, *teeth_of(scene_.study(), Member::ring),
-                                   (needs_ & features::kRingMoments) != 0, ring_);
-    }
+    central_teeth<Gear::sun>(samples, Member::sun, sun_, input);
+    central_teeth<Gear::ring>(samples, Member::ring, ring_, input);
 }
 
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of
 // its trend.
-features::ToothSignals SpanAnalysis::central_teeth(std::span<const double> samples, int teeth,
-                                                   bool moments,
-                                                   signals::ToothStatistics& statistics) {
+template <Gear kGear>
+void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
+                                 signals::ToothStatistics& statistics,
+                                 features::FeatureInput& input) {
+    using Rms = features::ToothRms<kGear>;
+    using Moments = features::ToothMoments<kGear>;
+    if (!needs_.has<Rms, Moments>()) {
+        return;
+    }
+    const int teeth = *teeth_of(scene_.study(), member);
     const signals::GearTurns gear = central_turns(scene_.span(), teeth);
     const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
     const auto span = samples.first(static_cast<std::size_t>(gear.meshes()) * phases);
@@ -104,14 +109,15 @@ features::ToothSignals SpanAnalysis::central_teeth(std::span<const double> sampl
     std::vector<double> rms(static_cast<std::size_t>(teeth));
     windowing.load(signals::fold_of_squares(span, static_cast<std::size_t>(teeth) * phases));
     const int offset = windowing.search(0.0, rms);
-    if (moments) {
+    if (needs_.has<Moments>()) {
         statistics = signals::tooth_statistics(span, gear, window_, offset);
     }
     statistics.rms = std::move(rms);
     if (scene_.path_meshes() == teeth) {
         remove_path_trend(scene_.study().gearbox.planets, statistics);
     }
-    return views(statistics);
+    input.get<Rms>() = {statistics.rms};
+    input.get<Moments>() = {statistics.kurtosis, statistics.crest, statistics.m8a};
 }
 
 }  // namespace gearpod::mc

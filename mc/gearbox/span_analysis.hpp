@@ -14,10 +14,11 @@
 
 namespace gearpod::mc {
 
-// `needs`: needs of the features (features::Need). Holds scratch memory: use one object per thread.
+// Holds scratch memory: use one object per thread.
 class SpanAnalysis {
   public:
-    SpanAnalysis(const Scene& scene, unsigned needs);
+    // `needs`: signals that features need.
+    SpanAnalysis(const Scene& scene, features::SignalSet needs);
 
     // `samples`: m/s^2, P per mesh period, at least meshes_needed() mesh periods. Features of the
     // planets' teeth and turns need only `planet_turns` turns: Z_r, or fewer in a short recording.
@@ -29,11 +30,13 @@ class SpanAnalysis {
     void te(std::span<const double> turn, features::FeatureInput& input);
 
   private:
-    features::ToothSignals central_teeth(std::span<const double> samples, int teeth, bool moments,
-                                         signals::ToothStatistics& statistics);
+    // Adds the statistics of the teeth of a central gear if they are needed.
+    template <features::Gear kGear>
+    void central_teeth(std::span<const double> samples, Member member,
+                       signals::ToothStatistics& statistics, features::FeatureInput& input);
 
     const Scene& scene_;
-    unsigned needs_;
+    features::SignalSet needs_;
     std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
     std::vector<double> average_;

@@ -26,7 +26,7 @@ class TileSensorRecorder {
     TileSensorRecorder(const Scene& scene, const signals::PathGrid& path,
                        std::span<const Realization> realizations, int kept_meshes);
 
-    // Takes the record of mesh period k; matches lockstep::TileSettings::record_mesh. If fewer mesh
+    // Takes the record of mesh period k; matches lockstep::RecordedSpan::on_record. If fewer mesh
     // periods are recorded than the signal has, the signal repeats them.
     void operator()(int k, const lockstep::MeshRecord& record);
 

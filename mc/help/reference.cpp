@@ -19,11 +19,11 @@
 namespace gearpod::mc {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json option_json(const CLI::Option& option) {
+OrderedJson option_json(const CLI::Option& option) {
     const bool takes_value = option.get_items_expected_max() > 0;
-    Json json = Json::object();
+    OrderedJson json = OrderedJson::object();
     json["name"] = option.get_name(option.get_positional(), true);
     json["positional"] = option.get_positional();
     json["required"] = option.get_required();
@@ -33,13 +33,13 @@ Json option_json(const CLI::Option& option) {
     return json;
 }
 
-Json command_json(const CLI::App& command) {
-    Json options = Json::array();
+OrderedJson command_json(const CLI::App& command) {
+    OrderedJson options = OrderedJson::array();
     for (const CLI::Option* option : command.get_options(
              [](const CLI::Option* shown) { return !shown->get_group().empty(); })) {
         options.push_back(option_json(*option));
     }
-    Json json = Json::object();
+    OrderedJson json = OrderedJson::object();
     json["name"] = command.get_name();
     json["meaning"] = command.get_description();
     json["options"] = std::move(options);
@@ -62,7 +62,7 @@ struct EmptyStudies {
 // study that does not give the key; there is none where the program derives the value.
 class ValueForm {
   public:
-    ValueForm(const Key& key, const Study& defaults, Json& json)
+    ValueForm(const Key& key, const Study& defaults, OrderedJson& json)
         : key_(key), defaults_(defaults), json_(json) {}
 
     void operator()(const NumberAccess& access) const {
@@ -86,7 +86,7 @@ class ValueForm {
     }
     void operator()(const ChoiceAccess& access) const {
         json_["type"] = "choice";
-        Json choices = Json::array();
+        OrderedJson choices = OrderedJson::array();
         const std::optional<int> value = access.get(defaults_);
         for (const ChoiceName& choice : access.names) {
             choices.push_back(std::string(choice.text));
@@ -99,7 +99,7 @@ class ValueForm {
     void operator()(const NumbersAccess& access) const {
         json_["type"] = "numbers";
         json_["ascending"] = access.ascending;
-        Json values = Json::array();
+        OrderedJson values = OrderedJson::array();
         for (const double value : access.get(defaults_)) {
             values.push_back(rounded(value / key_.unit.to_si));
         }
@@ -127,11 +127,11 @@ class ValueForm {
 
     const Key& key_;
     const Study& defaults_;
-    Json& json_;
+    OrderedJson& json_;
 };
 
 // Adds whether the key must be given, and the condition under which it may or must be.
-void add_presence(const Key& key, const EmptyStudies& empty, Json& json) {
+void add_presence(const Key& key, const EmptyStudies& empty, OrderedJson& json) {
     const Presence planetary = key.presence(empty.planetary);
     const Presence fixed_shaft = key.presence(empty.fixed_shaft);
     const bool required = planetary.need == Need::required || fixed_shaft.need == Need::required;
@@ -142,12 +142,12 @@ void add_presence(const Key& key, const EmptyStudies& empty, Json& json) {
     json["condition"] = planetary.why.empty() ? fixed_shaft.why : planetary.why;
 }
 
-Json bound(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+OrderedJson bound(double value) {
+    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
 
-Json key_json(const Key& key, const EmptyStudies& empty) {
-    Json json = Json::object();
+OrderedJson key_json(const Key& key, const EmptyStudies& empty) {
+    OrderedJson json = OrderedJson::object();
     json["section"] = std::string(key.section);
     json["name"] = std::string(key.name);
     json["unit"] = std::string(key.unit.name);
@@ -163,8 +163,8 @@ Json key_json(const Key& key, const EmptyStudies& empty) {
     return json;
 }
 
-Json feature_json(const features::Feature& feature) {
-    Json json = Json::object();
+OrderedJson feature_json(const features::Feature& feature) {
+    OrderedJson json = OrderedJson::object();
     json["name"] = std::string(feature.name);
     json["unit"] = std::string(feature.unit);
     json["alarm"] = feature.alarm == features::AlarmSide::high ? "high" : "low";
@@ -180,10 +180,10 @@ Json feature_json(const features::Feature& feature) {
 }  // namespace
 
 std::string reference_json(const CLI::App& app, const std::string& version) {
-    Json json = Json::object();
+    OrderedJson json = OrderedJson::object();
     json["program"] = app.get_description();
     json["version"] = version;
-    json["commands"] = Json::array();
+    json["commands"] = OrderedJson::array();
     for (const CLI::App* command :
          app.get_subcommands([](const CLI::App* shown) { return !shown->get_group().empty(); })) {
         json["commands"].push_back(command_json(*command));
@@ -193,21 +193,21 @@ std::string reference_json(const CLI::App& app, const std::string& version) {
         {"2", "bad input; every problem is reported, and nothing is written"},
         {"3", "some gearboxes failed; they are counted, and the results are written"},
         {"4", "stopped before the end, with a checkpoint from which --resume continues"}};
-    json["sections"] = Json::array();
+    json["sections"] = OrderedJson::array();
     for (const std::string_view section : section_names()) {
         json["sections"].push_back(std::string(section));
     }
-    json["keys"] = Json::array();
+    json["keys"] = OrderedJson::array();
     const EmptyStudies empty;
     for (const Key& key : schema()) {
         json["keys"].push_back(key_json(key, empty));
     }
-    json["distributions"] = Json::array();
+    json["distributions"] = OrderedJson::array();
     for (const DistributionHelp& distribution : distribution_help()) {
         json["distributions"].push_back(
             {{"name", distribution.name}, {"parameters", distribution.parameters}});
     }
-    json["features"] = Json::array();
+    json["features"] = OrderedJson::array();
     for (const features::Feature& feature : features::all_features()) {
         json["features"].push_back(feature_json(feature));
     }

@@ -1,4 +1,6 @@
-// Nesting depth of a TOML text, checked before a recursive parser reads it.
+// Nesting depth of a TOML text, checked before a recursive parser reads it. TOML_MAX_NESTED_VALUES
+// of toml++ limits lists and inline tables only, not dotted keys and headers, whose tables are
+// destroyed recursively.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,7 @@
 #include "mc/input/problems.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -23,12 +25,15 @@ std::string format(const Problem& problem) {
     return text;
 }
 
-std::string format(const Problems& problems) {
+std::string format(const Problems& problems, std::size_t most) {
     std::string text;
-    for (const Problem& problem : problems) {
-        text += format(problem) + "\n";
+    for (std::size_t i = 0; i < std::min(most, problems.size()); ++i) {
+        text += format(problems[i]) + "\n";
     }
-    return text;
+    return most < problems.size()
+               ? text + fmt::format("{}: and {} more\n", printable(problems[most].file),
+                                    problems.size() - most)
+               : text;
 }
 
 void sort_problems(Problems& problems) {

@@ -1,6 +1,7 @@
 // Problems in a user's input: collected, never thrown, and shown together.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,13 +14,22 @@ struct Position {
     int line = 0;  // from 1; 0 if no line applies
 };
 
+// Problems that callers treat in a special way.
+enum class ProblemKind {
+    other,
+    meshing,      // two gears do not mesh
+    tooth_pairs,  // more tooth pairs touch at once than any kernel integrates
+    interrupted   // the run was stopped before its first gearbox
+};
+
 // One problem. Messages have the form key: problem (reason); remedy.
 struct Problem {
-    std::string file;
+    std::string file = {};
     int line = 0;
-    std::string key;     // "gearbox.module_mm"; may be empty
-    std::string what;    // "unknown key", "must be > 0, but is -3 (a mass)"
-    std::string remedy;  // "did you mean module_mm?"; may be empty
+    std::string key = {};     // "gearbox.module_mm"; may be empty
+    std::string what = {};    // "unknown key", "must be > 0, but is -3 (a mass)"
+    std::string remedy = {};  // "did you mean module_mm?"; may be empty
+    ProblemKind kind = ProblemKind::other;
 };
 
 using Problems = std::vector<Problem>;
@@ -28,8 +38,8 @@ using Problems = std::vector<Problem>;
 // (unit missing)".
 std::string format(const Problem& problem);
 
-// Messages of all problems, one line each.
-std::string format(const Problems& problems);
+// Messages of the first `most` problems, one line each, and the number of the others.
+std::string format(const Problems& problems, std::size_t most = std::string::npos);
 
 // Sorts by file in order of first appearance, overrides last, and by line within a file.
 void sort_problems(Problems& problems);

@@ -29,8 +29,8 @@ class LifeTiles::Lane {
                                                    features::BaselineUse::change;
                                         })),
           span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
-          record_(tiles.scene_, 0, span_.turns * span_.recordings),
-          change_(tiles.scene_, 0, span_.turns * span_.recordings) {
+          record_(tiles.scene_, {}, span_.turns * span_.recordings),
+          change_(tiles.scene_, {}, span_.turns * span_.recordings) {
         life_.history = tiles.crack_.history(gearbox, cracked);
         life_.values.assign(features_.size(),
                             std::vector<double>(life_.history.records.size(), 0.0));

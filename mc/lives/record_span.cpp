@@ -73,7 +73,7 @@ void check_superposable(const Scene& scene) {
     }
     for (const features::Feature* feature : used_features(study)) {
         const bool own = feature->baseline_use == features::BaselineUse::baseline;
-        if (own || (feature->needs & ~features::kChange) != 0) {
+        if (own || !feature->needs.within(features::kBasicSignals)) {
             reject("features.use",
                    "\"" + std::string(feature->name) +
                        (own ? "\" compares with a baseline record, but a life has its own baseline "

@@ -46,22 +46,19 @@ constexpr std::array kOptions{
 // Name of the study in problems.
 const std::string kName = "new planetary";
 
-bool mentions(const Problem& problem, const char* words) {
-    return problem.what.find(words) != std::string::npos;
-}
-
 // Replaces study keys in a problem by the options that set them, because the study is not written
 // yet.
 Problem as_option(Problem problem) {
     problem.file = kName;
     problem.line = 0;
-    if (mentions(problem, "tooth pairs of a gear pair touch at once")) {
+    if (problem.kind == ProblemKind::tooth_pairs) {
         problem.key = "--helix, --face-width";
         problem.remedy = "give narrower teeth or a smaller helix angle";
         return problem;
     }
-    if (mentions(problem, "tip circles given")) {
-        problem.remedy = "the options are --addendum, --sun-tip, --planet-tip and --ring-tip";
+    if (problem.kind == ProblemKind::meshing) {
+        problem.remedy =
+            "the options are --addendum, --centre-distance, --sun-tip, --planet-tip and --ring-tip";
     }
     const auto at = std::ranges::find_if(
         kOptions, [&](const auto& option) { return problem.key == option.first; });

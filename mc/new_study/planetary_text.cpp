@@ -9,8 +9,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Formats a number to four significant figures, with an exponent from a million on.
-std::string figures(double value) {
+// Formats a number to four significant rounded_text, with an exponent from a million on.
+std::string rounded_text(double value) {
     const double rounded = std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr);
     return std::abs(rounded) < 1e6 ? fmt::format("{:.9g}", rounded)
                                    : fmt::format("{:.4g}", rounded);
@@ -22,7 +22,7 @@ std::string line(const std::string& key, const std::string& value, const std::st
                            : fmt::format("{:<43} # {}\n", key + " = " + value, comment);
 }
 std::string line(const std::string& key, double value, const std::string& comment = "") {
-    return line(key, figures(value), comment);
+    return line(key, rounded_text(value), comment);
 }
 
 std::string header(const NominalGears& g, const std::string& command) {
@@ -74,7 +74,7 @@ std::string bearings(const DerivedGearbox& d) {
         "# same stiffness, a bolted ring of twice the stiffness, and a floating sun of a\n"
         "# fiftieth, so that the planets share the load. Damping: 1e-5 s times the\n"
         "# stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
-        b.rollers, figures(1e3 * b.roller_length_m), figures(1e-3 * d.pin_load_N));
+        b.rollers, rounded_text(1e3 * b.roller_length_m), rounded_text(1e-3 * d.pin_load_N));
     std::string damping;
     for (const auto& [name, factor] : {std::pair{"sun_bearing", 0.02},
                                        {"planet_bearing", 1.0},
@@ -158,7 +158,7 @@ std::string sensor(const DerivedGearbox& d) {
     return "\n[sensor]\n" +
            line("low_pass_Hz", rates.low_pass,
                 fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
-                            figures(d.mesh_frequency_Hz))) +
+                            rounded_text(d.mesh_frequency_Hz))) +
            line("sampling_Hz", rates.sampling,
                 "2.56 times the low-pass, at least 12 per mesh period") +
            line("path_exponent", 0.1, "Liang (2016), section 5.1") +
@@ -179,7 +179,7 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
     const double bearing = d.bearing.stiffness_N_m(d.pin_load_N);
     const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
     const auto lognormal = [](double median, double cv) {
-        return fmt::format("\"lognormal\", median = {}, cv = {}", figures(median), cv);
+        return fmt::format("\"lognormal\", median = {}, cv = {}", rounded_text(median), cv);
     };
     std::string depths;
     for (const double share : {0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8}) {
@@ -195,12 +195,13 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
            varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
            varied("operation.torque_N_m",
                   fmt::format("\"truncated-normal\", mean = {}, sd = {}, low = {}, high = {}",
-                              figures(load.torque_N_m), figures(0.05 * load.torque_N_m),
-                              figures(0.85 * load.torque_N_m), figures(1.15 * load.torque_N_m))) +
+                              rounded_text(load.torque_N_m), rounded_text(0.05 * load.torque_N_m),
+                              rounded_text(0.85 * load.torque_N_m),
+                              rounded_text(1.15 * load.torque_N_m))) +
            varied("sensor.path_exponent", "\"uniform\", low = -0.1, high = 0.1") +
            varied(("sensor." + std::string(noise.key)).c_str(), lognormal(noise.value, 0.2)) +
            fmt::format("# 0 to 80 % of the way through the root, {} mm at 45 degrees\n",
-                       figures(1e3 * d.deepest_crack_m)) +
+                       rounded_text(1e3 * d.deepest_crack_m)) +
            varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
 }
 

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
+#include <vector>
 
+#include "lockstep/integrators/facts.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/reference.hpp"
 #include "mc/numerics/solver_families.hpp"
-#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -35,7 +36,7 @@ class Search {
     explicit Search(const Study& study)
         : study_(study),
           tolerance_(study.numerics.tolerance),
-          own_(setting_scene(study, own_setting(study))),
+          own_(with_setting(study, own_setting(study))),
           last_(std::make_unique<const Scene>(own_)),
           pilot_(own_) {
         ReferenceRequest request;
@@ -48,7 +49,7 @@ class Search {
                 fmt::format("{:g} cannot be verified: with this study's integrator the features "
                             "still change by {:.2g} from {} steps per mesh period to twice as many",
                             tolerance_, reference_.agreement.largest_feature(),
-                            reference_.first.steps / 2),
+                            reference_.first.numerics.steps_per_mesh / 2),
                 "use a larger tolerance");
         }
     }
@@ -56,7 +57,8 @@ class Search {
     NumericsChoice run() {
         std::vector<SolverFamily> all = solver_families(study_, kBeyondOwnRule);
         std::erase_if(all, [&](const SolverFamily& f) {
-            return f.size() == 0 || !step_cost(study_, f.integrator, f.other);
+            const bool never_chosen = lockstep::facts(*f.common.numerics.integrator).never_chosen;
+            return f.size() == 0 || (never_chosen && !study_.numerics.integrator);
         });
         // The least expensive families first: candidates that cost more than the best so far are
         // not tried.
@@ -79,21 +81,32 @@ class Search {
 
   private:
     double cost_of(const SolverFamily& family) const {
-        return step_cost(study_, family.integrator, family.other).value();
+        return step_cost(study_, family.common).value();
     }
 
     Trial trial(const SolverFamily& family, std::size_t step, double convergence) {
         const SolverSetting setting = family.setting(step, convergence);
-        const auto known = trials_.find(setting.text());
+        const auto known =
+            std::ranges::find(trials_, setting, &std::pair<SolverSetting, Trial>::first);
         if (known != trials_.end()) {
             return known->second;
         }
+        const Trial result = run(family, setting);
+        least_error_ = std::min(least_error_, result.error);
+        if (result.error <= tolerance_ && result.cost < best_.cost) {
+            best_ = result;
+            best_setting_ = setting;
+        }
+        return trials_.emplace_back(setting, result).second;
+    }
+
+    Trial run(const SolverFamily& family, const SolverSetting& setting) {
         const Numerics numerics = with_setting(study_, setting).numerics;
         Trial result;
         try {
             last_ = std::make_unique<const Scene>(last_->with(numerics));
             if (family.graded() && !is_affordable(family, last_->plan().grid.steps.size())) {
-                return trials_.emplace(setting.text(), result).first->second;
+                return result;
             }
             const PilotRecord record = pilot_.run(*last_);
             const PilotError error = pilot_error(record, reference_.record);
@@ -104,13 +117,7 @@ class Search {
             ++integrations_;
         } catch (const SceneError&) {  // invalid for this study: infinite error
         }
-        least_error_ = std::min(least_error_, result.error);
-        if (result.error <= tolerance_ && result.cost < best_.cost) {
-            best_ = result;
-            best_setting_ = setting;
-            best_numerics_ = numerics;
-        }
-        return trials_.emplace(setting.text(), result).first->second;
+        return result;
     }
 
     int worst_feature(const PilotError& error) const {
@@ -195,7 +202,7 @@ class Search {
     bool is_affordable(const SolverFamily& family, std::size_t steps) {
         if (least_meshes_ == 0.0) {
             SolverSetting setting = own_setting(study_);
-            setting.convergence_tolerance = convergence_tolerances().back();
+            setting.numerics.convergence_tolerance = convergence_tolerances().back();
             const Scene loose = own_.with(with_setting(study_, setting).numerics);
             least_meshes_ = pilot_.run(loose).meshes_per_tile();
             ++integrations_;
@@ -205,8 +212,6 @@ class Search {
 
     NumericsChoice choice() const {
         NumericsChoice made;
-        made.numerics = best_numerics_;
-        made.numerics.tolerance = tolerance_;
         made.setting = best_setting_;
         made.error = best_.error;
         made.worst_feature = study_.features.use[static_cast<std::size_t>(best_.worst)];
@@ -226,10 +231,9 @@ class Search {
     std::unique_ptr<const Scene> last_;
     const Pilot pilot_;
     Reference reference_;
-    std::map<std::string, Trial> trials_;
+    std::vector<std::pair<SolverSetting, Trial>> trials_;
     Trial best_;
     SolverSetting best_setting_;
-    Numerics best_numerics_;
     double least_error_ = kNever, least_meshes_ = 0.0;
     int integrations_ = 0;
 };
@@ -245,7 +249,9 @@ ResolvedStudy resolve_numerics(Study study) {
     std::optional<NumericsChoice> choice;
     if (study.numerics.tolerance > 0.0) {
         choice = Search(study).run();
-        study.numerics = choice->numerics;
+        const double tolerance = study.numerics.tolerance;
+        study.numerics = choice->setting.numerics;
+        study.numerics.tolerance = tolerance;
     }
     return {std::move(study), std::move(choice)};
 }

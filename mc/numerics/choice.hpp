@@ -11,7 +11,6 @@
 namespace gearpod::mc {
 
 struct NumericsChoice {
-    Numerics numerics;  // the study's, with the keys of the chosen setting
     SolverSetting setting;
     double error = 0.0;         // relative error of the pilot's worst feature
     std::string worst_feature;  // name of that feature

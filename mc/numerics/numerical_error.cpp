@@ -10,7 +10,6 @@
 #include "analysis/detection/size_groups.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
-#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -20,26 +19,25 @@ constexpr int kFiner = 4;
 constexpr double kConverged = 1e-10;
 
 SolverSetting setting_of(const Scene& scene) {
-    const Numerics& n = scene.study().numerics;
-    return {
-        std::string(choice_text(scene.study(), "numerics", "integrator")),
-        n.steps_per_mesh > 0 ? n.steps_per_mesh : static_cast<int>(scene.plan().grid.steps.size()),
-        n.convergence_tolerance,
-        {}};
+    SolverSetting setting = own_setting(scene.study());
+    if (setting.numerics.steps_per_mesh == 0) {
+        setting.numerics.steps_per_mesh = static_cast<int>(scene.plan().grid.steps.size());
+    }
+    return setting;
 }
 
 // The same setting with finer uniform steps; for a graded grid finer than its finest step.
 SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int factor) {
     SolverSetting finer = setting;
-    finer.convergence_tolerance = std::min(kConverged, setting.convergence_tolerance);
-    double steps = setting.steps;
-    if (scene.study().numerics.grid == StepGrid::graded) {
-        finer.other.push_back("numerics.grid=uniform");
-        if (scene.calibration() && scene.calibration()->grading.first > 0.0) {
-            steps = std::ceil(1.0 / scene.calibration()->grading.first);
-        }
+    Numerics& n = finer.numerics;
+    n.convergence_tolerance = std::min(kConverged, n.convergence_tolerance);
+    double steps = n.steps_per_mesh;
+    if (scene.calibration()) {
+        n.grid = StepGrid::uniform;
+        finer.options.emplace_back("grid");
+        steps = std::ceil(1.0 / scene.calibration()->grading.first);
     }
-    finer.steps = static_cast<int>(std::min(1e6, factor * steps));
+    n.steps_per_mesh = static_cast<int>(std::min(1e6, factor * steps));
     return finer;
 }
 

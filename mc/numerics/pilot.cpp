@@ -17,8 +17,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
                                     int meshes) {
     const auto& content = tile.integration.content;
@@ -124,7 +122,8 @@ PilotRecord Pilot::run(const Scene& scene) const {
     const lockstep::Precision precision = scene.plan().precision;
     const int lanes = lockstep::lanes_for(precision, full_lanes(precision));
     return record(scene, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(scene, path_, filled(some, lanes), lanes, {.with_records = true});
+        return run_gearboxes(scene, path_, filled(some, lanes), lanes,
+                             {.records = lockstep::RecordOptions{}});
     });
 }
 

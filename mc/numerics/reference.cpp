@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "lockstep/integrators/facts.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/numerics/solver_families.hpp"
-#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -30,13 +30,15 @@ void extrapolate(const PilotRecord& coarse, double order, PilotRecord& fine) {
 // Successive refinement: one method with its steps halved repeatedly.
 class Refinement {
   public:
-    Refinement(const Study& study, std::string integrator, const ReferenceRequest& request)
-        : study_(study),
-          setting_{std::move(integrator), 0, request.convergence_tolerance, {}},
-          request_(request) {
+    Refinement(const Study& study, std::optional<lockstep::Integrator> integrator,
+               const ReferenceRequest& request)
+        : study_(study), setting_(own_setting(study)), request_(request) {
+        setting_.numerics.integrator = integrator;
+        setting_.numerics.steps_per_mesh = 0;
+        setting_.numerics.convergence_tolerance = request.convergence_tolerance;
         try {
-            scene_.emplace(setting_scene(study, setting_));
-            setting_.steps = static_cast<int>(scene_->plan().grid.steps.size());
+            scene_.emplace(with_setting(study, setting_));
+            setting_.numerics.steps_per_mesh = static_cast<int>(scene_->plan().grid.steps.size());
         } catch (const SceneError&) {  // the study is too stiff for this explicit method
             scene_.reset();
         }
@@ -48,12 +50,13 @@ class Refinement {
     const PilotRecord& best() const { return *best_; }    // extrapolated
     double order() const { return order_; }
     const SolverSetting& setting() const { return done_; }
+    const SolverSetting& next_setting() const { return setting_; }
     // Change of the result at the last halving.
     double last_change() const { return change_; }
     // Cost of the next integration, in rk4 steps per mesh period. cost_s(): processor time of one
     // such step in the last one.
     double next_cost() const {
-        return step_cost(study_, setting_.integrator, {}).value_or(1.0) * setting_.steps;
+        return step_cost(study_, setting_).value_or(1.0) * setting_.numerics.steps_per_mesh;
     }
     double cost_s() const { return has_result() ? last_s_ / (0.5 * next_cost()) : 0.0; }
     void stop() { scene_.reset(); }
@@ -61,7 +64,7 @@ class Refinement {
     // Expected cost, in rk4 steps, of the refinement at which halving the steps changes the result
     // by the requested agreement; infinite before the first halving.
     double expected_cost() const {
-        const auto step = step_cost(study_, setting_.integrator, {});
+        const auto step = step_cost(study_, setting_);
         if (!step || !has_result() || !(change_ > 0.0)) {
             return INFINITY;
         }
@@ -94,7 +97,7 @@ class Refinement {
 
   private:
     void refine(double tile_steps) {
-        setting_.steps *= 2;
+        setting_.numerics.steps_per_mesh *= 2;
         if (tile_steps > request_.most_tile_steps) {
             scene_.reset();
             return;
@@ -180,9 +183,9 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
 Reference self_converged_reference(const Study& study, const Pilot& pilot,
                                    const ReferenceRequest& request) {
     // Method that the study would use without a tolerance: explicit unless the study is too stiff.
-    Refinement method(study, std::string(choice_text(study, "numerics", "integrator")), request);
+    Refinement method(study, study.numerics.integrator, request);
     if (method.stopped()) {
-        setting_scene(study, method.setting());
+        const Scene refused(with_setting(study, method.next_setting()));  // throws the reason
     }
     Reference reference;
     while (!reference.reached && !method.stopped()) {
@@ -203,8 +206,8 @@ Reference self_converged_reference(const Study& study, const Pilot& pilot,
 Reference converged_reference(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request) {
     std::vector<Refinement> methods;
-    for (const std::string& name : integrator_names()) {
-        methods.emplace_back(study, name, request);
+    for (const lockstep::Integrator integrator : lockstep::all_integrators()) {
+        methods.emplace_back(study, integrator, request);
     }
     Reference reference;
     double least = INFINITY;

@@ -13,8 +13,7 @@ namespace gearpod::mc {
 // uniform steps, or tolerances of a graded grid, which is made with a pilot. If the study gives an
 // integrator or the steps, only those are used.
 struct SolverFamily {
-    std::string integrator;
-    std::vector<std::string> other;       // overrides besides integrator, steps and convergence
+    SolverSetting common;                 // with the study's own steps and convergence tolerance
     std::vector<int> steps;               // ascending
     std::vector<double> grid_tolerances;  // descending; if not empty, `steps` is empty
     int own_steps = 0;                    // uniform steps by the integrator's own rule
@@ -35,8 +34,7 @@ inline constexpr double kFewestGradedFraction = 1.0 / 8.0;
 const std::vector<double>& convergence_tolerances();
 
 // Cost of one step of one gearbox according to lockstep::StepCost of the integrator. Empty for
-// settings without a known cost, which are measured but never chosen.
-std::optional<double> step_cost(const Study& study, const std::string& integrator,
-                                const std::vector<std::string>& other);
+// settings whose integrator is not given, and for those that choose the strategy of integration.
+std::optional<double> step_cost(const Study& study, const SolverSetting& setting);
 
 }  // namespace gearpod::mc

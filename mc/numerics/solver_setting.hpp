@@ -1,7 +1,8 @@
-// Solver setting: one way to compute a study, as a set of keys of [numerics].
+// Solver setting: one way to compute a study.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mc/scene/scene.hpp"
@@ -10,25 +11,22 @@
 namespace gearpod::mc {
 
 struct SolverSetting {
-    std::string integrator;  // as a study file spells it
-    int steps = 0;           // per mesh period; 0: chosen by the integrator's own rule
-    double convergence_tolerance = 0.0;
-    std::vector<std::string> other;  // further overrides, e.g. "numerics.horizon=full"
+    Numerics numerics;  // without a tolerance
+    // Keys of [numerics] that the setting chooses in addition to integrator, steps and convergence
+    // tolerance, e.g. "precision".
+    std::vector<std::string_view> options = {};
 
-    // Arguments for --set: "numerics.integrator=sdirk3", ...
-    std::vector<std::string> overrides() const;
-    std::string text() const;  // "sdirk3, 864 steps, settled to 1e-06"
+    bool chooses(std::string_view option) const;
+    std::string_view integrator() const;         // as a study file spells it
+    std::vector<std::string> overrides() const;  // "numerics.integrator=sdirk3", ..., for --set
+    std::string text() const;                    // "sdirk3, 864 steps, converged to 1e-06"
+    bool operator==(const SolverSetting&) const = default;
 };
 
 // Setting that the study uses without a tolerance.
 SolverSetting own_setting(const Study& study);
 
-// Study with the keys of a setting and without a tolerance. Throws SceneError if the setting is
-// invalid for the study.
+// Study with the numerics of a setting. Throws SceneError if the setting is invalid for the study.
 Study with_setting(const Study& study, const SolverSetting& setting);
-Scene setting_scene(const Study& study, const SolverSetting& setting);
-
-// Names of all integrators but "auto".
-std::vector<std::string> integrator_names();
 
 }  // namespace gearpod::mc

@@ -46,7 +46,8 @@ class StepPilot {
     GearboxTile run(const Scene& scene) const {
         const int lanes =
             lockstep::lanes_for(scene.plan().precision, static_cast<int>(gearboxes_.size()));
-        return run_realizations(scene, path_grid(scene), gearboxes_, lanes, {.with_records = true});
+        return run_realizations(scene, path_grid(scene), gearboxes_, lanes,
+                                {.records = lockstep::RecordOptions{}});
     }
 
     std::size_t size() const { return gearboxes_.size(); }

@@ -44,7 +44,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                 {},
                 std::move(reading.notices)};
     } catch (const SceneError& error) {
-        return refused({{name, 0, error.key(), error.what(), error.remedy()}});
+        return refused({{name, 0, error.key(), error.what(), error.remedy(), error.kind()}});
     }
 }
 

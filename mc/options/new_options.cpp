@@ -1,5 +1,4 @@
 // Options of `new`: the datasheet of a gearbox.
-#include <algorithm>
 
 #include "mc/options/options.hpp"
 

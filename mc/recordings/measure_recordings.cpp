@@ -17,7 +17,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 MeasuredRecording measure_one(const Recording& recording, SignalColumns columns, const Scene& scene,
                               const HealthyReference& healthy, const MeasuredBaseline* baseline) {
@@ -32,7 +32,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
         Measurement all = measure(scene, signal, healthy, baseline);
         measured.teeth = std::move(all.teeth);
         for (const MeasuredFeature& feature : all.features) {
-            measured.values.push_back(feature.missing.empty() ? feature.value : kNone);
+            measured.values.push_back(feature.missing.empty() ? feature.value : kNotMeasured);
             any = any || feature.missing.empty();
             const bool there = feature.feature->from_sensor ? signal.has_sensor : signal.has_te;
             why = why.empty() && there ? feature.missing : why;
@@ -49,7 +49,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
 }
 
 // Quotes a field that contains any common separator.
-std::string quoted(const std::string& text) {
+std::string quoted_field(const std::string& text) {
     return csv_field(text, ",;\t");
 }
 
@@ -146,10 +146,10 @@ std::string recordings_csv(const RecordingList& list,
                            std::span<const features::Feature> features) {
     std::string out = "file,row,gearbox,label";
     for (const auto& column : {list.time, list.size}) {
-        out += column ? "," + quoted(header_of(*column)) : "";
+        out += column ? "," + quoted_field(header_of(*column)) : "";
     }
     for (const TableColumn& column : list.inputs) {
-        out += "," + quoted(header_of(column));
+        out += "," + quoted_field(header_of(column));
     }
     for (const features::Feature& feature : features) {
         out += feature.unit == "1" ? fmt::format(",{}", feature.name)
@@ -158,9 +158,9 @@ std::string recordings_csv(const RecordingList& list,
     out += ",planet_turns,problem\n";
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const Recording& recording = list.recordings[i];
-        out += fmt::format("{},{},{},{}", quoted(recording.file),
+        out += fmt::format("{},{},{},{}", quoted_field(recording.file),
                            recording.row ? std::to_string(*recording.row) : "",
-                           quoted(recording.gearbox), label_of(recording.condition));
+                           quoted_field(recording.gearbox), label_of(recording.condition));
         out += list.time ? "," + number_text(recording.time) : "";
         out += list.size ? "," + (recording.size ? number_text(shown_size(list, *recording.size))
                                                  : std::string())
@@ -172,7 +172,7 @@ std::string recordings_csv(const RecordingList& list,
             out += "," + (measured[i].values.empty() ? std::string()
                                                      : number_text(measured[i].values[f]));
         }
-        out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted(measured[i].problem));
+        out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted_field(measured[i].problem));
     }
     return out;
 }

@@ -24,10 +24,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostSamples = 2000;  // plotted samples of a time signal
-constexpr std::size_t kMostLines = 500;     // plotted lines of a spectrum
-constexpr double kZoomMeshes = 2.5;         // mesh frequencies to either side of the largest line
-constexpr int kStiffnessPoints = 160;       // in a mesh period
+constexpr std::size_t kMostPlottedSamples = 2000;  // plotted samples of a time signal
+constexpr std::size_t kMostLines = 500;            // plotted lines of a spectrum
+constexpr double kZoomMeshes = 2.5;    // mesh frequencies to either side of the largest line
+constexpr int kStiffnessPoints = 160;  // in a mesh period
 
 // Row of the results file.
 struct ExampleRow {
@@ -63,7 +63,7 @@ ExampleRows choose_rows(const Results& frame, const RowSource& rows) {
     return chosen;
 }
 
-Json numbers(std::span<const double> values, std::span<const std::size_t> indices) {
+Json numbers_json(std::span<const double> values, std::span<const std::size_t> indices) {
     Json json = Json::array();
     for (const std::size_t i : indices) {
         json.push_back(values[i]);
@@ -73,8 +73,8 @@ Json numbers(std::span<const double> values, std::span<const std::size_t> indice
 
 // Time signal thinned for plotting: mesh phase and value of each sample.
 Json time_json(std::span<const double> values, int samples_per_mesh) {
-    const auto kept = extremes(values, kMostSamples);
-    Json json{{"mesh", Json::array()}, {"value", numbers(values, kept)}};
+    const auto kept = extremes(values, kMostPlottedSamples);
+    Json json{{"mesh", Json::array()}, {"value", numbers_json(values, kept)}};
     for (const std::size_t i : kept) {
         json["mesh"].push_back(static_cast<double>(i) / samples_per_mesh);
     }
@@ -86,7 +86,7 @@ Json lines_json(std::span<const double> amplitude, std::size_t first, std::size_
                 double resolution_Hz) {
     const auto lines = amplitude.subspan(first, last - first);
     const auto kept = maxima(lines, kMostLines);
-    Json json{{"frequency_Hz", Json::array()}, {"amplitude", numbers(lines, kept)}};
+    Json json{{"frequency_Hz", Json::array()}, {"amplitude", numbers_json(lines, kept)}};
     for (const std::size_t i : kept) {
         json["frequency_Hz"].push_back(static_cast<double>(first + i) * resolution_Hz);
     }

@@ -63,7 +63,7 @@ Json failures_json(const Results& frame, const RowSource& rows) {
             {"no_value", without}};
 }
 
-Json number(double value) {
+Json finite_json(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -79,12 +79,12 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
     for (const NumericalContribution& s : contributions) {
         json["shares"].push_back({{"feature", s.feature},
                                   {"noise_level", s.noise_level},
-                                  {"rms", number(s.rms)},
-                                  {"healthy_spread", number(s.spread)},
-                                  {"pd", number(s.pd)},
-                                  {"pd_half_width", number(s.pd_half_width)},
-                                  {"a90", number(s.a90)},
-                                  {"a90_interval", number(s.a90_interval)},
+                                  {"rms", finite_json(s.rms)},
+                                  {"healthy_spread", finite_json(s.spread)},
+                                  {"pd", finite_json(s.pd)},
+                                  {"pd_half_width", finite_json(s.pd_half_width)},
+                                  {"a90", finite_json(s.a90)},
+                                  {"a90_interval", finite_json(s.a90_interval)},
                                   {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
     }
     return json;
@@ -112,7 +112,7 @@ Json step_error_json(const Results& frame) {
     }
     Json json;
     for (const StepErrorNumber& one : kStepErrorNumbers) {
-        json[one.name] = number((*frame.step_error).*one.member);
+        json[one.name] = finite_json((*frame.step_error).*one.member);
     }
     for (const StepErrorCount& one : kStepErrorCounts) {
         json[one.name] = (*frame.step_error).*one.member;

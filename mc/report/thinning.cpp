@@ -1,7 +1,6 @@
 #include "mc/report/thinning.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 
 namespace gearpod::mc {

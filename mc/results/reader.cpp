@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+[[noreturn]] void refuse_file(const std::string& path, const std::string& why) {
     throw std::runtime_error(path + ": " + why);
 }
 
@@ -31,10 +31,10 @@ void require_count(std::size_t count, std::size_t expected, const std::string& n
     }
 }
 
-class Reader {
+class ResultsReader {
   public:
     // A dataset with more values than the file has bytes counts as damaged.
-    Reader(hid_t root, std::size_t file_size, bool with_columns)
+    ResultsReader(hid_t root, std::size_t file_size, bool with_columns)
         : root_(root), most_(file_size), with_columns_(with_columns) {}
 
     Results read() {
@@ -257,13 +257,13 @@ class Reader {
 void check_readable(const std::string& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
-        refuse(path, "is a folder; name a results file (*.h5)");
+        refuse_file(path, "is a folder; name a results file (*.h5)");
     }
     if (!std::ifstream(path)) {
-        refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+        refuse_file(path, std::string("cannot be read (") + std::strerror(errno) + ")");
     }
     if (H5Fis_hdf5(path.c_str()) <= 0) {
-        refuse(path, "is not a results file (it is not HDF5); `run` writes one");
+        refuse_file(path, "is not a results file (it is not HDF5); `run` writes one");
     }
 }
 
@@ -276,14 +276,15 @@ void check_format(const std::string& path, hid_t root) {
         format.clear();
     }
     if (format != kResultsFormat) {
-        refuse(path, "is an HDF5 file, but not a gearpod results file; `run` writes one");
+        refuse_file(path, "is an HDF5 file, but not a gearpod results file; `run` writes one");
     }
     int number = 0;
     std::from_chars(version.data(), version.data() + version.size(), number);
     if (number != kResultsFormatVersion) {
-        refuse(path, "has results format version " + version + ", but this program reads version " +
-                         std::to_string(kResultsFormatVersion) +
-                         "; use a matching version of gearpod");
+        refuse_file(path, "has results format version " + version +
+                              ", but this program reads version " +
+                              std::to_string(kResultsFormatVersion) +
+                              "; use a matching version of gearpod");
     }
 }
 
@@ -292,7 +293,7 @@ Results read(const std::string& path, bool with_columns) {
     check_readable(path);
     const ChecksumState checksum = check_file_checksum(path);
     if (checksum == ChecksumState::broken) {
-        refuse(path, "is damaged (wrong checksum)");
+        refuse_file(path, "is damaged (wrong checksum)");
     }
     try {
         const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
@@ -300,12 +301,12 @@ Results read(const std::string& path, bool with_columns) {
         const Hdf5Handle root = open_group(file.get(), "/");
         check_format(path, root.get());
         if (checksum == ChecksumState::missing) {
-            refuse(path,
-                   "is truncated, or another program has changed it (no checksum at its end)");
+            refuse_file(path,
+                        "is truncated, or another program has changed it (no checksum at its end)");
         }
-        return Reader(root.get(), std::filesystem::file_size(path), with_columns).read();
+        return ResultsReader(root.get(), std::filesystem::file_size(path), with_columns).read();
     } catch (const Hdf5Error& error) {
-        refuse(path, std::string("is damaged or truncated (at \"") + error.what() + "\")");
+        refuse_file(path, std::string("is damaged or truncated (at \"") + error.what() + "\")");
     }
 }
 

@@ -10,13 +10,13 @@
 namespace gearpod::mc {
 namespace {
 
-// Columns of one group of gearboxes.
-struct Columns {
+// ResultColumns of one group of gearboxes.
+struct ResultColumns {
     std::vector<std::vector<double>> parameters;
     std::vector<std::vector<double>> features;  // gearboxes x noise levels
     std::size_t rows = 0;
 
-    explicit Columns(const RowShape& shape)
+    explicit ResultColumns(const RowShape& shape)
         : parameters(shape.parameters), features(shape.features) {}
 
     void add(const double* values, const RowShape& shape) {
@@ -64,7 +64,7 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     }
     // Thresholds use all records if they fit into memory.
     const bool repeated = records > 1 && rows.rows() * shape.features * shape.levels <= most_values;
-    Columns healthy(shape), graded(shape), repeats(shape);
+    ResultColumns healthy(shape), graded(shape), repeats(shape);
     std::vector<std::size_t> repeated_rows, healthy_rows;
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {

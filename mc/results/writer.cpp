@@ -128,7 +128,7 @@ std::vector<Value> level_values(const analysis::FeatureDetection& detection, Mem
     return values;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string joined_lines(const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) {
         text += (text.empty() ? "" : "\n") + line;
@@ -141,7 +141,7 @@ void write_feature_detection(hid_t parent, const analysis::FeatureDetection& det
     const Hdf5Handle group = create_group(parent, detection.feature);
     const hsize_t levels = detection.levels.size();
     write_text(group.get(), ".", "alarm", analysis::alarm_name(detection.alarm));
-    write_text(group.get(), ".", "warnings", joined(detection.warnings));
+    write_text(group.get(), ".", "warnings", joined_lines(detection.warnings));
     write_sizes(group.get(), sizes);
     for (const LevelNumber& number : kLevelNumbers) {
         write_numbers(group.get(), number.name, {levels},

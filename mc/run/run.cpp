@@ -221,8 +221,9 @@ class Run {
 
     void print_end(const EnsembleOutcome& outcome, const std::string& path) const {
         if (watch_.done()) {
-            fmt::print("ensemble.until is reached with {} of {} gearboxes: {}\n",
-                       plan_.rows_before(outcome.batches), plan_.rows(), watch_.text());
+            fmt::print("ensemble.until is reached with {} of {} {}: {}\n",
+                       plan_.rows_before(outcome.batches), plan_.rows(), plan_.counted(),
+                       watch_.text());
         } else if (study_.ensemble.until.half_width) {
             fmt::print("ensemble.until is not reached: {}, about {} more gearboxes needed\n",
                        watch_.text(), watch_.rows_left().value_or(0));

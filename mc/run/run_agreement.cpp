@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string_view>
 
 #include "machine/cancellation.hpp"
 #include "mc/random/fnv.hpp"
@@ -40,8 +39,6 @@ std::string rank_mismatch(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
-constexpr std::string_view kStoppedBy = "stopped by ";
-
 StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption) {
     try {
         return make_scene(options);
@@ -49,9 +46,10 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
         const std::string reason = interruption.reason({});
         StudyScene none;
         none.problems = {{options.path, 0, "",
-                          fmt::format("{}{} before its first gearbox", kStoppedBy,
+                          fmt::format("stopped by {} before its first gearbox",
                                       reason.empty() ? "the time limit" : reason),
-                          "nothing has been computed yet; start it again"}};
+                          "nothing has been computed yet; start it again",
+                          ProblemKind::interrupted}};
         return none;
     }
 }
@@ -84,8 +82,7 @@ StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& optio
 }
 
 bool was_interrupted(const Problems& problems) {
-    return std::any_of(problems.begin(), problems.end(),
-                       [](const Problem& problem) { return problem.what.starts_with(kStoppedBy); });
+    return std::ranges::find(problems, ProblemKind::interrupted, &Problem::kind) != problems.end();
 }
 
 }  // namespace gearpod::mc

@@ -73,7 +73,9 @@ void check_kernels(const Study& study, const lockstep::IntegrationPlan& plan) {
                     excitation.speed ? " (time is then not proportional to the mesh phase)" : "",
                     lockstep::name(plan.integrator)),
         excitation.speed
-            ? "use integrator = \"rk4\"; a gearbox that is too stiff for it needs a steady speed"
+            ? fmt::format("use integrator = \"{}\"; a gearbox that is too stiff for it needs a "
+                          "steady speed",
+                          lockstep::name(lockstep::kUsualExplicit))
             : "use integrator = \"auto\"");
 }
 

@@ -8,8 +8,13 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr unsigned kOfSamples = features::kSensorTurn | features::kSun | features::kRing |
-                                features::kPlanetMoments | features::kFiltered | features::kChange;
+using features::Gear;
+using features::SignalSet;
+
+// Signals of folded records.
+constexpr SignalSet kFolded =
+    SignalSet::of<features::TeTurn, features::SensorPower, features::ToothRms<Gear::planet>,
+                  features::TeParts, features::HealthyRecords>();
 
 }  // namespace
 
@@ -25,12 +30,11 @@ std::vector<const features::Feature*> used_features(const Study& study) {
     return used;
 }
 
-unsigned needs_of(std::span<const features::Feature* const> features) {
-    unsigned needs = 0;
-    for (const features::Feature* feature : features) {
-        needs |= feature->needs;
-    }
-    return needs;
+SignalSet needs_of(std::span<const features::Feature* const> features) {
+    const ComparedNeeds needs = compared_needs(features);
+    SignalSet all = needs.record;
+    all |= needs.change;
+    return all;
 }
 
 ComparedNeeds compared_needs(std::span<const features::Feature* const> features) {
@@ -41,8 +45,8 @@ ComparedNeeds compared_needs(std::span<const features::Feature* const> features)
                 needs.record |= feature->needs;
                 break;
             case features::BaselineUse::change:
-                needs.record |= features::kChange;
-                needs.baseline |= features::kChange;
+                needs.record |= SignalSet::of<features::SensorSamples>();
+                needs.baseline |= SignalSet::of<features::SensorSamples>();
                 needs.change |= feature->needs;
                 break;
             case features::BaselineUse::baseline:
@@ -54,16 +58,16 @@ ComparedNeeds compared_needs(std::span<const features::Feature* const> features)
     return needs;
 }
 
-bool needs_samples(unsigned needs) {
-    return (needs & kOfSamples) != 0;
+bool needs_samples(SignalSet needs) {
+    return !needs.within(kFolded);
 }
 
-int meshes_needed(const Study& study, const signals::SpanLayout& span, unsigned needs) {
+int meshes_needed(const Study& study, const signals::SpanLayout& span, SignalSet needs) {
     int meshes = span.meshes();
-    if ((needs & features::kSun) != 0) {
+    if (needs.has<features::ToothRms<Gear::sun>, features::ToothMoments<Gear::sun>>()) {
         meshes = std::max(meshes, central_turns(span, *teeth_of(study, Member::sun)).meshes());
     }
-    if ((needs & features::kRing) != 0) {
+    if (needs.has<features::ToothRms<Gear::ring>, features::ToothMoments<Gear::ring>>()) {
         meshes = std::max(meshes, central_turns(span, *teeth_of(study, Member::ring)).meshes());
     }
     return meshes;

@@ -11,22 +11,22 @@
 
 namespace gearpod::mc {
 
-// used_features(): features that a study uses, in its order. needs_of(): union of their needs
-// (features::Need).
+// used_features(): features that a study uses, in its order. needs_of(): signals of its test
+// records and of their changes that they need.
 std::vector<const features::Feature*> used_features(const Study& study);
-unsigned needs_of(std::span<const features::Feature* const> features);
+features::SignalSet needs_of(std::span<const features::Feature* const> features);
 
 // Needs by the signal that they refer to: the test record, the baseline record, and the change
 // between them.
 struct ComparedNeeds {
-    unsigned record = 0, baseline = 0, change = 0;
+    features::SignalSet record, baseline, change;
 };
 ComparedNeeds compared_needs(std::span<const features::Feature* const> features);
 
 // True if features with these needs use the sensor's samples.
-bool needs_samples(unsigned needs);
+bool needs_samples(features::SignalSet needs);
 // Number of mesh periods of sensor signal that features with these needs use.
-int meshes_needed(const Study& study, const signals::SpanLayout& span, unsigned needs);
+int meshes_needed(const Study& study, const signals::SpanLayout& span, features::SignalSet needs);
 
 // Number of a central gear's turns that fit into the span, or the smallest number that is enough.
 signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth);

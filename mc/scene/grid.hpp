@@ -1,4 +1,5 @@
-// Phase grid of a study: uniform steps, or steps calibrated on a pilot sample of its gearboxes.
+// Phase grid of a study: uniform steps, or graded steps calibrated on a pilot sample of its
+// gearboxes.
 #pragma once
 
 #include <functional>
@@ -12,19 +13,17 @@ namespace gearpod::mc {
 
 // Result of calibrating the steps on a pilot sample.
 struct Calibration {
-    // For graded grids of all integrators but bs3: error of the signals and the grading.
     double signal_error = 0.0;
     lockstep::Grading grading;
-    bool estimated = false;  // true: calibrated by the error estimate of bs3
 };
 
 struct SceneGrid {
     lockstep::PhaseGrid grid;
-    std::optional<Calibration> calibration;  // empty for steps without a pilot
+    std::optional<Calibration> calibration;  // empty for uniform steps
 };
 
 // Chooses the phase grid. `transitions`: phases at which steps must end. `pilot` is called only if
-// the study requests calibrated steps. Throws SceneError.
+// the study requests graded steps. Throws SceneError.
 SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
                       const std::vector<double>& transitions,
                       const std::function<lockstep::Pilot()>& pilot);

@@ -1,6 +1,8 @@
 #include "mc/scene/instance_inputs.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
@@ -70,17 +72,13 @@ void resolve_fixed_shaft(const InputValues& values, InstanceInputs& inputs) {
                               .value_or(values.of(study.operation.torque_N_m) * ratio);
 }
 
-double mesh_damping(const InputValues& values) {
-    const Gearbox& g = values.study().gearbox;
-    switch (values.study().effects.mesh_damping) {
-        case MeshDamping::ratio:
-            return values.of(g.mesh_damping_ratio).value_or(0.0);
-        case MeshDamping::proportional:
-            return values.of(g.mesh_damping_time_s).value_or(0.0);
-        case MeshDamping::constant:
-            return values.of(g.mesh_damping_N_s_m).value_or(0.0);
-    }
-    return 0.0;
+dynamics::DampingParameters mesh_damping(const InputValues& values) {
+    dynamics::DampingParameters all{};
+    const Study& study = values.study();
+    std::ranges::transform(
+        study.gearbox.mesh_damping[study.effects.mesh_damping], all.begin(),
+        [&](const std::optional<double>& one) { return values.of(one).value_or(0.0); });
+    return all;
 }
 
 FluctuationInstance fluctuations(const InputValues& values) {

@@ -40,7 +40,7 @@ struct FluctuationInstance {
 struct InstanceInputs {
     MemberArray<BodyInstance> bodies;
     double support_stiffness_N_m, support_damping_N_s_m;
-    double mesh_damping;  // ratio (1), time (s) or constant (N s/m), by effects.mesh_damping
+    dynamics::DampingParameters mesh_damping;  // of the law effects.mesh_damping
     FixedShaftInstance fixed_shaft;
     double backlash_m;  // 2b
     // Deviations, rms, in addition to those of a quality.

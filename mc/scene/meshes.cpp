@@ -16,11 +16,11 @@ namespace gearpod::mc {
 namespace {
 
 // Stiffness levels as given in the study, along the teeth's normal.
-struct Levels {
+struct StiffnessLevels {
     double low_N_m, high_N_m, contact_ratio;
 };
 
-Levels levels_of(const Study& study, MeshKind mesh) {
+StiffnessLevels levels_of(const Study& study, MeshKind mesh) {
     const MeshValues& given = study.gearbox.meshes[mesh];
     if (study.gearbox.tooth_profile == ToothProfile::square_wave) {
         return {given.low_stiffness_N_m.value(), given.high_stiffness_N_m.value(),
@@ -38,7 +38,7 @@ double transverse_factor(const Gearbox& g) {
 }
 
 std::unique_ptr<const stiffness::MeshStiffness> given_mesh(const Study& study, MeshKind mesh) {
-    const Levels levels = levels_of(study, mesh);
+    const StiffnessLevels levels = levels_of(study, mesh);
     const double factor = transverse_factor(study.gearbox);
     return std::make_unique<const stiffness::SquareWaveMesh>(
         factor * levels.low_N_m, factor * levels.high_N_m, levels.contact_ratio);

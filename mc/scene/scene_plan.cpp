@@ -64,10 +64,10 @@ class PlanBuilder {
         integration.grid = std::move(grid);
         integration.nodes =
             lockstep::tabulate(pairs, integration.grid, study_.effects.mesh_damping);
-        if (integration.mesh_law == dynamics::MeshLaw::unilateral) {
+        if (dynamics::has_teeth(integration.mesh_law)) {
             add_tooth_pairs(integration);
         }
-        if (integration.mesh_law != dynamics::MeshLaw::linear) {
+        if (dynamics::has_error(integration.mesh_law)) {
             std::vector<lockstep::MeshError> errors(
                 static_cast<std::size_t>(drivetrain_.pairs_per_mesh()), first_errors());
             errors.resize(static_cast<std::size_t>(pairs.pairs()), second_errors());
@@ -81,7 +81,8 @@ class PlanBuilder {
             lockstep::add_tooth_pairs(stiffness_.pairs(), integration.grid, integration.nodes);
         } catch (const std::invalid_argument& error) {
             throw SceneError("gearbox.addendum_coefficient", error.what(),
-                             "use teeth with a lower contact ratio, or fewer face_slices");
+                             "use teeth with a lower contact ratio, or fewer face_slices",
+                             ProblemKind::tooth_pairs);
         }
     }
 

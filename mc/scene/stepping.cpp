@@ -68,22 +68,20 @@ class StepNeeds {
             gearboxes_.push_back(graded(i));
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
-        decay_meshes_ = 1.0 / (lockstep::runge_kutta_limit(system(nominal)).slowest_decay_1_s *
-                               period(nominal));
-        runge_kutta_ = stable_steps(lockstep::Integrator::rk4);
+        decay_meshes_ = 1.0 / (lockstep::slowest_decay_1_s(system(nominal)) * period(nominal));
+        usual_explicit_ = stable_steps(lockstep::kUsualExplicit);
     }
 
     double decay_meshes() const { return decay_meshes_; }
     // Number of steps with which an explicit method is stable for all gearboxes of the pilot.
     double stable(lockstep::Integrator integrator) const {
-        return integrator == lockstep::Integrator::rk4 ? runge_kutta_ : stable_steps(integrator);
+        return integrator == lockstep::kUsualExplicit ? usual_explicit_ : stable_steps(integrator);
     }
     // The same with a margin for gearboxes outside the pilot.
     double ample(lockstep::Integrator integrator) const {
-        constexpr double kMargin = 1.2, kLeastMargin = 1.04;
-        // Runge-Kutta methods damp motion near their stability limit and need a larger margin.
-        if (lockstep::facts(integrator).growth != nullptr) {
-            return kMargin * stable(integrator);
+        const double least_margin = lockstep::facts(integrator).least_margin;
+        if (least_margin >= lockstep::kStepMargin) {
+            return lockstep::kStepMargin * stable(integrator);
         }
         // Extrapolates beyond the largest value of a larger pilot by half its distance from the
         // upper decile, in logarithms. That is little for bounded distributions; for normal tails
@@ -96,7 +94,7 @@ class StepNeeds {
         std::sort(needs.begin(), needs.end());
         const double worst = needs.back(), upper = needs[needs.size() * 9 / 10];
         const double beyond = worst > 0.0 ? std::pow(worst / upper, 1.5) : 1.0;
-        return worst * std::clamp(beyond, kLeastMargin, kMargin);
+        return worst * std::clamp(beyond, least_margin, lockstep::kStepMargin);
     }
     double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(gearboxes_[0]); }
     // Number of steps with which an implicit method is accurate for all gearboxes of the pilot.
@@ -141,7 +139,7 @@ class StepNeeds {
     const std::vector<double>& stiffest_;
     double low_pass_rad_s_;
     std::vector<dynamics::GearboxInputs> gearboxes_;  // pilot sample, the nominal one first
-    double decay_meshes_ = 0.0, runge_kutta_ = 0.0;
+    double decay_meshes_ = 0.0, usual_explicit_ = 0.0;
 };
 
 [[noreturn]] void refuse_explicit(const StepNeeds& needs, double steps) {
@@ -150,7 +148,9 @@ class StepNeeds {
                      fmt::format("the explicit method would need {:.3g} steps per mesh period ({} "
                                  "moves {} at a rate of {:.3g} 1/s)",
                                  steps, stiff.part, stiff.motion, stiff.rate_1_s),
-                     "use integrator = \"sdirk3\", which is stable for any stiffness, or \"auto\"");
+                     fmt::format("use integrator = \"{}\", which is stable for any stiffness, or "
+                                 "\"auto\"",
+                                 lockstep::name(lockstep::kUsualImplicit)));
 }
 
 // One grid is used for all gearboxes, so it must be stable for the stiffest and lightest of them. A
@@ -201,7 +201,7 @@ lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
         return *study.numerics.integrator;
     }
     const lockstep::Integrator chosen =
-        lockstep::choose_integrator(needs.stable(lockstep::Integrator::rk4));
+        lockstep::choose_integrator(needs.stable(lockstep::kUsualExplicit));
     if (study.numerics.precision == Precision::single_precision && !is_explicit(chosen)) {
         const lockstep::StiffPart stiff = needs.stiffest_part();
         throw SceneError("numerics.precision",
@@ -234,8 +234,8 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     while (result.samples % result.te_samples != 0) {
         ++result.te_samples;
     }
-    const unsigned needs = needs_of(used_features(study));
-    if ((needs & features::kTeParts) != 0 && result.te_samples < kFewestSamples) {
+    const features::SignalSet needs = needs_of(used_features(study));
+    if (needs.has<features::TeParts>() && result.te_samples < kFewestSamples) {
         throw SceneError("sensor.encoder_sampling_Hz",
                          fmt::format("{} sample(s) per mesh period are too few for te_fm4, te_m6a "
                                      "and te_m8a, which split the transmission error",
@@ -254,7 +254,7 @@ Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drive
     const int given = study.numerics.steps_per_mesh;
     Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)
                                                 : implicit_stepping(needs, integrator, given);
-    stepping.explicit_steps = needs.stable(lockstep::Integrator::rk4);
+    stepping.explicit_steps = needs.stable(lockstep::kUsualExplicit);
     return stepping;
 }
 

@@ -21,7 +21,7 @@ struct Sampling {
 Sampling choose_sampling(const Study& study, double mesh_frequency_Hz);
 
 struct Stepping {
-    lockstep::Integrator integrator = lockstep::Integrator::rk4;
+    lockstep::Integrator integrator = lockstep::kUsualExplicit;
     int steps = 1;
     // Smallest number of steps per mesh period. With fewer, the integrator is unstable for some
     // gearbox of the pilot sample or the sensor's low-pass is inaccurate.
@@ -32,7 +32,7 @@ struct Stepping {
     // Longest step, in mesh periods, at which the integrator is stable with a margin and the
     // sensor's low-pass still accurate.
     double longest_step = 1.0;
-    // Number of steps per mesh period with which rk4 is stable, whether it is used or not.
+    // Number of steps per mesh period with which lockstep::kUsualExplicit is stable, used or not.
     double explicit_steps = 0.0;
 };
 // `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step. Throws

@@ -24,8 +24,7 @@ struct Numerics {
     std::optional<lockstep::Integrator> integrator;  // empty: chosen by the program
     Precision precision = Precision::double_precision;
     StepGrid grid = StepGrid::uniform;
-    double step_tolerance = 1e-5;  // local error of a bs3 step, relative to the largest motion
-    double grid_tolerance = 1e-3;  // rms error of the signals on a graded grid, other integrators
+    double grid_tolerance = 1e-3;  // rms error of the signals on a graded grid
     int steps_per_mesh = 0;        // 0: chosen from pilot gearboxes of the ensemble
     // Relative tolerance of every feature, from which integrator, steps and convergence tolerance
     // are chosen; 0: they are not chosen.

@@ -114,7 +114,10 @@ struct Gearbox {
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     double support_stiffness_N_m = 0.0;       // tangential, holds the fixed member
     double support_damping_N_s_m = 0.0;
-    std::optional<double> mesh_damping_ratio, mesh_damping_time_s, mesh_damping_N_s_m;
+    // Parameters of each mesh-damping law.
+    EnumArray<MeshDamping, dynamics::kMeshDampings,
+              std::array<std::optional<double>, dynamics::kMostDampingParameters>>
+        mesh_damping;
     std::optional<double> backlash_m;  // 2b along the line of action
 
     // Module in the transverse plane.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <sstream>
 
 #include "analysis/detection/false_alarm_rate.hpp"
@@ -31,7 +30,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 // Recordings of one gearbox in time order.
-struct Records {
+struct GearboxRecords {
     std::string name;
     std::vector<std::size_t> rows;
     std::vector<char> healthy, faulty;        // both 0: condition unknown
@@ -45,16 +44,16 @@ struct Records {
     }
 };
 
-struct Columns {
+struct RecordColumns {
     std::vector<double> time, torque;
     std::vector<int> group;
     std::vector<std::vector<double>> values;
 };
 
-Columns columns_of(const Results& frame, const RowSource& rows, std::size_t time,
-                   const std::optional<std::size_t>& torque) {
+RecordColumns columns_of(const Results& frame, const RowSource& rows, std::size_t time,
+                         const std::optional<std::size_t>& torque) {
     const RowShape shape = row_shape(frame);
-    Columns columns;
+    RecordColumns columns;
     columns.values.resize(shape.features);
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
@@ -74,7 +73,8 @@ Columns columns_of(const Results& frame, const RowSource& rows, std::size_t time
 
 // Groups recordings by gearbox. If no recording has a gearbox name, all belong to one gearbox;
 // otherwise recordings without a name are omitted.
-std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std::string>& names) {
+std::vector<GearboxRecords> gearboxes_of(const RecordColumns& columns,
+                                         const std::vector<std::string>& names) {
     std::map<std::string, std::vector<std::size_t>> rows_of;
     for (std::size_t row = 0; row < columns.time.size(); ++row) {
         rows_of[row < names.size() ? names[row] : ""].push_back(row);
@@ -82,12 +82,12 @@ std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std:
     if (rows_of.size() > 1) {
         rows_of.erase("");
     }
-    std::vector<Records> gearboxes;
+    std::vector<GearboxRecords> gearboxes;
     for (auto& [name, rows] : rows_of) {
         std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
             return columns.time[a] < columns.time[b];
         });
-        Records one{name, rows, {}, {}, {}, {}, {}};
+        GearboxRecords one{name, rows, {}, {}, {}, {}, {}};
         const auto in_order = [&](const std::vector<double>& all) {
             std::vector<double> values;
             for (const std::size_t row : all.empty() ? std::vector<std::size_t>() : one.rows) {
@@ -110,7 +110,8 @@ std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std:
 }
 
 // Healthy recordings after the baseline, as a life in which each recording counts as one hour.
-analysis::HealthyLife healthy_life(const Records& gearbox, const std::vector<double>& deviations) {
+analysis::HealthyLife healthy_life(const GearboxRecords& gearbox,
+                                   const std::vector<double>& deviations) {
     analysis::HealthyLife life;
     for (std::size_t i = 0; i < deviations.size(); ++i) {
         if (gearbox.healthy[i] != 0 && !std::isnan(deviations[i])) {
@@ -121,7 +122,7 @@ analysis::HealthyLife healthy_life(const Records& gearbox, const std::vector<dou
     return life;
 }
 
-GearboxAlarms monitor_gearbox(const Records& gearbox, const std::vector<double>& deviations,
+GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const std::vector<double>& deviations,
                               const analysis::Detector& detector, double threshold) {
     GearboxAlarms watched{gearbox.name, 0, 0, {}, 0.0};
     for (std::size_t i = 0; i < deviations.size(); ++i) {
@@ -152,7 +153,7 @@ std::optional<std::size_t> parameter_place(const Results& frame, const std::stri
 class RecordingMonitor {
   public:
     RecordingMonitor(const Results& frame, const Study& study,
-                     const std::vector<Records>& gearboxes)
+                     const std::vector<GearboxRecords>& gearboxes)
         : frame_(frame), study_(study), gearboxes_(gearboxes) {}
 
     std::vector<RecordingMonitorResult> all() const {
@@ -178,7 +179,7 @@ class RecordingMonitor {
         return static_cast<std::size_t>(study_.monitoring.baseline_records);
     }
 
-    std::vector<double> deviations(const Records& gearbox,
+    std::vector<double> deviations(const GearboxRecords& gearbox,
                                    const std::vector<std::size_t>& features) const {
         if (features.size() == 1) {
             return analysis::baseline_deviations(gearbox.values[features[0]], gearbox.torque,
@@ -197,7 +198,7 @@ class RecordingMonitor {
              std::vector<RecordingMonitorResult>& watched) const {
         std::vector<std::vector<double>> of_gearbox;
         std::vector<analysis::HealthyLife> lives;
-        for (const Records& gearbox : gearboxes_) {
+        for (const GearboxRecords& gearbox : gearboxes_) {
             of_gearbox.push_back(deviations(gearbox, features));
             lives.push_back(healthy_life(gearbox, of_gearbox.back()));
         }
@@ -218,18 +219,18 @@ class RecordingMonitor {
 
     const Results& frame_;
     const Study& study_;
-    const std::vector<Records>& gearboxes_;
+    const std::vector<GearboxRecords>& gearboxes_;
 };
 
 // Reason why these gearboxes cannot be monitored; "" if they can.
-std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, double rate) {
+std::string refusal_of(const std::vector<GearboxRecords>& gearboxes, int baseline, double rate) {
     if (gearboxes.empty()) {
         return fmt::format(
             "no gearbox has more than {0} recordings of which the first {0} are without a fault",
             baseline);
     }
     long healthy = 0;
-    for (const Records& gearbox : gearboxes) {
+    for (const GearboxRecords& gearbox : gearboxes) {
         healthy += std::count(gearbox.healthy.begin() + baseline, gearbox.healthy.end(), char{1});
     }
     const auto needed = analysis::sample_for_threshold(rate);
@@ -272,7 +273,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
         monitoring.note =
             "no recording names its gearbox (column gearbox): all are assumed to be of one machine";
     }
-    std::erase_if(gearboxes, [&](const Records& one) {
+    std::erase_if(gearboxes, [&](const GearboxRecords& one) {
         return !one.has_baseline(static_cast<std::size_t>(requested.baseline_records));
     });
     monitoring.refusal =

@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string toml_string(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         out += c == '"' || c == '\\' ? fmt::format("\\{}", c) : std::string(1, c);
@@ -32,7 +32,7 @@ std::string toml_text(const Value& value) {
             return fmt::format("{}", value.number);
         case Value::Kind::text:
         case Value::Kind::date:
-            return quoted(value.text);
+            return toml_string(value.text);
         case Value::Kind::array:
             for (const Value& element : value.elements) {
                 parts.push_back(toml_text(element));

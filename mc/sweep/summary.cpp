@@ -19,7 +19,7 @@
 namespace gearpod::mc {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 double size_or_nan(const analysis::SizeEstimate& estimate, double scale) {
     return estimate.where == analysis::SizeEstimate::Where::reached
@@ -162,13 +162,15 @@ std::string sweep_text(const std::vector<VariedKey>& keys,
 
 nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
                                   const std::vector<PointSummary>& points) {
-    Json json{
-        {"kind", "sweep"}, {"title", title}, {"varied", Json::array()}, {"points", Json::array()}};
+    OrderedJson json{{"kind", "sweep"},
+                     {"title", title},
+                     {"varied", OrderedJson::array()},
+                     {"points", OrderedJson::array()}};
     for (const VariedKey& key : keys) {
         json["varied"].push_back({{"key", key.key}, {"values", key.values}});
     }
     for (const PointSummary& point : points) {
-        Json one{{"results", point.results}};
+        OrderedJson one{{"results", point.results}};
         for (std::size_t k = 0; k < keys.size(); ++k) {
             one["values"][keys[k].key] = point.point.values[k];
         }
@@ -176,17 +178,19 @@ nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<Va
         one["failed"] = point.failed;
         one["false_alarm_rate"] = point.false_alarm_rate;
         one["confidence"] = point.confidence;
-        one["shortage"] = point.shortage.empty() ? Json(nullptr) : Json(point.shortage);
+        one["shortage"] =
+            point.shortage.empty() ? OrderedJson(nullptr) : OrderedJson(point.shortage);
         one["size_name"] = point.size_name;
         one["size_unit"] = point.unit.empty() ? "1" : point.unit;
         one["sizes"] = point.sizes;
-        one["shown_level"] =
-            point.levels.empty() ? Json(nullptr) : Json(point.levels[point.reference].noise_level);
-        one["smallest_fault"] = Json::array();
+        one["shown_level"] = point.levels.empty()
+                                 ? OrderedJson(nullptr)
+                                 : OrderedJson(point.levels[point.reference].noise_level);
+        one["smallest_fault"] = OrderedJson::array();
         for (const LevelSummary& level : point.levels) {
-            Json at{{"noise_level", level.noise_level},
-                    {"has_threshold", level.has_threshold},
-                    {"size", nullptr}};
+            OrderedJson at{{"noise_level", level.noise_level},
+                           {"has_threshold", level.has_threshold},
+                           {"size", nullptr}};
             if (level.smallest) {
                 at["size"] = level.smallest->size;
                 at["feature"] = level.smallest->feature;
@@ -194,7 +198,7 @@ nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<Va
             }
             one["smallest_fault"].push_back(std::move(at));
         }
-        one["features"] = Json::array();
+        one["features"] = OrderedJson::array();
         for (const FeatureSummary& f : point.features) {
             one["features"].push_back({{"feature", f.feature},
                                        {"noise_level", f.noise_level},

@@ -35,7 +35,7 @@ std::vector<SpringDamper> spring_dampers(const FixedShaftLayout& layout,
     const double k = pair_stiffness_N_m[0];
     springs.push_back(
         {"the mesh", mesh_row(layout), k,
-         mesh_damping_factor(layout, inputs, 0) * mesh_damping_shape(layout.mesh_damping, k)});
+         mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, 0), k)});
     return springs;
 }
 
@@ -58,10 +58,9 @@ GearboxMatrices assemble(const FixedShaftLayout& layout, const FixedShaftInputs&
     return m;
 }
 
-double mesh_damping_factor(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, int) {
-    return with_mesh_damping(layout.mesh_damping, [&](auto law) {
-        return law.factor(inputs.mesh_damping, inputs.mass_kg[pinion], inputs.mass_kg[gear]);
-    });
+DampingTerms mesh_damping(const FixedShaftLayout& layout, const FixedShaftInputs& inputs, int) {
+    return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[pinion],
+                              inputs.mass_kg[gear]);
 }
 
 Eigen::VectorXd rigid_rotation(const FixedShaftLayout&) {

@@ -19,10 +19,10 @@ struct alignas(64) FixedShaftLanes {
     Real bearing_damping[fixed_shaft_gear_count][W];
     Real coupling_stiffness[fixed_shaft_gear_count][W];
     Real coupling_damping[fixed_shaft_gear_count][W];
-    Real mesh_damping_factor[W];  // multiplies the damping shape
-    Real mesh_period[W];          // s
-    Real backlash[W];             // 2b of the mesh, m
-    int sensor;                   // FixedShaftGear
+    DampingLanes<W, Real> mesh_damping;
+    Real mesh_period[W];  // s
+    Real backlash[W];     // 2b of the mesh, m
+    int sensor;           // FixedShaftGear
 };
 
 // `inputs` holds W gearboxes.

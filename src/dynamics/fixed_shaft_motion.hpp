@@ -20,9 +20,7 @@ struct FixedShaftMotions {
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes&) { return fixed_shaft_motions; }
     static GEARPOD_INLINE int sources(const Lanes&) { return 1; }
-    static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int) {
-        return p.mesh_damping_factor;
-    }
+    static GEARPOD_INLINE const auto& mesh_damping(const Lanes& p, int) { return p.mesh_damping; }
 
     // a = M^-1 (f - C v - K q). q, v, a: [motion][lane].
     static GEARPOD_INLINE void accelerations(const Lanes& p, const Real* __restrict q,

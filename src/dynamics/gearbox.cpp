@@ -89,9 +89,9 @@ Eigen::VectorXd rigid_rotation(const GearboxLayout& layout) {
     return std::visit([](const auto& kind) { return rigid_rotation(kind); }, layout);
 }
 
-double mesh_damping_factor(const GearboxLayout& layout, const GearboxInputs& inputs, int pair) {
+DampingTerms mesh_damping(const GearboxLayout& layout, const GearboxInputs& inputs, int pair) {
     return with_inputs(layout, inputs, [&](const auto& kind, const auto& in) {
-        return mesh_damping_factor(kind, in, pair);
+        return mesh_damping(kind, in, pair);
     });
 }
 

@@ -134,12 +134,10 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout) {
     return tie;
 }
 
-double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair) {
+DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair) {
     const Body gear = pair < layout.planets ? sun : ring;
-    return with_mesh_damping(layout.mesh_damping, [&](auto law) {
-        return law.factor(inputs.mesh_damping, inputs.mass_kg[gear],
-                          inputs.planet_mass_kg(pair % layout.planets));
-    });
+    return mesh_damping_terms(layout.mesh_damping, inputs.mesh_damping, inputs.mass_kg[gear],
+                              inputs.planet_mass_kg(pair % layout.planets));
 }
 
 std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
@@ -173,8 +171,7 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
             springs.push_back(
                 {fmt::format("planet {}'s mesh with the {}", n + 1, with_sun ? "sun" : "ring"),
                  with_sun ? sun_planet_row(layout, n) : ring_planet_row(layout, n), k,
-                 mesh_damping_factor(layout, inputs, pair) *
-                     mesh_damping_shape(layout.mesh_damping, k)});
+                 mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, pair), k)});
         }
     }
     return springs;

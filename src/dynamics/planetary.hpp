@@ -80,7 +80,7 @@ struct PlanetaryInputs {
     double bearing_damping_N_s_m[body_count] = {};
     double support_stiffness_N_m = 0.0;  // of the fixed member's u
     double support_damping_N_s_m = 0.0;
-    double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), according to the layout
+    DampingParameters mesh_damping{};  // of the layout's law
     double carrier_speed_rad_s = 0.0;
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
@@ -116,9 +116,8 @@ std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 // Body of the fixed member.
 Body fixed_body(gears::FixedMember fixed);
 
-// Mesh damping of a pair divided by the damping shape of its stiffness (effects/mesh_damping.hpp).
-// The damping is 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22) or c.
-double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);
+// Mesh damping of a pair by the layout's law.
+DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);
 
 // Motion without any deflection: free rotation of the train relative to its fixed member. It is
 // neutral in a real gearbox. In the linear model, the centrifugal term W^2 x lets it grow at a rate

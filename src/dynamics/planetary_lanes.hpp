@@ -21,7 +21,7 @@ struct alignas(64) PlanetaryLanes {
     Real support_stiffness[3][W];
     Real support_damping[3][W];
     Real force[3][W];
-    Real mesh_damping_factor[kMaxPairs][W];  // per pair; multiplies the damping shape
+    DampingLanes<W, Real> mesh_damping[kMaxPairs];
     // unloaded position of planet n's bearing, m
     Real pin_x[kMaxPlanets][W], pin_y[kMaxPlanets][W];
     Real speed[W];        // carrier, rad/s

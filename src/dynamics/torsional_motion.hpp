@@ -25,8 +25,8 @@ struct TorsionalMotion {
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 3 + p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
-    static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int pair) {
-        return p.mesh_damping_factor[pair];
+    static GEARPOD_INLINE const auto& mesh_damping(const Lanes& p, int pair) {
+        return p.mesh_damping[pair];
     }
 
     // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane].

@@ -1,6 +1,5 @@
 #include "dynamics/varying_forces.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "dynamics/gearbox_matrices.hpp"

@@ -4,106 +4,131 @@
 #include <string>
 #include <vector>
 
+#include "features/crest_factor.hpp"
+#include "features/energy_ratio.hpp"
 #include "features/feature.hpp"
+#include "features/fm4.hpp"
+#include "features/frms.hpp"
+#include "features/m6a.hpp"
+#include "features/m8a.hpp"
+#include "features/na4.hpp"
+#include "features/nb4.hpp"
+#include "features/nsds.hpp"
+#include "features/sensor_rms.hpp"
+#include "features/sideband_index.hpp"
+#include "features/spectral_kurtosis.hpp"
+#include "features/te_fc.hpp"
+#include "features/te_fm0.hpp"
+#include "features/te_kurtosis.hpp"
+#include "features/te_rms.hpp"
+#include "features/window_crest.hpp"
+#include "features/window_kurtosis.hpp"
+#include "features/window_m8a.hpp"
+#include "features/window_ratio.hpp"
+#include "features/window_z.hpp"
 
 namespace gearpod::features {
 namespace {
 
+// Function of a feature as it is called, and the signals in its parameters.
+template <auto kFunction>
+struct Signature;
+template <class... Signals, double (*kFunction)(const Signals&...)>
+struct Signature<kFunction> {
+    static constexpr SignalSet kNeeds = SignalSet::of<Signals...>();
+    static double compute(const FeatureInput& input) { return kFunction(input.get<Signals>()...); }
+};
+
+template <auto kFunction>
+constexpr Feature feature(std::string_view name, std::string_view unit, AlarmSide alarm,
+                          std::string_view doc) {
+    using Function = Signature<kFunction>;
+    constexpr bool kOfTe = Function::kNeeds.within(SignalSet::of<TeTurn, TeParts>());
+    return {name, unit, alarm, doc, &Function::compute, Function::kNeeds, !kOfTe};
+}
+
 constexpr std::array kFeatures{
-    Feature{"te_rms", "rad", AlarmSide::high,
-            "rms of the averaged transmission error; Park (2016), Table II", &te_rms},
-    Feature{"te_kurtosis", "1", AlarmSide::high,
-            "kurtosis of the averaged transmission error, normal = 3; Park (2016), Table II",
-            &te_kurtosis},
-    Feature{"te_fc", "order", AlarmSide::low,
-            "frequency centre of the transmission error, cycles per planet turn; Park, Table II",
-            &te_fc},
-    Feature{"te_fm0", "1", AlarmSide::high,
-            "peak-to-peak over the sum of the mesh harmonics' amplitudes; Park (2016), Table II",
-            &te_fm0},
-    Feature{"sensor_rms", "m/s^2", AlarmSide::high, "rms of the sensor signal over the span",
-            &sensor_rms, true},
-    Feature{"window_ratio", "1", AlarmSide::high,
-            "largest tooth rms over the median tooth rms; after Liang (2016), Fig. 5.8",
-            &window_ratio, true},
-    Feature{"window_z", "1", AlarmSide::high,
-            "worst tooth's rms against the other teeth, robust standard score", &window_z, true},
-
-    Feature{"te_fm4", "1", AlarmSide::high,
-            "kurtosis of the transmission error without mesh harmonics and first sidebands",
-            &te_fm4, false, kTeParts},
-    Feature{"te_m6a", "1", AlarmSide::high, "sixth standardised moment of the same", &te_m6a, false,
-            kTeParts},
-    Feature{"te_m8a", "1", AlarmSide::high, "eighth standardised moment of the same", &te_m8a,
-            false, kTeParts},
-
-    Feature{"crest_factor", "1", AlarmSide::high,
-            "largest magnitude over rms of the sensor signal averaged over planet turns",
-            &crest_factor, true, kSensorTurn},
-    Feature{"fm4", "1", AlarmSide::high,
-            "kurtosis of the difference signal: the average without mesh harmonics and first "
-            "sidebands",
-            &fm4, true, kSensorTurn},
-    Feature{"m6a", "1", AlarmSide::high, "sixth standardised moment of the difference signal", &m6a,
-            true, kSensorTurn},
-    Feature{"m8a", "1", AlarmSide::high, "eighth standardised moment of the difference signal",
-            &m8a, true, kSensorTurn},
-    Feature{"na4", "1", AlarmSide::high,
-            "fourth moment of the residual signal over the square of healthy gearboxes' variance",
-            &na4, true, kSensorTurn | kHealthy},
-    Feature{"nb4", "1", AlarmSide::high, "the same of the envelope around the first mesh harmonic",
-            &nb4, true, kSensorTurn | kHealthy},
-    Feature{"energy_ratio", "1", AlarmSide::high,
-            "rms of the difference signal over that of mesh harmonics and first sidebands",
-            &energy_ratio, true, kSensorTurn},
-    Feature{"sideband_index", "m/s^2", AlarmSide::high,
-            "mean amplitude of the first mesh harmonic's first sidebands", &sideband_index, true,
-            kSensorTurn},
-    Feature{"sideband_level", "1", AlarmSide::high,
-            "sum of those amplitudes over the average's rms", &sideband_level, true, kSensorTurn},
-    Feature{"frms", "m/s^2", AlarmSide::high,
-            "rms of the sensor signal without its average over carrier turns; after Lei (2012)",
-            &frms, true, kFiltered},
-    Feature{"nsds", "1", AlarmSide::high,
-            "how far the average's spectrum stands above healthy gearboxes'; after Lei (2012)",
-            &nsds, true, kSensorTurn | kHealthy},
-
-    Feature{"window_kurtosis", "1", AlarmSide::high,
-            "largest planet tooth kurtosis over the median one", &window_kurtosis, true,
-            kPlanetMoments},
-    Feature{"window_crest", "1", AlarmSide::high,
-            "largest planet tooth crest factor over the median one", &window_crest, true,
-            kPlanetMoments},
-    Feature{"window_m8a", "1", AlarmSide::high, "largest planet tooth M8A over the median one",
-            &window_m8a, true, kPlanetMoments},
-
-    Feature{"sun_window_ratio", "1", AlarmSide::high, "largest sun tooth rms over the median one",
-            &sun_window_ratio, true, kSunRms},
-    Feature{"sun_window_z", "1", AlarmSide::high,
-            "worst sun tooth's rms against the others, robust standard score", &sun_window_z, true,
-            kSunRms},
-    Feature{"sun_window_kurtosis", "1", AlarmSide::high,
-            "largest sun tooth kurtosis over the median one", &sun_window_kurtosis, true,
-            kSunMoments},
-    Feature{"sun_window_crest", "1", AlarmSide::high,
-            "largest sun tooth crest factor over the median one", &sun_window_crest, true,
-            kSunMoments},
-    Feature{"sun_window_m8a", "1", AlarmSide::high, "largest sun tooth M8A over the median one",
-            &sun_window_m8a, true, kSunMoments},
-
-    Feature{"ring_window_ratio", "1", AlarmSide::high, "largest ring tooth rms over the median one",
-            &ring_window_ratio, true, kRingRms},
-    Feature{"ring_window_z", "1", AlarmSide::high,
-            "worst ring tooth's rms against the others, robust standard score", &ring_window_z,
-            true, kRingRms},
-    Feature{"ring_window_kurtosis", "1", AlarmSide::high,
-            "largest ring tooth kurtosis over the median one", &ring_window_kurtosis, true,
-            kRingMoments},
-    Feature{"ring_window_crest", "1", AlarmSide::high,
-            "largest ring tooth crest factor over the median one", &ring_window_crest, true,
-            kRingMoments},
-    Feature{"ring_window_m8a", "1", AlarmSide::high, "largest ring tooth M8A over the median one",
-            &ring_window_m8a, true, kRingMoments},
+    feature<te_rms>("te_rms", "rad", AlarmSide::high,
+                    "rms of the averaged transmission error; Park (2016), Table II"),
+    feature<te_kurtosis>(
+        "te_kurtosis", "1", AlarmSide::high,
+        "kurtosis of the averaged transmission error, normal = 3; Park (2016), Table II"),
+    feature<te_fc>(
+        "te_fc", "order", AlarmSide::low,
+        "frequency centre of the transmission error, cycles per planet turn; Park, Table II"),
+    feature<te_fm0>(
+        "te_fm0", "1", AlarmSide::high,
+        "peak-to-peak over the sum of the mesh harmonics' amplitudes; Park (2016), Table II"),
+    feature<sensor_rms>("sensor_rms", "m/s^2", AlarmSide::high,
+                        "rms of the sensor signal over the span"),
+    feature<window_ratio<Gear::planet>>(
+        "window_ratio", "1", AlarmSide::high,
+        "largest tooth rms over the median tooth rms; after Liang (2016), Fig. 5.8"),
+    feature<window_z<Gear::planet>>(
+        "window_z", "1", AlarmSide::high,
+        "worst tooth's rms against the other teeth, robust standard score"),
+    feature<te_fm4>(
+        "te_fm4", "1", AlarmSide::high,
+        "kurtosis of the transmission error without mesh harmonics and first sidebands"),
+    feature<te_m6a>("te_m6a", "1", AlarmSide::high, "sixth standardised moment of the same"),
+    feature<te_m8a>("te_m8a", "1", AlarmSide::high, "eighth standardised moment of the same"),
+    feature<crest_factor>(
+        "crest_factor", "1", AlarmSide::high,
+        "largest magnitude over rms of the sensor signal averaged over planet turns"),
+    feature<fm4>("fm4", "1", AlarmSide::high,
+                 "kurtosis of the difference signal: the average without mesh harmonics and first "
+                 "sidebands"),
+    feature<m6a>("m6a", "1", AlarmSide::high, "sixth standardised moment of the difference signal"),
+    feature<m8a>("m8a", "1", AlarmSide::high,
+                 "eighth standardised moment of the difference signal"),
+    feature<na4>(
+        "na4", "1", AlarmSide::high,
+        "fourth moment of the residual signal over the square of healthy gearboxes' variance"),
+    feature<nb4>("nb4", "1", AlarmSide::high,
+                 "the same of the envelope around the first mesh harmonic"),
+    feature<energy_ratio>(
+        "energy_ratio", "1", AlarmSide::high,
+        "rms of the difference signal over that of mesh harmonics and first sidebands"),
+    feature<sideband_index>("sideband_index", "m/s^2", AlarmSide::high,
+                            "mean amplitude of the first mesh harmonic's first sidebands"),
+    feature<sideband_level>("sideband_level", "1", AlarmSide::high,
+                            "sum of those amplitudes over the average's rms"),
+    feature<frms>(
+        "frms", "m/s^2", AlarmSide::high,
+        "rms of the sensor signal without its average over carrier turns; after Lei (2012)"),
+    feature<nsds>(
+        "nsds", "1", AlarmSide::high,
+        "how far the average's spectrum stands above healthy gearboxes'; after Lei (2012)"),
+    feature<spectral_kurtosis>("spectral_kurtosis", "1", AlarmSide::high,
+                               "largest spectral kurtosis of the residual signal in frames of a "
+                               "mesh period; Antoni (2006)"),
+    feature<window_kurtosis<Gear::planet>>("window_kurtosis", "1", AlarmSide::high,
+                                           "largest planet tooth kurtosis over the median one"),
+    feature<window_crest<Gear::planet>>("window_crest", "1", AlarmSide::high,
+                                        "largest planet tooth crest factor over the median one"),
+    feature<window_m8a<Gear::planet>>("window_m8a", "1", AlarmSide::high,
+                                      "largest planet tooth M8A over the median one"),
+    feature<window_ratio<Gear::sun>>("sun_window_ratio", "1", AlarmSide::high,
+                                     "largest sun tooth rms over the median one"),
+    feature<window_z<Gear::sun>>("sun_window_z", "1", AlarmSide::high,
+                                 "worst sun tooth's rms against the others, robust standard score"),
+    feature<window_kurtosis<Gear::sun>>("sun_window_kurtosis", "1", AlarmSide::high,
+                                        "largest sun tooth kurtosis over the median one"),
+    feature<window_crest<Gear::sun>>("sun_window_crest", "1", AlarmSide::high,
+                                     "largest sun tooth crest factor over the median one"),
+    feature<window_m8a<Gear::sun>>("sun_window_m8a", "1", AlarmSide::high,
+                                   "largest sun tooth M8A over the median one"),
+    feature<window_ratio<Gear::ring>>("ring_window_ratio", "1", AlarmSide::high,
+                                      "largest ring tooth rms over the median one"),
+    feature<window_z<Gear::ring>>(
+        "ring_window_z", "1", AlarmSide::high,
+        "worst ring tooth's rms against the others, robust standard score"),
+    feature<window_kurtosis<Gear::ring>>("ring_window_kurtosis", "1", AlarmSide::high,
+                                         "largest ring tooth kurtosis over the median one"),
+    feature<window_crest<Gear::ring>>("ring_window_crest", "1", AlarmSide::high,
+                                      "largest ring tooth crest factor over the median one"),
+    feature<window_m8a<Gear::ring>>("ring_window_m8a", "1", AlarmSide::high,
+                                    "largest ring tooth M8A over the median one"),
 };
 
 // Features computed from the change since the baseline record: its energy, and its location on the
@@ -120,7 +145,6 @@ class Catalogue {
                                         [&](const Feature& f) { return f.name == name; });
             own.name = text("change_", own.name, "");
             own.doc = text("", own.doc, ", of the record less the gearbox's own baseline record");
-            own.needs |= kChange;
             own.baseline_use = BaselineUse::change;
             all_.push_back(own);
         }
@@ -129,7 +153,6 @@ class Catalogue {
             own.doc =
                 text("", own.name.substr(4), " over that of the gearbox's own baseline record");
             own.unit = "1";
-            own.needs |= kBaseline;
             own.baseline_use = BaselineUse::baseline;
             all_.push_back(own);
         }

@@ -1,7 +1,6 @@
 #include "gears/flank_relief.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gearpod::gears {
 

@@ -261,12 +261,4 @@ double MeshGeometry::contact_radius(int which, double tau) const {
     return at.base_radius() * std::hypot(1, roll);
 }
 
-double MeshGeometry::double_pair_span() const {
-    return (contact_ratio_ - 1) * 2 * pi / gear_1_.teeth;
-}
-
-double MeshGeometry::single_pair_span() const {
-    return 2 * pi / gear_1_.teeth - double_pair_span();
-}
-
 }  // namespace gearpod::gears

@@ -47,10 +47,6 @@ class MeshGeometry {
     double contact_radius(int which, double tau) const;
     // Clearance between the tips of gear `which_tip` and the other gear's root circle, m.
     double tip_clearance(int which_tip) const;
-    // Rotation of gear 1 during which two pairs are in contact, (c - 1) 2 pi / N1, and during which
-    // one pair is; for contact ratios 1 <= c <= 2.
-    double double_pair_span() const;
-    double single_pair_span() const;
 
   private:
     Gear gear_1_, gear_2_;

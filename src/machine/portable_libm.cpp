@@ -2,50 +2,51 @@
 //
 // The C library chooses variants of sin, exp, ... by processor, with or without fused
 // multiply-adds, and their last bits differ. Its 80-bit functions have one variant only. The
-// definitions below replace the double functions in every program that links the physics, libraries
-// such as the FFT included. They round the 80-bit results, which makes nearly all of them correctly
-// rounded. No hot loop calls them.
-#include <cmath>  // defines __GLIBC__ where it applies
+// functions below round the 80-bit results, which makes nearly all of them correctly rounded. No hot
+// loop calls them. Calls of sin(), exp(), ... in this project's code, header libraries included, reach
+// them by the linker's option --wrap (src/CMakeLists.txt); shared libraries and programs that link the
+// installed libraries keep the C library's functions.
+#include <cmath>
 
-#if defined(__x86_64__) && defined(__GLIBC__)
+#if defined(__x86_64__) && defined(__linux__)
 
 extern "C" {
-double sin(double x) noexcept {
+double __wrap_sin(double x) noexcept {
     return static_cast<double>(sinl(x));
 }
-double cos(double x) noexcept {
+double __wrap_cos(double x) noexcept {
     return static_cast<double>(cosl(x));
 }
-double tan(double x) noexcept {
+double __wrap_tan(double x) noexcept {
     return static_cast<double>(tanl(x));
 }
-double asin(double x) noexcept {
+double __wrap_asin(double x) noexcept {
     return static_cast<double>(asinl(x));
 }
-double acos(double x) noexcept {
+double __wrap_acos(double x) noexcept {
     return static_cast<double>(acosl(x));
 }
-double atan(double x) noexcept {
+double __wrap_atan(double x) noexcept {
     return static_cast<double>(atanl(x));
 }
-double atan2(double y, double x) noexcept {
+double __wrap_atan2(double y, double x) noexcept {
     return static_cast<double>(atan2l(y, x));
 }
-double exp(double x) noexcept {
+double __wrap_exp(double x) noexcept {
     return static_cast<double>(expl(x));
 }
-double log(double x) noexcept {
+double __wrap_log(double x) noexcept {
     return static_cast<double>(logl(x));
 }
-double pow(double x, double y) noexcept {
+double __wrap_pow(double x, double y) noexcept {
     return static_cast<double>(powl(x, y));
 }
-void sincos(double x, double* sine, double* cosine) noexcept {
+void __wrap_sincos(double x, double* sine, double* cosine) noexcept {
     *sine = static_cast<double>(sinl(x));
     *cosine = static_cast<double>(cosl(x));
 }
 // called by std::exp(std::complex)
-__extension__ __complex__ double cexp(__complex__ double z) noexcept {
+__extension__ __complex__ double __wrap_cexp(__complex__ double z) noexcept {
     const long double size = expl(__real__ z);
     __complex__ double result;
     __real__ result = static_cast<double>(size * cosl(__imag__ z));

@@ -8,8 +8,6 @@
 namespace gearpod::signals {
 namespace {
 
-constexpr int kMaxPlanets = 8;
-
 [[noreturn]] void fail(const std::string& what) {
     throw std::invalid_argument("tile signals: " + what);
 }
@@ -44,7 +42,7 @@ void check_tile(const TileSignals& tile, const Timeline& timeline) {
     if (!machine::is_lane_count(tile.lanes)) {
         fail(fmt::format("{} lanes; 16, 8, 4 or 1 are built", tile.lanes));
     }
-    if (tile.planets < 1 || tile.planets > kMaxPlanets || tile.phases < 1) {
+    if (tile.planets < 1 || tile.phases < 1) {
         fail(fmt::format("{} planets, {} phases", tile.planets, tile.phases));
     }
     if (tile.accel.size() != tile.te.size()) {

@@ -1,8 +1,16 @@
 // Checks Park's 12-DOF pair matrices against the entries that the paper prints legibly, and their
 // plane reduction against the planetary model.
+//
+// The printed matrices are k v v^T of the vectors below, except for printing errors, as far as the
+// scan is legible. y_s y_p (A1) and y_p y_r (A2) have a squared sine instead of cos^2(omega). In
+// (A2), x_p z_r has cos(omega) instead of sin(omega), and the planet's y and z couple to its own
+// rotations by r_r instead of r_p. As printed, rigid motion would need energy.
+//
+// x points from the central gear's axis to the planet's, z along the axes. phi is the pressure
+// angle in the normal plane, omega the helix angle; radii are those of the pitch circles.
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "dynamics/helical_pair.hpp"
 #include "dynamics/planetary.hpp"
@@ -12,6 +20,52 @@ namespace test_helical_pair {
 using namespace gearpod::dynamics;
 
 namespace {
+
+using PairVector = Eigen::Matrix<double, 12, 1>;
+using PairMatrix = Eigen::Matrix<double, 12, 12>;
+
+struct HelicalPair {
+    double pressure_angle_rad = 0.0;
+    double helix_angle_rad = 0.0;
+};
+
+// Unit normal of the tooth flank relative to the central gear: radial, tangential and axial
+// components.
+struct Normal {
+    double x, y, z;
+};
+
+Normal normal_of(const HelicalPair& pair) {
+    const double c = std::cos(pair.pressure_angle_rad);
+    return {std::sin(pair.pressure_angle_rad), c * std::cos(pair.helix_angle_rad),
+            c * std::sin(pair.helix_angle_rad)};
+}
+
+// Deflection over (x, y, z, alpha, beta, gamma) of the sun and then the planet (A1), or of the
+// planet and then the ring (A2). Translations in m, rotations in rad.
+PairVector sun_planet_deflection(const HelicalPair& pair, double sun_radius_m,
+                                 double planet_radius_m) {
+    const Normal n = normal_of(pair);
+    const double s = sun_radius_m, p = planet_radius_m;
+    PairVector v;
+    v << n.x, n.y, -n.z, 0.0, s * n.z, s * n.y,  //
+        -n.x, -n.y, n.z, 0.0, p * n.z, p * n.y;
+    return v;
+}
+
+PairVector planet_ring_deflection(const HelicalPair& pair, double planet_radius_m,
+                                  double ring_radius_m) {
+    const Normal n = normal_of(pair);
+    const double p = planet_radius_m, r = ring_radius_m;
+    PairVector v;
+    v << n.x, -n.y, -n.z, 0.0, p * n.z, -p * n.y,  //
+        -n.x, n.y, n.z, 0.0, -r * n.z, r * n.y;
+    return v;
+}
+
+PairMatrix pair_matrix(const PairVector& deflection, double stiffness_N_m) {
+    return stiffness_N_m * PairMatrix(deflection * deflection.transpose());
+}
 
 constexpr double kPhi = 0.43, kOmega = 0.31;
 constexpr double kSun = 0.112, kPlanet = 0.182, kRing = 0.476;  // Park's Table III

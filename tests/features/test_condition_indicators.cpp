@@ -5,8 +5,22 @@
 #include <random>
 #include <vector>
 
-#include "features/feature.hpp"
+#include "features/crest_factor.hpp"
+#include "features/energy_ratio.hpp"
+#include "features/fm4.hpp"
+#include "features/frms.hpp"
+#include "features/m6a.hpp"
+#include "features/m8a.hpp"
+#include "features/na4.hpp"
+#include "features/nb4.hpp"
+#include "features/nsds.hpp"
+#include "features/sideband_index.hpp"
 #include "features/standardised_moment.hpp"
+#include "features/window_crest.hpp"
+#include "features/window_kurtosis.hpp"
+#include "features/window_m8a.hpp"
+#include "features/window_ratio.hpp"
+#include "features/window_z.hpp"
 
 namespace test_condition_indicators {
 
@@ -35,15 +49,16 @@ std::vector<double> sine(double amplitude, int cycles, int points) {
 
 TEST_CASE("FM4, M6A and M8A of a normal difference signal are 3, 15 and 105") {
     const auto difference = normal_sample(1000000);
-    FeatureInput input;
-    input.sensor.difference = difference;
-    input.te.difference = difference;
+    SensorTurn input;
+    TeParts te;
+    input.difference = difference;
+    te.difference = difference;
     CHECK(fm4(input) == Approx(3.0).epsilon(0.01));
     CHECK(m6a(input) == Approx(15.0).epsilon(0.03));
     CHECK(m8a(input) == Approx(105.0).epsilon(0.08));
-    CHECK(te_fm4(input) == fm4(input));
-    CHECK(te_m6a(input) == m6a(input));
-    CHECK(te_m8a(input) == m8a(input));
+    CHECK(te_fm4(te) == fm4(input));
+    CHECK(te_m6a(te) == m6a(input));
+    CHECK(te_m8a(te) == m8a(input));
 }
 
 TEST_CASE("Moments of a sine are 3/2, 5/2 and 35/8, for any amplitude and mean") {
@@ -59,8 +74,8 @@ TEST_CASE("Moments of a sine are 3/2, 5/2 and 35/8, for any amplitude and mean")
 TEST_CASE("A single shock in n samples has FM4 near n") {
     std::vector<double> difference(1000, 0.0);
     difference[400] = 1.0;
-    FeatureInput input;
-    input.sensor.difference = difference;
+    SensorTurn input;
+    input.difference = difference;
     // Kurtosis of one shock: p (1-p)^4 + (1-p) p^4 over (p (1-p))^2 with p = 1/n.
     const double p = 1e-3, q = 1.0 - p;
     CHECK(fm4(input) == Approx((p * std::pow(q, 4) + q * std::pow(p, 4)) / (p * q * p * q)));
@@ -71,8 +86,8 @@ TEST_CASE("The crest factor of a sine is the root of two, about its mean") {
     for (double& value : turn) {
         value -= 40.0;
     }
-    FeatureInput input;
-    input.sensor.turn = turn;
+    SensorTurn input;
+    input.turn = turn;
     CHECK(crest_factor(input) == Approx(std::sqrt(2.0)));
 }
 
@@ -90,11 +105,11 @@ TEST_CASE("Energy ratio, sideband index and level match the given amplitudes") {
     amplitude[19] = 0.3;
     amplitude[21] = 0.1;
     amplitude[7] = 0.5;
-    FeatureInput input;
-    input.planet_teeth = 20;
-    input.sensor.regular = regular;
-    input.sensor.difference = difference;
-    input.sensor.amplitude = amplitude;
+    SensorTurn input;
+    input.mesh_order = 20;
+    input.regular = regular;
+    input.difference = difference;
+    input.amplitude = amplitude;
     CHECK(energy_ratio(input) == Approx(0.5 / std::sqrt(4.0 + 0.09 + 0.01)));
     CHECK(sideband_index(input) == Approx(0.2));
     CHECK(sideband_level(input) == Approx(0.4 / std::sqrt(0.5 * (4.0 + 0.09 + 0.01 + 0.25))));
@@ -106,54 +121,40 @@ TEST_CASE("NA4 and NB4 are a kurtosis in steady state and rise with the square o
     for (double& value : louder) {
         value *= 2.0;
     }
-    FeatureInput input;
-    input.healthy.residual_variance = 9.0;
-    input.healthy.envelope_variance = 9.0;
-    input.sensor.residual = record;
-    input.sensor.envelope = record;
-    CHECK(na4(input) == Approx(3.0).epsilon(0.03));
-    CHECK(nb4(input) == na4(input));
-    const double healthy = na4(input);
-    input.sensor.residual = louder;
-    CHECK(na4(input) == Approx(16.0 * healthy));
+    const HealthyRecords healthy{9.0, 9.0, {}};
+    SensorTurn input;
+    input.residual = record;
+    input.envelope = record;
+    CHECK(na4(input, healthy) == Approx(3.0).epsilon(0.03));
+    CHECK(nb4(input, healthy) == na4(input, healthy));
+    const double steady = na4(input, healthy);
+    input.residual = louder;
+    CHECK(na4(input, healthy) == Approx(16.0 * steady));
 }
 
 TEST_CASE("NSDS sums the spectrum above the healthy one") {
     const std::vector<double> healthy{9.0, 1.0, 2.0, 1.0};
     const std::vector<double> now{0.0, 3.0, 1.0, 1.5};
-    FeatureInput input;
-    input.healthy.amplitude = healthy;
-    input.sensor.amplitude = healthy;
-    CHECK(nsds(input) == 0.0);
-    input.sensor.amplitude = now;
-    CHECK(nsds(input) == Approx(2.5 / 4.0));
+    const HealthyRecords reference{0.0, 0.0, healthy};
+    SensorTurn input;
+    input.amplitude = healthy;
+    CHECK(nsds(input, reference) == 0.0);
+    input.amplitude = now;
+    CHECK(nsds(input, reference) == Approx(2.5 / 4.0));
 }
 
-TEST_CASE("Windows of the sun and the ring cover their own teeth") {
+TEST_CASE("Statistics of tooth windows compare the largest value with the median") {
     std::vector<double> even(19, 2.0), odd(19, 2.0);
     odd[3] = 5.0;
-    FeatureInput input;
-    input.tooth_rms = even;
-    input.planet = {{}, even, odd, odd};
-    input.sun = {odd, even, odd, even};
-    input.ring = {even, odd, even, odd};
-    CHECK(window_ratio(input) == 1.0);
-    CHECK(sun_window_ratio(input) == 2.5);
-    CHECK(ring_window_ratio(input) == 1.0);
-    CHECK(window_z(input) == 0.0);
-    CHECK(sun_window_z(input) > 1e5);
-    CHECK(ring_window_z(input) == 0.0);
-    CHECK(window_kurtosis(input) == 1.0);
-    CHECK(window_crest(input) == 2.5);
-    CHECK(window_m8a(input) == 2.5);
-    CHECK(sun_window_kurtosis(input) == 1.0);
-    CHECK(sun_window_crest(input) == 2.5);
-    CHECK(sun_window_m8a(input) == 1.0);
-    CHECK(ring_window_kurtosis(input) == 2.5);
-    CHECK(ring_window_crest(input) == 1.0);
-    CHECK(ring_window_m8a(input) == 2.5);
-    input.filtered_rms = 0.25;
-    CHECK(frms(input) == 0.25);
+    CHECK(window_ratio(ToothRms<Gear::sun>{odd}) == 2.5);
+    CHECK(window_ratio(ToothRms<Gear::ring>{even}) == 1.0);
+    CHECK(window_z(ToothRms<Gear::planet>{even}) == 0.0);
+    CHECK(window_z(ToothRms<Gear::sun>{odd}) > 1e5);
+    CHECK(window_kurtosis(ToothMoments<Gear::planet>{even, odd, odd}) == 1.0);
+    CHECK(window_kurtosis(ToothMoments<Gear::ring>{odd, even, even}) == 2.5);
+    CHECK(window_crest(ToothMoments<Gear::planet>{even, odd, even}) == 2.5);
+    CHECK(window_m8a(ToothMoments<Gear::sun>{odd, odd, even}) == 1.0);
+    CHECK(frms(FilteredSensor{0.25}) == 0.25);
 }
 
 }  // namespace

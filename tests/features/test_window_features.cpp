@@ -3,8 +3,10 @@
 #include <random>
 #include <vector>
 
-#include "features/feature.hpp"
 #include "features/median.hpp"
+#include "features/sensor_rms.hpp"
+#include "features/window_ratio.hpp"
+#include "features/window_z.hpp"
 
 namespace test_window_features {
 
@@ -13,10 +15,8 @@ using namespace gearpod::features;
 
 namespace {
 
-FeatureInput teeth(const std::vector<double>& rms) {
-    FeatureInput input;
-    input.tooth_rms = rms;
-    return input;
+ToothRms<Gear::planet> teeth(const std::vector<double>& rms) {
+    return {rms};
 }
 
 TEST_CASE("The median is the middle value, or the mean of the middle two") {
@@ -63,9 +63,7 @@ TEST_CASE("Teeth equal to the last bit give a finite score") {
 }
 
 TEST_CASE("The sensor's rms is the root of its mean square") {
-    FeatureInput input;
-    input.sensor_mean_square = 6.25;
-    CHECK(sensor_rms(input) == 2.5);
+    CHECK(sensor_rms({6.25}) == 2.5);
 }
 
 }  // namespace

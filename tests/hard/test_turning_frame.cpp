@@ -79,9 +79,8 @@ TEST_CASE("Below its critical speed a train converges, above it is reported as u
         const auto in = soft_train(share * critical);
         INFO(share << " of the critical speed");
         const std::vector<dynamics::GearboxInputs> inputs{in};
-        TileSettings settings;
-        settings.max_meshes = 10000;
-        const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), settings);
+        const PeriodicSolution solution{.convergence = {.max_meshes = 10000}};
+        const TileResult tile = run_tile<1>(plan, inputs, train.no_fault(1), solution);
         const bool stable = share < 1.0;
         CHECK(tile.status[0] == (stable ? LaneStatus::ok : LaneStatus::diverged));
         CHECK(find_instability(plan, in) ==
@@ -99,11 +98,9 @@ TEST_CASE(
     CHECK_FALSE(above_critical_speed(without.layout, soft_train(5000.0), mean_stiffness(without)));
     CHECK(growth_rate(with, fast) < 1e-3);
     CHECK_FALSE(above_critical_speed(with.layout, fast, mean_stiffness(with)));
-    TileSettings settings;
-    settings.max_meshes = 10000;
-    settings.with_motion = true;
+    const PeriodicSolution solution{.convergence = {.max_meshes = 10000}, .with_motion = true};
     const std::vector<dynamics::GearboxInputs> inputs{fast};
-    const TileResult tile = run_tile<1>(with, inputs, train.no_fault(1), settings);
+    const TileResult tile = run_tile<1>(with, inputs, train.no_fault(1), solution);
     REQUIRE(tile.status[0] == LaneStatus::ok);
     // The centrifugal acceleration r W^2 of the carrier stretches every planet's bearing outwards:
     // by m r W^2 / (k - m W^2) on the mean of the four, while the meshes yield.

@@ -3,7 +3,7 @@
 Prints one line per problem of the sources below TREE and exits with 1 if there are any. Problems
 are includes against the order of floors.txt or in a circle, missing headers, files and folders that
 are too long, names of missing files in comments, and constants of one name in two sources of a
-folder.
+library.
 """
 
 import collections
@@ -22,8 +22,8 @@ QUOTED = re.compile(r'\s*#\s*include\s*"')
 # Headers that src must not include: files and messages.
 OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|mc/|analysis/)")
 NAME = re.compile(r"[\w./*-]*[\w*]\.[ch]pp(?!\.?\w)")
-# Sources that the quick build (cmake/quick_build.cmake) compiles one by one.
-ALONE = re.compile(r"_kernel\.cpp$|study/faults/|_keys\.cpp$")
+# Sources that have compiler options of their own and are never compiled together with others.
+ALONE = re.compile(r"_kernel\.cpp$")
 CONSTANT = re.compile(r"(?:inline |static )?constexpr [^(=]*?\b(k[A-Z]\w*)\s*(?:\[|=|\{)")
 STRING = re.compile(r'"(\\.|[^"\\])*"')
 
@@ -197,8 +197,14 @@ def missing_names(tree):
                     yield f"{file}:{number} names {name}, which does not exist"
 
 
+def namespace(file):
+    """Folder whose sources share a namespace: analysis, mc, and each folder of src."""
+    parts = file.split("/")
+    return "/".join(parts[:2]) if parts[0] == "src" else parts[0]
+
+
 def clashing_constants(tree):
-    """Yields constants of one name in two sources that the quick build compiles as one."""
+    """Yields constants of one name in two sources of a library, which a build may compile as one."""
     first = {}
     for file in tree.files:
         if not (file.endswith(".cpp") and file.startswith(tuple(f"{p}/" for p in PARTS))) \
@@ -206,7 +212,7 @@ def clashing_constants(tree):
             continue
         for number, line in enumerate(tree.lines(file), 1):
             if match := CONSTANT.match(line):
-                place = folder(file), match.group(1)
+                place = namespace(file), match.group(1)
                 other = first.setdefault(place, f"{file}:{number}")
                 if not other.startswith(f"{file}:"):
                     yield f"{file}:{number} defines {match.group(1)}, which {other} defines too"

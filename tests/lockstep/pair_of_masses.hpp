@@ -47,7 +47,7 @@ struct PairOfMasses {
         }
         in.inertia_over_r2_kg[dynamics::sun] = kSun;
         in.inertia_over_r2_kg[dynamics::planet] = kPlanet;
-        in.mesh_damping = damping_N_s_m;
+        in.mesh_damping[0] = damping_N_s_m;
         in.mesh_period_s = period_s;
         state.q.assign(4, 0.0);
         state.v.assign(4, 0.0);

@@ -16,8 +16,10 @@ namespace gearpod::test {
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};
-    return mc::run_gearboxes(scene, mc::path_grid(scene), std::span(&id, 1), 1,
-                             {.with_motion = with_motion, .with_records = true});
+    return mc::run_gearboxes(
+        scene, mc::path_grid(scene), std::span(&id, 1), 1,
+        {.records =
+             lockstep::RecordOptions{.motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
 }
 
 // Sensor signal over the first `meshes` mesh periods, in m/s^2.

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "tests/mc/study_example.hpp"
+
 namespace gearpod::tests {
 
 // The sections at the end of every example.
@@ -161,11 +163,5 @@ end_angle_deg = 90
 height_wave = 8
 height_waves = 6
 )" + kVibrationSections;
-
-// The text with the first occurrence of `from` replaced; empty if there is none.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    return at == std::string::npos ? "" : text.replace(at, from.size(), to);
-}
 
 }  // namespace gearpod::tests

@@ -66,11 +66,15 @@ inline const std::vector<std::string> kFast{
     "gearbox.planet_bearing_damping_N_s_m=5000", "gearbox.sun_bearing_damping_N_s_m=5000",
     "gearbox.ring_bearing_damping_N_s_m=5000",   "gearbox.carrier_bearing_damping_N_s_m=5000"};
 
-// The example with the first occurrence of `from` replaced.
-inline std::string example_with(const std::string& from, const std::string& to) {
-    std::string text = kExampleStudy;
+// The text with the first occurrence of `from` replaced; empty if there is none.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     return at == std::string::npos ? "" : text.replace(at, from.size(), to);
+}
+
+// The example with the first occurrence of `from` replaced.
+inline std::string example_with(const std::string& from, const std::string& to) {
+    return replaced(kExampleStudy, from, to);
 }
 
 }  // namespace gearpod::tests

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"

@@ -1,6 +1,5 @@
 // Checks faults of the tooth pair and of the mesh, on independent tooth pairs and on a square wave.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/broken.hpp"

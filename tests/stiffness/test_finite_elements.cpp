@@ -1,7 +1,6 @@
 // Checks Liang (2016), section 3.7: 23/23 aluminium gears, healthy and with a crack of 4.7 mm,
 // against finite elements. Table and its computation: tests/peers/fem-liang-table-3-5/README.md.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"

@@ -1,6 +1,5 @@
 // Checks the level of the mesh stiffness by every model of the gear bodies against ISO 6336-1 and
 // finite elements: docs/validation/mesh-stiffness-level.md.
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <string>

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "gears/mesh_geometry.hpp"
 #include "mc/study/faults/fault_kind.hpp"

@@ -42,7 +42,7 @@ template <auto Member>
 using PartOf = decltype(part_type(Member));
 
 // Reference to the value that a schema line names: a member of a part, or of the values of one body
-// or mesh.
+// or mesh, or a parameter of a mesh-damping law.
 template <auto Member, class AnyStudy>
 auto& stored(AnyStudy& s) {
     return part_of<PartOf<Member>>(s).*Member;
@@ -54,6 +54,11 @@ auto& stored(AnyStudy& s) {
 template <MeshKind kMesh, auto Value, class AnyStudy>
 auto& stored(AnyStudy& s) {
     return s.gearbox.meshes[kMesh].*Value;
+}
+
+template <MeshDamping kLaw, std::size_t kParameter, class AnyStudy>
+auto& stored(AnyStudy& s) {
+    return s.gearbox.mesh_damping[kLaw][kParameter];
 }
 
 template <class Type>

@@ -4,12 +4,9 @@
 
 #include "analysis/monitoring/detector.hpp"
 #include "features/feature.hpp"
-#include "lockstep/integrators/facts.hpp"
-#include "machine/lanes.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
-#include "mc/study/schema/schema.hpp"
 #include "signals/noise/low_pass_noise.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
 
@@ -141,7 +138,7 @@ void check_feature(StudyDraft& draft, const std::string& name) {
                                  "accelerations: effects.motion)",
                                  name),
                      "use features of the transmission error");
-    } else if ((feature->needs & (features::kSun | features::kRing)) != 0 &&
+    } else if (feature->needs.overlaps(features::kCentralGears) &&
                draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
                draft.usable("gearbox.kind")) {
         draft.reject("features.use",
@@ -191,31 +188,6 @@ void check_uncertain_inputs(StudyDraft& draft) {
     }
 }
 
-void check_lanes(StudyDraft& draft) {
-    const Numerics& n = draft.study.numerics;
-    const bool single = n.precision == Precision::single_precision;
-    if (!machine::is_lane_count(n.lanes) || (n.lanes == 16 && !single)) {
-        draft.reject("numerics.lanes",
-                     fmt::format("must be {}8, 4 or 1, but is {}", single ? "16, " : "", n.lanes),
-                     single ? "16 fills AVX-512 registers, 8 those of AVX2; 1 is for comparison"
-                            : "8 fills AVX-512 registers, 4 those of AVX2; 1 is for comparison");
-    }
-}
-
-void check_precision(StudyDraft& draft) {
-    const Numerics& n = draft.study.numerics;
-    const bool doubles_only = n.integrator && !lockstep::has_single_precision(*n.integrator);
-    if (n.precision == Precision::single_precision && doubles_only &&
-        draft.all_usable({"numerics.precision", "numerics.integrator"})) {
-        draft.reject(
-            "numerics.precision",
-            fmt::format("\"single\" is for the integrators {}, but numerics.integrator is \"{}\"",
-                        lockstep::names_of(&lockstep::IntegratorFacts::has_single_precision),
-                        choice_text(draft.study, "numerics", "integrator")),
-            "use precision = \"double\", or integrator = \"rk4\"");
-    }
-}
-
 // Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
 // records.
 void check_importance_sampling(StudyDraft& draft) {
@@ -242,8 +214,6 @@ void check_consistency(StudyDraft& draft) {
     check_features(draft);
     check_detectors(draft);
     check_uncertain_inputs(draft);
-    check_lanes(draft);
-    check_precision(draft);
 }
 
 }  // namespace gearpod::mc

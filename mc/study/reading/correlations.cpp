@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "mc/input/spelling.hpp"
 #include "mc/study/copula.hpp"

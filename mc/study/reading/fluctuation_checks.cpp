@@ -35,31 +35,11 @@ void check_gravity(StudyDraft& draft) {
     }
 }
 
-void check_superposition(StudyDraft& draft) {
-    const std::string why = reason_not_superposed(draft.study);
-    if (draft.study.numerics.horizon == Horizon::superposed && !why.empty() &&
-        draft.all_usable({"numerics.horizon", "effects.gravity", "effects.motion"})) {
-        draft.reject("numerics.horizon", fmt::format("is \"superpose\", but {}", why),
-                     "leave the key out");
-    }
-}
-
-void check_horizon(StudyDraft& draft) {
-    check_superposition(draft);
-    const std::string why = reason_not_periodic(draft.study);
-    if (draft.study.numerics.horizon == Horizon::periodic && !why.empty() &&
-        draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {
-        draft.reject("numerics.horizon", fmt::format("is \"reuse\", but {}", why),
-                     "use horizon = \"full\", or leave the key out");
-    }
-}
-
 }  // namespace
 
 void check_fluctuations(StudyDraft& draft) {
     check_torque_sine(draft);
     check_gravity(draft);
-    check_horizon(draft);
 }
 
 }  // namespace gearpod::mc

@@ -6,6 +6,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
+#include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
 
@@ -38,8 +39,6 @@ bool teeth_usable(const StudyDraft& draft) {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double kMmPerM = 1e3;
 
 void check_positions(StudyDraft& draft, int planets) {
     const std::string key = "gearbox.planet_positions_deg";
@@ -168,6 +167,7 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
                      fmt::format("{} and {} do not mesh ({})", member_name(mesh.member_1),
                                  member_name(mesh.member_2), what),
                      "");
+        draft.problems.back().kind = ProblemKind::meshing;
     }
 }
 

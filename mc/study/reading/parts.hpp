@@ -11,6 +11,8 @@ namespace gearpod::mc {
 
 // values.cpp: stores one value of a section in the study after checking its type and range.
 void read_value(StudyDraft& draft, const Key& key, const Entry& entry);
+// values.cpp: rejects a number outside the key's range. True if it lies inside.
+bool check_range(StudyDraft& draft, const Position& at, const Key& key, double number);
 
 // random_inputs.cpp: reads the section [random].
 void read_random(StudyDraft& draft, const Value& section);
@@ -20,6 +22,7 @@ void read_correlations(StudyDraft& draft, const Entry& list);
 
 // presence_checks.cpp: rejects missing required keys and forbidden keys.
 void check_presence(StudyDraft& draft);
+void check_presence(StudyDraft& draft, const Key& key);  // the same for one key
 
 // gear_checks.cpp: checks the gears and how they fit together.
 void check_gears(StudyDraft& draft);
@@ -35,8 +38,11 @@ void check_tooth_errors(StudyDraft& draft);
 // checks.cpp: remaining checks that involve several keys.
 void check_consistency(StudyDraft& draft);
 
-// fluctuation_checks.cpp: checks the variable excitation and the strategy of integration.
+// fluctuation_checks.cpp: checks the variable excitation.
 void check_fluctuations(StudyDraft& draft);
+
+// numerics_checks.cpp: checks the numerics, after the excitation.
+void check_numerics(StudyDraft& draft);
 
 // fault_checks.cpp: checks the fault against the tooth that carries it, and the size groups.
 void check_fault(StudyDraft& draft);

@@ -26,27 +26,6 @@ void reject_second(StudyDraft& draft, const std::vector<std::string>& given,
     }
 }
 
-void check_key(StudyDraft& draft, const Key& key) {
-    const Presence presence = key.presence(draft.study);
-    const std::string path = key.path();
-    if (!draft.usable(path)) {
-        return;
-    }
-    for (const std::string_view governor : presence.governors) {
-        if (!draft.usable(std::string(governor))) {
-            return;
-        }
-    }
-    const std::string because = presence.why.empty() ? "" : fmt::format(" ({})", presence.why);
-    if (presence.need == Need::required && !draft.is_given(path)) {
-        draft.reject(draft.position(path), path, "missing" + because,
-                     fmt::format("add {} to [{}]: {}", key.name, key.section, key.doc));
-    }
-    if (presence.need == Need::forbidden && draft.is_given(path)) {
-        draft.reject(draft.position(path), path, "is not allowed here" + because, "remove it");
-    }
-}
-
 void check_exclusive_keys(StudyDraft& draft) {
     for (const std::string_view member : kMembers) {
         reject_second(draft,
@@ -86,11 +65,32 @@ void check_sections(StudyDraft& draft) {
 
 }  // namespace
 
+void check_presence(StudyDraft& draft, const Key& key) {
+    const Presence presence = key.presence(draft.study);
+    const std::string path = key.path();
+    if (!draft.usable(path)) {
+        return;
+    }
+    for (const std::string_view governor : presence.governors) {
+        if (!draft.usable(std::string(governor))) {
+            return;
+        }
+    }
+    const std::string because = presence.why.empty() ? "" : fmt::format(" ({})", presence.why);
+    if (presence.need == Need::required && !draft.is_given(path)) {
+        draft.reject(draft.position(path), path, "missing" + because,
+                     fmt::format("add {} to [{}]: {}", key.name, key.section, key.doc));
+    }
+    if (presence.need == Need::forbidden && draft.is_given(path)) {
+        draft.reject(draft.position(path), path, "is not allowed here" + because, "remove it");
+    }
+}
+
 void check_presence(StudyDraft& draft) {
     check_sections(draft);
     for (const Key& key : schema()) {
         if (draft.usable(std::string(key.section))) {
-            check_key(draft, key);
+            check_presence(draft, key);
         }
     }
     check_exclusive_keys(draft);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 #include "features/feature.hpp"
 #include "mc/input/printable.hpp"
@@ -23,6 +25,13 @@ bool is_subsection(const std::string& section, const std::string& name) {
     });
 }
 
+// Keys of earlier versions, which are ignored with a notice.
+constexpr std::string_view kFormerKeys[] = {"numerics.step_tolerance"};
+
+bool is_former_key(const std::string& path) {
+    return std::ranges::find(kFormerKeys, path) != std::end(kFormerKeys);
+}
+
 // `prefix`: name of the table within the section and a dot, or empty.
 void read_entries(StudyDraft& draft, const std::string& section, const std::string& prefix,
                   const std::vector<Entry>& entries) {
@@ -31,6 +40,9 @@ void read_entries(StudyDraft& draft, const std::string& section, const std::stri
         const Key* key = find_key(section, entry.name);
         if (key != nullptr) {
             read_value(draft, *key, entry);
+        } else if (const std::string path = section + "." + entry.name; is_former_key(path)) {
+            draft.notices.push_back({entry.position.file, entry.position.line, path,
+                                     "belongs to an earlier version and is ignored", "remove it"});
         } else if (!is_subsection(section, entry.name)) {
             reject_unknown_key(draft, "", section, entry);
         } else if (entry.value.kind == Value::Kind::table) {
@@ -173,6 +185,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     check_gears(draft);
     check_consistency(draft);
     check_fluctuations(draft);
+    check_numerics(draft);
     check_fault(draft);
     check_until(draft);
     check_records(draft);

@@ -32,7 +32,7 @@ std::string number_text(double si, double to_si) {
     return fmt::format("{}", near);
 }
 
-std::string quoted(const std::string& text) {
+std::string quoted_text(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') {
@@ -66,7 +66,7 @@ class ValueText {
     }
     std::string operator()(const ChoiceAccess&) const {
         const std::string_view text = choice_text(study_, key_.section, key_.name);
-        return text.empty() ? "" : quoted(std::string(text));
+        return text.empty() ? "" : quoted_text(std::string(text));
     }
     std::string operator()(const NumbersAccess& access) const {
         std::vector<std::string> texts;
@@ -78,7 +78,7 @@ class ValueText {
     std::string operator()(const TextsAccess& access) const {
         std::vector<std::string> texts;
         for (const std::string& value : access.get(study_)) {
-            texts.push_back(quoted(value));
+            texts.push_back(quoted_text(value));
         }
         return in_brackets(texts);
     }
@@ -133,7 +133,7 @@ std::string random_text(const Study& study) {
 
 std::string resolved_text(const Study& study) {
     std::string text =
-        study.title.empty() ? "" : fmt::format("title = {}\n\n", quoted(study.title));
+        study.title.empty() ? "" : fmt::format("title = {}\n\n", quoted_text(study.title));
     std::string gap;
     for (const std::string_view section : section_names()) {
         const std::string body =

@@ -144,13 +144,7 @@ class ValueReader {
         return true;
     }
 
-    bool in_range(double number) {
-        if (key_.range.contains(number)) {
-            return true;
-        }
-        reject(fmt::format("must be {}, but is {}", key_.range.text(), number), "");
-        return false;
-    }
+    bool in_range(double number) { return check_range(draft_, at_, key_, number); }
 
     bool is_list(std::string_view of) {
         if (value_.kind == Value::Kind::array) {
@@ -204,6 +198,15 @@ class ValueReader {
 };
 
 }  // namespace
+
+bool check_range(StudyDraft& draft, const Position& at, const Key& key, double number) {
+    if (key.range.contains(number)) {
+        return true;
+    }
+    draft.reject(at, key.path(), fmt::format("must be {}, but is {}", key.range.text(), number),
+                 "");
+    return false;
+}
 
 void read_value(StudyDraft& draft, const Key& key, const Entry& entry) {
     draft.given[key.path()] = entry.position;

@@ -143,9 +143,9 @@ const Key kGearboxKeys[] = {
     {"gearbox", "motor_coupling_damping_N_m_s_rad", number<&F::motor_coupling_damping_N_m_s_rad>, kNmSPerRad, kNotNegative, fixed_shaft<may>, kRandom, "torsional damping of the coupling between motor and pinion"},
     {"gearbox", "load_coupling_stiffness_N_m_rad", number<&F::load_coupling_stiffness_N_m_rad>, kNmPerRad, kPositive, fixed_shaft<always>, kRandom, "torsional stiffness of the coupling between gear and load"},
     {"gearbox", "load_coupling_damping_N_m_s_rad", number<&F::load_coupling_damping_N_m_s_rad>, kNmSPerRad, kNotNegative, fixed_shaft<may>, kRandom, "torsional damping of the coupling between gear and load"},
-    {"gearbox", "mesh_damping_ratio", number<&G::mesh_damping_ratio>, kNone, kNotNegative, damping_ratio, kRandom, "mesh damping ratio zeta in c = 2 zeta sqrt(k m1 m2 / (m1 + m2))"},
-    {"gearbox", "mesh_damping_time_s", number<&G::mesh_damping_time_s>, kS, kNotNegative, damping_time, kRandom, "mesh damping time mu in c = mu k"},
-    {"gearbox", "mesh_damping_N_s_m", number<&G::mesh_damping_N_s_m>, kNSPerM, kNotNegative, damping_constant, kRandom, "constant mesh damping"},
+};
+// Keys that follow those of mesh damping.
+const Key kMeshKeys[] = {
     {"gearbox", "backlash_mm", number<&G::backlash_m>, kMm, kPositive, backlash, kRandom, "backlash 2b along the line of action"},
     {"gearbox", "sun_planet_error_um", numbers<&E::sun_planet_m>, kUm, kNotNegative, planetary<may>, kShared, "static transmission error of the sun-planet meshes: amplitudes of mesh harmonics 1, 2, ..."},
     {"gearbox", "sun_planet_error_phase_deg", numbers<&E::sun_planet_phase_rad>, kDeg, kAny, planetary<may>, kShared, "phases of sun_planet_error_um; 0 by default"},
@@ -186,6 +186,10 @@ const Key kGearboxKeys[] = {
 
 std::span<const Key> gearbox_keys() {
     return kGearboxKeys;
+}
+
+std::span<const Key> mesh_keys() {
+    return kMeshKeys;
 }
 
 }  // namespace gearpod::mc

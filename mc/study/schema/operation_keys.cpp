@@ -23,9 +23,11 @@ constexpr ChoiceName kSeparations[] = {name("none", Separation::none),
                                        name("two-sided", Separation::two_sided)};
 constexpr ChoiceName kOnsets[] = {name("abrupt", ContactOnset::abrupt),
                                   name("extended", ContactOnset::extended)};
-constexpr ChoiceName kDampings[] = {name("ratio", MeshDamping::ratio),
-                                    name("proportional", MeshDamping::proportional),
-                                    name("constant", MeshDamping::constant)};
+constexpr ChoiceName kDampings[] = {
+#define GEARPOD_MESH_DAMPING(NAME, LAW) name(#NAME, MeshDamping::NAME),
+#include "dynamics/effects/mesh_dampings.def"
+#undef GEARPOD_MESH_DAMPING
+};
 
 std::span<const ChoiceName> path_names() {
     static const std::vector<ChoiceName> names = [] {

@@ -18,14 +18,6 @@ bool is(const Study& s, ToothProfile profile) {
     return s.gearbox.tooth_profile == profile;
 }
 
-Presence damping(const Study& s, MeshDamping kind, const std::string& why) {
-    if (s.effects.quasi_static()) {
-        return kOptional;
-    }
-    const Need need = s.effects.mesh_damping == kind ? Need::required : Need::forbidden;
-    return {need, why, {"effects.mesh_damping", kMotion}};
-}
-
 // Required if that key is given, else forbidden.
 Presence with(const std::optional<double>& given, const std::string& because,
               const std::string& only, std::string_view governor) {
@@ -300,17 +292,6 @@ Presence bearing(const Study& s) {
             return kOptional;
     }
     return kOptional;
-}
-
-Presence damping_ratio(const Study& s) {
-    return damping(s, MeshDamping::ratio, "belongs to effects.mesh_damping = \"ratio\"");
-}
-Presence damping_time(const Study& s) {
-    return damping(s, MeshDamping::proportional,
-                   "belongs to effects.mesh_damping = \"proportional\"");
-}
-Presence damping_constant(const Study& s) {
-    return damping(s, MeshDamping::constant, "belongs to effects.mesh_damping = \"constant\"");
 }
 
 Presence acceleration_detail(const Study& s) {

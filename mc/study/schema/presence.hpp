@@ -73,9 +73,6 @@ Presence mass(const Study&);             // unless the motion is quasi-static
 Presence inertia(const Study&);          // J needs the radii
 Presence inertia_over_r2(const Study&);  // required where no disc can be assumed
 Presence bearing(const Study&);          // unless the motion is torsional
-Presence damping_ratio(const Study&);
-Presence damping_time(const Study&);
-Presence damping_constant(const Study&);
 
 Presence acceleration(const Study&);  // required unless the motion is quasi-static
 Presence noise_rms(const Study&);     // forbidden with the noise density

@@ -15,7 +15,8 @@ namespace gearpod::mc {
 std::span<const Key> schema() {
     static const std::vector<Key> keys = [] {
         std::vector<Key> all;
-        for (const auto table : {gearbox_keys(), operation_keys(), fault_keys(), run_keys()}) {
+        for (const auto table : {gearbox_keys(), mesh_damping_keys(), mesh_keys(), operation_keys(),
+                                 fault_keys(), run_keys()}) {
             all.insert(all.end(), table.begin(), table.end());
         }
         return all;

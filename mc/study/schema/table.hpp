@@ -8,7 +8,9 @@
 namespace gearpod::mc {
 
 // Tables in the order in which their keys are shown.
-std::span<const Key> gearbox_keys();
+std::span<const Key> gearbox_keys();  // without the following two
+std::span<const Key> mesh_damping_keys();
+std::span<const Key> mesh_keys();
 std::span<const Key> operation_keys();
 std::span<const Key> fault_keys();
 std::span<const Key> run_keys();

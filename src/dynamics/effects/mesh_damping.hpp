@@ -1,49 +1,51 @@
-// Damping of a tooth mesh as factor(gearbox) times shape(stiffness), one struct per law. The shape
-// can thus be tabulated once over the mesh phase for all gearboxes.
+// Laws of mesh damping: mesh_dampings.def lists them.
 #pragma once
 
-#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "dynamics/effects/constant_damping.hpp"
+#include "dynamics/effects/proportional_damping.hpp"
+#include "dynamics/effects/ratio_damping.hpp"
+#include "dynamics/effects/rayleigh_damping.hpp"
 
 namespace gearpod::dynamics {
 
-enum class MeshDamping { ratio, proportional, constant };
-
-// c = 2 zeta sqrt(k m1 m2 / (m1 + m2)): Liang (2016), Eq. 4.2.5.
-struct RatioDamping {
-    static double shape(double stiffness_N_m) { return std::sqrt(stiffness_N_m); }
-    static double factor(double zeta, double m1_kg, double m2_kg) {
-        return 2.0 * zeta * std::sqrt(m1_kg * m2_kg / (m1_kg + m2_kg));
-    }
+enum class MeshDamping {
+#define GEARPOD_MESH_DAMPING(NAME, LAW) NAME,
+#include "dynamics/effects/mesh_dampings.def"
+#undef GEARPOD_MESH_DAMPING
 };
 
-// c = mu k: Tian (2004), Eq. 4.22.
-struct ProportionalDamping {
-    static double shape(double stiffness_N_m) { return stiffness_N_m; }
-    static double factor(double mu_s, double, double) { return mu_s; }
-};
-
-// Constant c at all phases.
-struct ConstantDamping {
-    static double shape(double) { return 1.0; }
-    static double factor(double c_N_s_m, double, double) { return c_N_s_m; }
-};
+inline constexpr std::size_t kMeshDampings = 0
+#define GEARPOD_MESH_DAMPING(NAME, LAW) +1
+#include "dynamics/effects/mesh_dampings.def"
+#undef GEARPOD_MESH_DAMPING
+    ;
 
 // Calls f with the law of `kind`.
 template <typename F>
 auto with_mesh_damping(MeshDamping kind, F&& f) {
     switch (kind) {
-        case MeshDamping::proportional:
-            return f(ProportionalDamping{});
-        case MeshDamping::constant:
-            return f(ConstantDamping{});
-        case MeshDamping::ratio:
-            break;
+#define GEARPOD_MESH_DAMPING(NAME, LAW) \
+    case MeshDamping::NAME:             \
+        return f(LAW{});
+#include "dynamics/effects/mesh_dampings.def"
+#undef GEARPOD_MESH_DAMPING
     }
-    return f(RatioDamping{});
+    throw std::invalid_argument("unknown law of mesh damping");
 }
 
-inline double mesh_damping_shape(MeshDamping kind, double stiffness_N_m) {
-    return with_mesh_damping(kind, [&](auto law) { return law.shape(stiffness_N_m); });
+// Damping of a mesh between gears of mass m1 and m2, N s/m.
+inline DampingTerms mesh_damping_terms(MeshDamping kind, const DampingParameters& parameters,
+                                       double m1_kg, double m2_kg) {
+    return with_mesh_damping(
+        kind, [&](auto law) { return law.terms(parameters, m1_kg * m2_kg / (m1_kg + m2_kg)); });
+}
+inline double mesh_damping_N_s_m(MeshDamping kind, const DampingTerms& terms,
+                                 double stiffness_N_m) {
+    return with_mesh_damping(
+        kind, [&](auto law) { return terms.factor * law.shape(stiffness_N_m) + terms.constant; });
 }
 
 }  // namespace gearpod::dynamics

@@ -38,11 +38,6 @@ inline constexpr double kNoBackContact = std::numeric_limits<double>::infinity()
 inline constexpr int kMostToothPairs = 8;
 inline constexpr int kMostContacts = 48;
 
-// True if flanks can separate under that law.
-constexpr bool separates(MeshLaw law) {
-    return law == MeshLaw::separating || law == MeshLaw::unilateral;
-}
-
 // Each law states whether it has an error of the pair, whether flanks can separate, and whether it
 // has single tooth pairs. `Pairs` holds the data of all gear pairs at one instant, [pair][lane].
 struct LinearMesh {
@@ -186,6 +181,30 @@ template <class Mesh, int W, class Pairs, class Deflection, class Real>
 GEARPOD_INLINE auto pair_force(const Pairs& m, int pair, const Deflection& deflection,
                                const Real* q, const Real* v) {
     return PairForce<Mesh, W, Real, Deflection>(m, pair, deflection, q, v);
+}
+
+// Calls f with the law of `kind`.
+template <typename F>
+constexpr auto with_mesh_law(MeshLaw kind, F&& f) {
+    switch (kind) {
+#define GEARPOD_MESH_LAW(NAME, TYPE, ...) \
+    case MeshLaw::NAME:                   \
+        return f(TYPE{});
+#include "dynamics/effects/mesh_laws.def"
+#undef GEARPOD_MESH_LAW
+    }
+    return f(LinearMesh{});
+}
+
+// Properties of a law: static transmission error, separation of flanks, and single tooth pairs.
+constexpr bool has_error(MeshLaw law) {
+    return with_mesh_law(law, [](auto mesh) { return mesh.kHasError; });
+}
+constexpr bool separates(MeshLaw law) {
+    return with_mesh_law(law, [](auto mesh) { return mesh.kSeparates; });
+}
+constexpr bool has_teeth(MeshLaw law) {
+    return with_mesh_law(law, [](auto mesh) { return mesh.kHasTeeth; });
 }
 
 }  // namespace gearpod::dynamics

@@ -30,17 +30,17 @@ struct Butcher {
     // Square of the Butcher tableau kTable. It gives the positions from the accelerations, as the
     // tableau gives the velocities, so only accelerations are stored. The last column holds the
     // node of each stage, which is the sum of the tableau's row.
-    static constexpr auto kTwice = [] {
-        std::array<std::array<double, kStages + 1>, kStages + 1> twice{};
+    static constexpr auto kSquare = [] {
+        std::array<std::array<double, kStages + 1>, kStages + 1> square{};
         for (std::size_t row = 0; row <= kStages; ++row) {
             for (std::size_t by = 0; by < kStages; ++by) {
-                twice[row][kStages] += kTable[row][by];
+                square[row][kStages] += kTable[row][by];
                 for (std::size_t from = 0; from < kStages; ++from) {
-                    twice[row][from] += kTable[row][by] * kTable[by][from];
+                    square[row][from] += kTable[row][by] * kTable[by][from];
                 }
             }
         }
-        return twice;
+        return square;
     }();
 
     template <class Complex>
@@ -116,12 +116,12 @@ struct Butcher {
         using Real = std::remove_cvref_t<decltype(s.q[0])>;
         Real total = Real(0);
         for (int from = Row - 2; from >= 0; --from) {
-            if (kTwice[Row][static_cast<std::size_t>(from)] != 0.0) {
-                total = std::fma(Real(kTwice[Row][static_cast<std::size_t>(from)]), s.a[from][at],
+            if (kSquare[Row][static_cast<std::size_t>(from)] != 0.0) {
+                total = std::fma(Real(kSquare[Row][static_cast<std::size_t>(from)]), s.a[from][at],
                                  total);
             }
         }
-        return std::fma(x.h[l], total, Real(kTwice[Row][kStages]) * x.v[at]);
+        return std::fma(x.h[l], total, Real(kSquare[Row][kStages]) * x.v[at]);
     }
 
     // Sets s.q and s.v to the arguments of a stage after the first.

@@ -21,9 +21,16 @@ struct CentralDifference {
     // as many steps.
     static constexpr double kStepsInBand = 70.0;
     static constexpr StepCost kCost{0.32, 0.34, 0.34};
+    static constexpr double kLeastMargin = 1.04;
     // Between steps without a sample, positions have already drifted to the midpoint of the next
     // step. They are then ahead of the velocities by this fraction of its length.
     static constexpr double kPositionLead = 0.5;
+
+    // M - h C - h^2/4 (K + K_c) must be positive definite. At the limit, a motion changes sign at
+    // every step without decaying. It has q = 0 at the steps' ends and h/2 q' at their midpoints,
+    // where the velocity from the previous step's acceleration is doubled. For one mode: omega h =
+    // 2 (sqrt(1 + 4 zeta^2) - 2 zeta). Gyroscopic forces do no work on it and have no influence.
+    static double stable_step(const dynamics::GearboxMatrices& matrices);
 
     // Trapezoidal rule with the input at the step's midpoint only.
     template <class System>

@@ -30,6 +30,16 @@ IntegratorFacts facts_of(std::string_view kernels) {
     if constexpr (requires(std::complex<double> z) { Method::growth(z); }) {
         facts.growth = [](std::complex<double> z) { return Method::growth(z); };
     }
+    if constexpr (requires(const dynamics::GearboxMatrices& m) { Method::stable_step(m); }) {
+        facts.stable_step = &Method::stable_step;
+    }
+    facts.least_margin = kStepMargin;
+    if constexpr (requires { Method::kLeastMargin; }) {
+        facts.least_margin = Method::kLeastMargin;
+    }
+    if constexpr (requires { Method::kNeverChosen; }) {
+        facts.never_chosen = Method::kNeverChosen;
+    }
     facts.filter = [](const FilterSystem& s) -> FilterMap { return Method::filter(s); };
     return facts;
 }

@@ -9,6 +9,10 @@
 #include "lockstep/integrators/method.hpp"
 #include "lockstep/plan/integrator.hpp"
 
+namespace gearpod::dynamics {
+struct GearboxMatrices;
+}
+
 namespace gearpod::lockstep {
 
 struct FilterMap;
@@ -26,6 +30,9 @@ struct IntegratorFacts {
     ImplicitSpan span;            // 0 for an explicit method
     std::complex<double> (*growth)(std::complex<double>);  // or null
     FilterMap (*filter)(const FilterSystem&);
+    double (*stable_step)(const dynamics::GearboxMatrices&);  // of explicit ones without growth()
+    double least_margin;                                      // of explicit ones
+    bool never_chosen;                                        // by the program
 };
 
 const IntegratorFacts& facts(Integrator integrator);

@@ -49,7 +49,7 @@ dynamics::GearboxMatrices without_meshes(const dynamics::GearboxLayout& layout,
     // A constant damping would remain for meshes without stiffness; the steps add mesh damping
     // themselves.
     dynamics::GearboxInputs bare = in;
-    std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
+    std::visit([](auto& kind) { kind.mesh_damping = {}; }, bare);
     const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
     return dynamics::assemble(layout, bare, none);
 }
@@ -158,8 +158,7 @@ ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const Implicit
         lanes.backlash[l] = dynamics::backlash_m(in);
         lanes.frame_speed[l] = dynamics::frame_speed_rad_s(in);
         for (int pair = 0; pair < lanes.pairs; ++pair) {
-            lanes.mesh_damping_factor[pair][l] =
-                dynamics::mesh_damping_factor(plan.layout, in, pair);
+            lanes.mesh_damping[pair].set(l, dynamics::mesh_damping(plan.layout, in, pair));
         }
         const dynamics::GearboxMatrices m = without_meshes(plan.layout, in);
         set_constants(lanes, m, l);

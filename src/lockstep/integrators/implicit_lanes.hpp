@@ -41,8 +41,7 @@ struct ImplicitLanes {
     alignas(64) double mesh_period[W] = {};  // s
     alignas(64) double backlash[W] = {};     // m
     alignas(64) double frame_speed[W] = {};  // rad/s
-    // multiplies the damping shape
-    alignas(64) double mesh_damping_factor[dynamics::kMaxPairs][W] = {};
+    alignas(64) dynamics::DampingLanes<W> mesh_damping[dynamics::kMaxPairs] = {};
 
     machine::AlignedVector force;  // f, [degree of freedom][lane]
     SparseEntries coupling;        // entries of C_0 and K_0

@@ -24,8 +24,8 @@ struct MatrixMotion {
     using Mesh = MeshLaw;
     using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
 
-    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
-        return p.mesh_damping_factor[pair];
+    static GEARPOD_INLINE const auto& mesh_damping(const Lanes& p, int pair) {
+        return p.mesh_damping[pair];
     }
 
     // Absolute acceleration of the sources along the frame's axes: [source][x, y][lane].

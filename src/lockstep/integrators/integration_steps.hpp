@@ -50,27 +50,27 @@ GEARPOD_INLINE void load_pairs(const IntegrationPlan& plan, const typename Model
     const double* shape = plan.nodes.damping_shape.data() + (step * nodes + node) * pairs;
     Real* __restrict k = m.k, * __restrict c = m.c;
     for (int pair = 0; pair < pairs; ++pair) {
-        const Real* factor = Model::mesh_damping_factor(lanes, pair);
+        const auto& law = Model::mesh_damping(lanes, pair);
         const Real stiffness = static_cast<Real>(shared[pair]);
         const Real damping = static_cast<Real>(shape[pair]);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             k[pair * W + l] = stiffness;
-            c[pair * W + l] = factor[l] * damping;
+            c[pair * W + l] = law.factor[l] * damping + law.constant[l];
         }
     }
     for (const PairOverride& o : overrides.faults) {
         if (step < o.first_step || step >= o.last_step) {
             continue;
         }
-        const Real* factor = Model::mesh_damping_factor(lanes, o.pair);
+        const auto& law = Model::mesh_damping(lanes, o.pair);
         const int at = ((step - o.first_step) * nodes + node) * W;
         const double* ko = o.stiffness.data() + at;
         const double* co = o.damping_shape.data() + at;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             k[o.pair * W + l] = static_cast<Real>(ko[l]);
-            c[o.pair * W + l] = factor[l] * static_cast<Real>(co[l]);
+            c[o.pair * W + l] = law.factor[l] * static_cast<Real>(co[l]) + law.constant[l];
         }
     }
     if constexpr (Model::Mesh::kHasTeeth) {
@@ -288,12 +288,6 @@ GEARPOD_INLINE void integrate_steps(const IntegrationPlan& plan, const typename 
         if constexpr (kInterpolates) {
             if (step.inside > 0) {
                 write_interpolated_samples<Model>(plan, lanes, step, before, state, record);
-            }
-        }
-        if constexpr (requires { stages.estimate; }) {
-            if (!record.estimate.empty()) {
-                constexpr int kRow = kEstimateRows * Model::kWidth;
-                std::copy_n(stages.estimate, kRow, record.estimate.data() + i * kRow);
             }
         }
     }

@@ -10,8 +10,13 @@
 //   kCost          of a step
 //   kSpan          implicit methods: factors of a stage's own acceleration
 //   growth(z)      explicit methods whose stages all use q' = v: factor by which a step multiplies
-//                  a mode, z = h lambda; methods without it evaluate at the midpoints as central
-//                  differences do
+//                  a mode, z = h lambda, from which the limit of stable steps follows
+//   stable_step(m) other explicit methods: longest step (s) for which no decaying mode of the
+//                  matrices m grows
+//   kLeastMargin   optional, explicit methods: smallest margin of the number of steps over that of
+//                  the stability limit; kStepMargin for methods that damp motion near the limit
+//   kNeverChosen   optional: true for methods that `accuracy` measures for comparison, but that the
+//                  program never takes by itself
 //   filter(s)      a step of the sensor's low-pass filter by the same method (filter_system.hpp)
 #pragma once
 
@@ -29,6 +34,9 @@ struct ImplicitSpan {
 struct StepCost {
     double planetary = 1.0, rotations = 1.0, fixed_shaft = 1.0;
 };
+
+// Margin of the number of steps over that of the stability limit.
+inline constexpr double kStepMargin = 1.2;
 
 template <class Method>
 inline constexpr bool kImplicit = requires {

@@ -142,9 +142,13 @@ void add_${name}(KernelTable& table) {${calls}
 endfunction()
 
 # Defines a library of such files. Sources compiled with a precompiled header inherit its
-# optimisation, so the whole library has the same options.
+# optimisation, so the whole library has the same options. The object code of each file is checked by itself.
 function(gearpod_kernel_library name options)
   add_library(${name} OBJECT ${ARGN})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  target_precompile_headers(${name} PRIVATE <lockstep/integrators/all_integrators.hpp>
+    <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
+    <lockstep/kernels/variable_speed_kernels.hpp>)
   target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
   target_include_directories(${name} PRIVATE ${GEARPOD_GENERATED_DIR})
   target_compile_options(${name} PRIVATE ${options})

@@ -37,28 +37,33 @@ struct Fluctuation {
     machine::AlignedVector knots_per_s, first_knot, knot;
 };
 
-struct Gravity {
-    double acceleration_m_s2 = 9.80665;   // standard gravity
-    double direction_rad = 0.0;           // from the housing's x axis
+struct ConstantGravity {
+    double acceleration_m_s2 = 9.80665;  // standard gravity
+    double direction_rad = 0.0;          // from the housing's x axis
+};
+
+struct Gravity : ConstantGravity {
     double carrier_turns_per_mesh = 0.0;  // signed; x and y of a planetary train rotate with it
 };
 
-struct Excitation {
-    std::optional<Fluctuation> torque, speed;
+// Excitation of a gearbox at constant speed.
+struct VaryingForces {
+    std::optional<Fluctuation> torque;
     std::optional<Gravity> gravity;
+
+    // True if every mesh period has the same forces as the first one.
+    bool repeat() const { return !torque && (!gravity || gravity->carrier_turns_per_mesh == 0.0); }
+};
+
+struct Excitation : VaryingForces {
+    std::optional<Fluctuation> speed;
     // Used with `speed`: the degree of freedom at which the speed is imposed, and the train's
     // velocity along dynamics::rigid_rotation, [lane], m/s.
     int input_degree = 0;
     machine::AlignedVector rotation_m_s;
 
     // True if every mesh period has the same excitation as the first one.
-    bool repeats() const {
-        return !torque && !speed && (!gravity || gravity->carrier_turns_per_mesh == 0.0);
-    }
+    bool repeats() const { return !speed && repeat(); }
 };
-
-// Throws std::invalid_argument if the excitation does not repeat but only a periodic orbit is
-// integrated (recorded_meshes 0).
-void check_excitation(const Excitation* excitation, int recorded_meshes);
 
 }  // namespace gearpod::lockstep

@@ -37,14 +37,6 @@ FaultPattern central_gear_pattern(const PairSet& pairs, const PlanetPositions& p
 
 }  // namespace
 
-PlanetPositions equal_planets(int planets) {
-    PlanetPositions turns;
-    for (int n = 0; n < planets; ++n) {
-        turns.position.push_back(static_cast<double>(n) / planets);
-    }
-    return turns;
-}
-
 // The sun overtakes the planets in ascending order, and the planets overtake the ring in descending
 // order. Both orders are swapped if the sun turns more slowly than the carrier.
 FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetPositions& planets,

@@ -31,7 +31,6 @@ struct PlanetPositions {
     std::vector<double> position;
     int planets() const { return static_cast<int>(position.size()); }
 };
-PlanetPositions equal_planets(int planets);
 
 // Patterns of a sun or ring tooth. It meets all planets in turn, and returns to the first one after
 // one revolution relative to the carrier. The first passage is the engagement with planet 1 that

@@ -1,6 +1,7 @@
 #include "lockstep/plan/fault_schedule.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "dynamics/effects/mesh_damping.hpp"
 #include "lockstep/plan/path_totals.hpp"
@@ -14,8 +15,13 @@ bool FaultCurves::faulty(int lane) const {
     });
 }
 
-FaultSchedule::FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults)
-    : plan_(plan), faults_(faults) {
+FaultSchedule::FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults,
+                             const ToothErrors* tooth_errors)
+    : plan_(plan), faults_(faults), tooth_errors_(tooth_errors) {
+    if (tooth_errors != nullptr && plan.nodes.tooth_pairs == 0) {
+        throw std::invalid_argument(
+            "tooth errors need a mesh law with single tooth pairs (unilateral contact)");
+    }
     for (const auto& lanes : faults.curve) {
         double longest = 0.0;
         for (const auto& lane : lanes) {
@@ -58,8 +64,8 @@ MeshOverrides FaultSchedule::all_overrides(int k) {
         cached = cache_.emplace(mesh, overrides(mesh)).first;
     }
     MeshOverrides all{cached->second, {}};
-    if (faults_.tooth_errors) {
-        all.gaps = tooth_gaps(plan_, *faults_.tooth_errors, k);
+    if (tooth_errors_ != nullptr) {
+        all.gaps = tooth_gaps(plan_, *tooth_errors_, k);
     }
     return all;
 }

@@ -23,17 +23,17 @@ struct FaultCurves {
     // bit-identical. The faults of all lanes have the same number of teeth.
     std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
 
-    // Errors of single teeth; allowed only with TileSettings::recorded_meshes.
-    const ToothErrors* tooth_errors = nullptr;
-
     bool faulty(int lane) const;
 };
 
-// Maps mesh periods to stiffness overrides. Keeps references: the plan and the faults must outlive
+// Maps mesh periods to stiffness overrides and gaps. Keeps references: the arguments must outlive
 // it.
 class FaultSchedule {
   public:
-    FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults);
+    // `tooth_errors`: errors of single teeth, or null. Throws std::invalid_argument if there are
+    // any but the plan has no single tooth pairs.
+    FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults,
+                  const ToothErrors* tooth_errors = nullptr);
 
     // Pairs whose stiffness the faulty tooth changes during mesh period k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
@@ -58,6 +58,7 @@ class FaultSchedule {
 
     const IntegrationPlan& plan_;
     const FaultCurves& faults_;
+    const ToothErrors* const tooth_errors_;
     std::vector<double> duration_;  // of each curve, mesh periods; 0 if no lane has it
     std::map<int, std::vector<PairOverride>> cache_;  // cache, by mesh period of the pattern
 };

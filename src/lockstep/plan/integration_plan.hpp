@@ -14,7 +14,7 @@ namespace gearpod::lockstep {
 // Data shared by all tiles of an ensemble; immutable during the integration.
 struct IntegrationPlan {
     dynamics::GearboxLayout layout;
-    Integrator integrator = Integrator::rk4;
+    Integrator integrator = kUsualExplicit;
     Precision precision = Precision::double_precision;
     PhaseGrid grid;
     dynamics::MeshLaw mesh_law = dynamics::MeshLaw::linear;
@@ -39,15 +39,10 @@ struct TileState {
 // - motion: [sample][degree of freedom][lane], m; empty unless requested.
 // - mesh_force: [sample][gear pair][lane], N, springs and mesh damping (MeshForces); empty unless
 //   requested.
-// - estimate: [step][kEstimateRows][lane]: the largest position (m) and velocity (m/s) over the
-//   degrees of freedom, then the largest estimated errors of both. Empty unless the integrator
-//   estimates its error and the plan requests it (bogacki_shampine.hpp).
 // - step_states: [step + 1][2 x degree of freedom][lane]: positions (m), then velocities (m/s), at
 //   the start of every step and at the end of the last one; empty unless requested.
-inline constexpr int kEstimateRows = 4;
 struct MeshRecord {
     machine::AlignedVector acceleration, te, motion, mesh_force = {};
-    machine::AlignedVector estimate = {};
     machine::AlignedVector step_states = {};
 };
 

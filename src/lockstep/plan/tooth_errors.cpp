@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <span>
-#include <stdexcept>
 
 #include "lockstep/plan/tooth_pairs.hpp"
 
@@ -59,16 +58,6 @@ std::vector<PairTeeth> planetary_teeth(const PairSet& pairs, const gears::Planet
 
 std::vector<PairTeeth> fixed_shaft_teeth() {
     return {{{0, 1}, {0, 0}}};
-}
-
-void check_tooth_errors(const IntegrationPlan& plan, const ToothErrors* errors,
-                        int recorded_meshes) {
-    if (errors && plan.nodes.tooth_pairs == 0) {
-        throw std::invalid_argument("tooth errors need a mesh law that knows the tooth pairs");
-    }
-    if (errors && recorded_meshes < 1) {
-        throw std::invalid_argument("tooth errors need every mesh marched for itself");
-    }
 }
 
 std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors& errors, int k) {

@@ -1,7 +1,6 @@
 // Errors of single teeth. Each is the gap that a tooth pair would have if the gears turned
 // uniformly; it must close before the pair carries load (unilateral contact). The same teeth meet
-// again only after many mesh periods, so every mesh period is integrated
-// (TileSettings::recorded_meshes).
+// again only after many mesh periods, so every mesh period is solved by itself.
 #pragma once
 
 #include <span>
@@ -45,11 +44,6 @@ std::vector<PairTeeth> planetary_teeth(const PairSet& pairs, const gears::Planet
                                        gears::PlanetSense sense);
 // Teeth that meet in a fixed-shaft pair. Gears: the pinion, the gear.
 std::vector<PairTeeth> fixed_shaft_teeth();
-
-// Throws std::invalid_argument unless the plan has single tooth pairs and every mesh period is
-// integrated.
-void check_tooth_errors(const IntegrationPlan& plan, const ToothErrors* errors,
-                        int recorded_meshes);
 
 // Gaps of the tooth pairs of all pairs in mesh period k, which may be any integer.
 std::vector<PairGaps> tooth_gaps(const IntegrationPlan& plan, const ToothErrors& errors, int k);

@@ -48,15 +48,6 @@ void place_samples(PhaseGrid& grid) {
     }
 }
 
-// Smallest of 1, 2, 3, 4, 6, 8, 12, ... that is at least `least`.
-int round_up_to_allowed_count(double least) {
-    int power = 1;
-    while (power < least) {
-        power *= 2;
-    }
-    return power >= 4 && power / 4 * 3 >= least ? power / 4 * 3 : power;
-}
-
 }  // namespace
 
 double longest_step(const Grading& grading, double since) {
@@ -94,33 +85,6 @@ PhaseGrid make_graded_grid(int samples, std::span<const double> transitions,
             }
             add_step(grid, phase, length);
             phase += length;
-        }
-    }
-    place_samples(grid);
-    return grid;
-}
-
-PhaseGrid make_divided_grid(int samples, std::span<const double> transitions,
-                            const std::function<double(double, double)>& longest_step) {
-    if (samples < 1) {
-        throw std::invalid_argument("a phase grid needs at least one sample");
-    }
-    PhaseGrid grid;
-    grid.samples = samples;
-    std::vector<double> nodes(transitions.begin(), transitions.end());
-    for (int sample = 0; sample < samples; ++sample) {
-        nodes.push_back(static_cast<double>(sample) / samples);
-    }
-    const std::vector<double> ends = stretch_ends(nodes);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double length = ends[i + 1] - ends[i];
-        const double longest = longest_step(ends[i], ends[i + 1]);
-        if (!(longest > 0.0)) {
-            throw std::invalid_argument("a grid's steps must have a length");
-        }
-        const int count = round_up_to_allowed_count(length / longest * (1.0 - 1e-9));
-        for (int part = 0; part < count; ++part) {
-            add_step(grid, ends[i] + length * part / count, length / count);
         }
     }
     place_samples(grid);

@@ -3,7 +3,6 @@
 // because integrators store coefficients for each (PhaseGrid::lengths).
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "lockstep/plan/phase_grid.hpp"
@@ -26,13 +25,6 @@ double longest_step(const Grading& grading, double since);
 // lie inside steps. Throws std::invalid_argument if samples < 1 or the grading is not positive.
 PhaseGrid make_graded_grid(int samples, std::span<const double> transitions,
                            const Grading& grading);
-
-// Grid with a node on every sample and transition, and equal steps between two of them. Their
-// number is the smallest of 1, 2, 3, 4, 6, 8, 12, ... for which none is longer than
-// longest_step(start, end). Throws std::invalid_argument if samples < 1 or a longest step is not
-// positive.
-PhaseGrid make_divided_grid(int samples, std::span<const double> transitions,
-                            const std::function<double(double, double)>& longest_step);
 
 // Phase since the latest transition; infinite without transitions.
 double since_transition(std::span<const double> transitions, double phase);

@@ -4,6 +4,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
@@ -42,6 +43,19 @@ double rigid_rate(const dynamics::GearboxMatrices& m) {
     return 1e-4 * std::sqrt(rates2.maxCoeff());
 }
 
+// Eigenvalues of all modes but the rigid rotation and those that grow by themselves.
+std::vector<std::complex<double>> decaying_modes(const dynamics::GearboxMatrices& m) {
+    std::vector<std::complex<double>> decaying;
+    const double rigid = rigid_rate(m);
+    for (const std::complex<double> lambda : modes(m)) {
+        const double size = std::abs(lambda);
+        if (size >= rigid && lambda.real() <= 1e-9 * size) {
+            decaying.push_back(lambda);
+        }
+    }
+    return decaying;
+}
+
 }  // namespace
 
 Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
@@ -54,49 +68,24 @@ Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
     return system;
 }
 
-StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m, Integrator integrator) {
-    StepLimit limit{std::numeric_limits<double>::infinity(),
-                    std::numeric_limits<double>::infinity()};
-    const double rigid = rigid_rate(m);
-    for (const std::complex<double> lambda : modes(m)) {
-        const double size = std::abs(lambda);
-        if (size < rigid || lambda.real() > 1e-9 * size) {
-            continue;
-        }
-        limit.step_s = std::min(limit.step_s, longest_step(lambda, facts(integrator)));
-        limit.slowest_decay_1_s = std::min(limit.slowest_decay_1_s, std::max(0.0, -lambda.real()));
+double slowest_decay_1_s(const dynamics::GearboxMatrices& m) {
+    double slowest = std::numeric_limits<double>::infinity();
+    for (const std::complex<double> lambda : decaying_modes(m)) {
+        slowest = std::min(slowest, std::max(0.0, -lambda.real()));
     }
-    return limit;
-}
-
-double central_difference_limit(const dynamics::GearboxMatrices& m) {
-    const Eigen::MatrixXd stiffness = m.stiffness + m.centrifugal;
-    const auto is_stable = [&](double h) {
-        const Eigen::MatrixXd left = m.mass - h * (m.damping + 0.25 * h * stiffness);
-        return dynamics::positive_definite(left);
-    };
-    // Upper bound: the longest stable step of any single body, m = h c + h^2/4 k.
-    double above = std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < m.mass.rows(); ++i) {
-        const double c = m.damping(i, i), k = std::max(0.0, stiffness(i, i)), mass = m.mass(i, i);
-        const double rate = c + std::sqrt(c * c + k * mass);
-        above = rate > 0.0 ? std::min(above, 2.0 * mass / rate) : above;
-    }
-    if (!std::isfinite(above)) {
-        return above;
-    }
-    constexpr int kHalvings = 40;
-    double below = 0.0;
-    for (int i = 0; i < kHalvings; ++i) {
-        const double middle = 0.5 * (below + above);
-        (is_stable(middle) ? below : above) = middle;
-    }
-    return below;
+    return slowest;
 }
 
 double longest_stable_step(const dynamics::GearboxMatrices& m, Integrator integrator) {
-    return facts(integrator).growth == nullptr ? central_difference_limit(m)
-                                               : runge_kutta_limit(m, integrator).step_s;
+    const IntegratorFacts& method = facts(integrator);
+    if (method.stable_step != nullptr) {
+        return method.stable_step(m);
+    }
+    double longest = std::numeric_limits<double>::infinity();
+    for (const std::complex<double> lambda : decaying_modes(m)) {
+        longest = std::min(longest, longest_step(lambda, method));
+    }
+    return longest;
 }
 
 StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
@@ -132,7 +121,7 @@ StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
 }
 
 Integrator choose_integrator(double stable_steps_per_mesh) {
-    return stable_steps_per_mesh <= kMostExplicitSteps ? Integrator::rk4 : Integrator::sdirk3;
+    return stable_steps_per_mesh <= kMostExplicitSteps ? kUsualExplicit : kUsualImplicit;
 }
 
 double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& m,

@@ -11,27 +11,15 @@ namespace gearpod::lockstep {
 // A of (q, v)' = A (q, v) + ..., first q, then v.
 Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& matrices);
 
-struct StepLimit {
-    double step_s = 0.0;             // longest step for which no decaying mode grows
-    double slowest_decay_1_s = 0.0;  // smallest decay rate of the modes; 0 without damping
-};
-
-// Limit from the eigenvalues of M q'' + (C + G) q' + (K + K_c) q = 0: |R(h lambda)| <= 1 for every
-// eigenvalue that does not grow by itself. R(z) is the integrator's growth
-// (integrators/method.hpp), which it must have. The rigid rotation is excluded, and with it all
-// modes slower than 1e-4 of the undamped rates.
-StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& matrices,
-                            Integrator integrator = Integrator::rk4);
-
-// Longest step (s) of central differences evaluated at midpoints: M - h C - h^2/4 (K + K_c) must be
-// positive definite. At the limit, a motion changes sign at every step without decaying. It has q =
-// 0 at the steps' ends and h/2 q' at their midpoints, where the velocity from the previous step's
-// acceleration is doubled. For one mode: omega h = 2 (sqrt(1 + 4 zeta^2) - 2 zeta). Gyroscopic
-// forces do no work on it and have no influence.
-double central_difference_limit(const dynamics::GearboxMatrices& matrices);
-
-// Longest step (s) for which an explicit integrator lets no decaying mode grow.
+// Longest step (s) with which an explicit integrator lets no decaying mode grow: its own
+// stable_step(), or |R(h lambda)| <= 1 for every eigenvalue lambda of M q'' + (C + G) q' + (K +
+// K_c) q = 0 that does not grow by itself. R(z) is the integrator's growth(z)
+// (integrators/method.hpp). The rigid rotation is excluded, and with it all modes slower than 1e-4
+// of the undamped rates.
 double longest_stable_step(const dynamics::GearboxMatrices& matrices, Integrator integrator);
+
+// Smallest decay rate (1/s) of those modes; 0 without damping.
+double slowest_decay_1_s(const dynamics::GearboxMatrices& matrices);
 
 // Cause of a gearbox's stiffness: its fastest mode, and the spring or damper that dominates it.
 struct StiffPart {
@@ -46,7 +34,8 @@ StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
 // Steps per mesh period above which an explicit method costs more than an implicit one.
 inline constexpr double kMostExplicitSteps = 20e3;
 
-// rk4 if it is stable with at most kMostExplicitSteps steps per mesh period, otherwise sdirk3.
+// kUsualExplicit if it is stable with at most kMostExplicitSteps steps per mesh period, otherwise
+// kUsualImplicit.
 Integrator choose_integrator(double stable_steps_per_mesh);
 
 // Steps per mesh period for an implicit integrator. Errors of the sensor signal and of the motion

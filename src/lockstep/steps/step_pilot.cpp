@@ -21,8 +21,6 @@ class PilotIntegration {
           integrator_(make_mesh_integrator<kPilotLanes>(plan_, pilot.inputs)),
           rotation_(plan_.layout, pilot.inputs) {}
 
-    const IntegrationPlan& plan() const { return plan_; }
-
     TileState periodic_orbit() const {
         TileState state = equilibrium_state(plan_, pilot_.inputs);
         MeshRecord scratch = make_record(plan_, kPilotLanes, false);
@@ -34,14 +32,11 @@ class PilotIntegration {
 
     // Records from the periodic orbit: a healthy mesh period, those of the fault's first passage,
     // and one more.
-    std::vector<MeshRecord> records(TileState state, bool with_estimate) const {
+    std::vector<MeshRecord> records(TileState state) const {
         FaultSchedule schedule(plan_, pilot_.faults);
         std::vector<MeshRecord> all;
         const auto add = [&](const MeshOverrides& overrides) {
             all.push_back(make_record(plan_, kPilotLanes, false));
-            if (with_estimate) {
-                all.back().estimate.resize(plan_.grid.steps.size() * kEstimateRows * kLanes);
-            }
             step(overrides, state, all.back());
         };
         add({});
@@ -71,20 +66,6 @@ class PilotIntegration {
     const std::unique_ptr<const MeshIntegrator<kPilotLanes>> integrator_;
     const RigidRotation rotation_;
 };
-
-// Largest value in a row of the estimate over steps and mesh periods, per lane.
-std::vector<double> largest_in_row(const std::vector<MeshRecord>& records, std::size_t row) {
-    std::vector<double> largest(kLanes, 0.0);
-    for (const MeshRecord& record : records) {
-        for (std::size_t i = row * kLanes; i < record.estimate.size();
-             i += kEstimateRows * kLanes) {
-            for (std::size_t l = 0; l < kLanes; ++l) {
-                largest[l] = std::max(largest[l], record.estimate[i + l]);
-            }
-        }
-    }
-    return largest;
-}
 
 // Squared deviation of a lane's values from others, and of themselves from 0 or from their mean.
 struct Squares {
@@ -158,43 +139,6 @@ std::vector<Candidate> candidates(double step,
 
 }  // namespace
 
-double StepProfile::longest_step(double start, double end) const {
-    const auto after = std::upper_bound(phases_.begin(), phases_.end(), start);
-    std::size_t i =
-        after == phases_.begin() ? 0 : static_cast<std::size_t>(after - phases_.begin()) - 1;
-    double longest = longest_[i];
-    for (++i; i < phases_.size() && phases_[i] < end; ++i) {
-        longest = std::min(longest, longest_[i]);
-    }
-    return longest;
-}
-
-StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double tolerance) {
-    const PilotIntegration integration(pilot, grid);
-    const std::vector<MeshRecord> records = integration.records(integration.periodic_orbit(), true);
-    const std::vector<double> position = largest_in_row(records, 0);
-    const std::vector<double> velocity = largest_in_row(records, 1);
-    constexpr double kSafety = 0.9, kMostGrowth = 10.0, kMostCut = 100.0;
-    // The short steps next to a transition contain little information on the longest possible step.
-    const double most = kMostGrowth * *std::max_element(grid.lengths.begin(), grid.lengths.end());
-    std::vector<double> phases, longest;
-    for (std::size_t i = 0; i < grid.steps.size(); ++i) {
-        double error = 0.0;
-        for (const MeshRecord& record : records) {
-            const double* rows = record.estimate.data() + i * kEstimateRows * kLanes;
-            for (std::size_t l = 0; l < kLanes; ++l) {
-                error = std::max({error, rows[2 * kLanes + l] / position[l],
-                                  rows[3 * kLanes + l] / velocity[l]});
-            }
-        }
-        const double length = grid.steps[i].length;
-        const double desired = error > 0.0 ? kSafety * length * std::cbrt(tolerance / error) : most;
-        phases.push_back(grid.steps[i].phase);
-        longest.push_back(std::clamp(desired, length / kMostCut, most));
-    }
-    return {std::move(phases), std::move(longest)};
-}
-
 GradedChoice choose_grading(const Pilot& pilot, double step, double tolerance,
                             const std::function<PhaseGrid(const Grading&)>& grid_of) {
     constexpr int kMostHalvings = 3;
@@ -202,10 +146,9 @@ GradedChoice choose_grading(const Pilot& pilot, double step, double tolerance,
     for (int halving = 0; halving <= kMostHalvings; ++halving, step /= 2.0) {
         const PilotIntegration fine(pilot, grid_of({step / 2.0, 0.0, step / 2.0}));
         const TileState periodic_orbit = fine.periodic_orbit();
-        const std::vector<MeshRecord> reference = fine.records(periodic_orbit, false);
+        const std::vector<MeshRecord> reference = fine.records(periodic_orbit);
         const auto error_of = [&](const PhaseGrid& grid) {
-            return difference(reference,
-                              PilotIntegration(pilot, grid).records(periodic_orbit, false));
+            return difference(reference, PilotIntegration(pilot, grid).records(periodic_orbit));
         };
         best.grading = {step, 0.0, step};
         best.grid = grid_of(best.grading);

@@ -23,26 +23,6 @@ struct Pilot {
     std::function<IntegrationPlan(PhaseGrid)> plan;
 };
 
-// Longest allowed step as a function of the phase in the mesh period.
-class StepProfile {
-  public:
-    // One entry for each step, ascending phases.
-    StepProfile(std::vector<double> phases, std::vector<double> longest)
-        : phases_(std::move(phases)), longest_(std::move(longest)) {}
-
-    // Shortest of the longest allowed steps within [start, end), mesh periods.
-    double longest_step(double start, double end) const;
-
-  private:
-    std::vector<double> phases_, longest_;
-};
-
-// Profile estimated from steps on `grid` with an integrator that estimates its own error (bs3).
-// With these steps the estimate stays within `tolerance` of the largest position and of the largest
-// velocity. It is the largest over lanes, mesh periods and degrees of freedom. It grows with the
-// third power of the step.
-StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double tolerance);
-
 struct GradedChoice {
     PhaseGrid grid;
     Grading grading;

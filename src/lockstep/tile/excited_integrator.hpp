@@ -22,8 +22,8 @@ class ExcitedIntegrator {
                             MeshRecord& record) = 0;
 };
 
-// True if kernels exist. Time-varying forces need double precision and rk4 or sdirk3. Variable
-// speed needs rk4 and a step boundary on every sample.
+// True if kernels exist. Time-varying forces need double precision and an integrator that supports
+// them (IntegratorFacts). Variable speed also needs a step boundary on every sample.
 bool supports_excitation(const IntegrationPlan& plan, const Excitation& excitation);
 
 // `inputs` holds W gearboxes of the plan's kind. Plan and excitation must outlive the result.

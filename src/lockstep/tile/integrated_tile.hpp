@@ -1,20 +1,20 @@
-// Tile during time integration: its state and records, the integration to the periodic orbit, and
-// the integration of every mesh period of the span.
+// Tile during time integration: its state and records, and the integration to the periodic orbit.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/tile/excited_integrator.hpp"
 #include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/tile_inputs.hpp"
 #include "lockstep/tile/tile_lanes.hpp"
 #include "lockstep/tile/tile_records.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
@@ -24,25 +24,24 @@ namespace gearpod::lockstep {
 template <int W>
 class IntegratedTile {
   public:
-    IntegratedTile(const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
-                   const FaultCurves& faults, const TileSettings& settings)
-        : plan_(plan),
-          faults_(faults),
-          schedule_(plan, faults),
-          settings_(settings),
-          mesh_integrator_(make_mesh_integrator<W>(plan, inputs)),
-          excited_integrator_(make_excited(plan, inputs, settings.excitation)),
-          rotation_(plan.layout, inputs),
-          state_(equilibrium_state(plan, inputs)) {
-        if (dynamics::separates(plan.mesh_law)) {
-            contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
-            separation_time_.assign(static_cast<std::size_t>(plan.nodes.pairs) * W, 0.0);
-        }
-        if (settings_.with_motion) {
-            mesh_forces_.emplace(plan, inputs);
+    // What `tile` refers to must outlive the object, and `tooth_errors` and `excitation`, which may
+    // be null.
+    IntegratedTile(const TileInputs& tile, const Convergence& convergence,
+                   const ToothErrors* tooth_errors, const Excitation* excitation)
+        : tile_(tile),
+          plan_(tile.plan),
+          schedule_(tile.plan, tile.faults, tooth_errors),
+          convergence_(convergence),
+          mesh_integrator_(make_mesh_integrator<W>(plan_, tile.gearboxes)),
+          excited_integrator_(make_excited(tile, excitation)),
+          excitation_repeats_(excitation != nullptr && excitation->repeats()),
+          rotation_(plan_.layout, tile.gearboxes),
+          state_(equilibrium_state(plan_, tile.gearboxes)) {
+        if (dynamics::separates(plan_.mesh_law)) {
+            contact_.emplace(plan_, dynamics::mesh_periods_s(tile.gearboxes));
+            separation_time_.assign(static_cast<std::size_t>(plan_.nodes.pairs) * W, 0.0);
         }
         result_.status.assign(W, LaneStatus::ok);
-        result_.content.assign(static_cast<std::size_t>(settings_.recorded_meshes), kUnchanged);
     }
 
   protected:
@@ -50,49 +49,26 @@ class IntegratedTile {
     static constexpr double kDivergedMotion_m = 1.0;
 
     bool faulty(int lane) const {
-        return faults_.faulty(lane) &&
+        return tile_.faults.faulty(lane) &&
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
-    static std::unique_ptr<ExcitedIntegrator<W>> make_excited(
-        const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
-        const Excitation* excitation) {
+    static std::unique_ptr<ExcitedIntegrator<W>> make_excited(const TileInputs& tile,
+                                                              const Excitation* excitation) {
         if (excitation == nullptr) {
             return nullptr;
         }
         if constexpr (W <= 8) {
-            return make_excited_integrator<W>(plan, *excitation, inputs);
+            return make_excited_integrator<W>(tile.plan, *excitation, tile.gearboxes);
         } else {
-            throw std::invalid_argument("gearboxes that are driven unevenly march in doubles");
+            throw std::invalid_argument(
+                "time-varying excitation needs double precision, at most 8 lanes");
         }
     }
 
     // Integrates mesh period `mesh` under its input excitation.
     void integrate_mesh(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
         integrate(excited_integrator_ != nullptr, mesh, overrides, record);
-    }
-
-    // Same for mesh period k of the span; also adds the contact loss of the lanes in the mask.
-    void integrate_counting_contact(int k, const MeshOverrides& overrides, MeshRecord& record,
-                                    const LaneMask<W>& lanes) {
-        if (!contact_ || k < 0 || !counts_contact(k, settings_.contact_meshes)) {
-            integrate_mesh(k, overrides, record);
-            return;
-        }
-        record.step_states.swap(step_states_);
-        size_step_states(plan_, W, record);
-        integrate_mesh(k, overrides, record);
-        contact_->add_separation_time(record, overrides.gaps, lanes, separation_time_);
-        record.step_states.swap(step_states_);
-    }
-
-    // Clears the contact loss of superposed lanes, whose tooth pairs never separate.
-    void clear_contact_loss(const LaneMask<W>& lanes) {
-        for (int l = 0; l < W; ++l) {
-            if (lanes[static_cast<std::size_t>(l)]) {
-                fill_lane<W>(separation_time_, l, 0.0);
-            }
-        }
     }
 
     // Sets TileResult::contact_loss from this many counted mesh periods; NaN in diverged lanes.
@@ -111,41 +87,15 @@ class IntegratedTile {
         }
     }
 
-    // Same, after integrating the mesh periods of the span.
-    void add_contact_loss_of_span() {
-        int meshes = 0;
-        for (int k = 0; k < settings_.recorded_meshes; ++k) {
-            meshes += counts_contact(k, settings_.contact_meshes) ? 1 : 0;
-        }
-        add_contact_loss(meshes);
-    }
-
-    // Same for the healthy mesh period that repeats; integrates it once more.
-    void add_periodic_contact_loss() {
-        if (!contact_) {
-            return;
-        }
-        LaneMask<W> all;
-        all.fill(true);
-        MeshRecord record = new_record();
-        size_step_states(plan_, W, record);
-        state_ = periodic_orbit_;
-        integrate_periodic(record);
-        state_ = periodic_orbit_;
-        contact_->add_separation_time(record, {}, all, separation_time_);
-        add_contact_loss(1);
-    }
-
     // Integrates a healthy mesh period under an excitation that repeats every mesh period.
-    void integrate_periodic(MeshRecord& record) {
-        integrate(excited_integrator_ != nullptr && settings_.excitation->repeats(), 0, {}, record);
-    }
+    void integrate_periodic(MeshRecord& record) { integrate(excitation_repeats_, 0, {}, record); }
 
     // Integrates a mesh period, under the time-varying excitation if `excited`, and records the
-    // mesh forces if requested.
+    // mesh forces if the record holds the motion.
     void integrate(bool excited, int mesh, const MeshOverrides& overrides, MeshRecord& record) {
         const bool sized = !record.step_states.empty();
-        if (mesh_forces_ && !sized) {
+        const bool with_forces = !record.mesh_force.empty();
+        if (with_forces && !sized) {
             record.step_states.swap(step_states_);
             size_step_states(plan_, W, record);
         }
@@ -154,7 +104,10 @@ class IntegratedTile {
         } else {
             (*mesh_integrator_)(overrides, state_, record);
         }
-        if (mesh_forces_) {
+        if (with_forces) {
+            if (!mesh_forces_) {
+                mesh_forces_.emplace(plan_, tile_.gearboxes);
+            }
             mesh_forces_->write(overrides, record);
             if (!sized) {
                 record.step_states.swap(step_states_);
@@ -164,7 +117,7 @@ class IntegratedTile {
         rotation_.remove(state_);
     }
 
-    MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
+    MeshRecord new_record(bool with_motion) const { return make_record(plan_, W, with_motion); }
 
     // Distance of two states relative to the motion. Velocities are weighted at the sensor's band
     // edge, and filtered accelerations by the largest recorded one.
@@ -209,7 +162,7 @@ class IntegratedTile {
     }
 
     // Sets the status of lanes that did not converge to their periodic orbit within max_meshes.
-    void mark_not_converged(const std::array<bool, W>& converged) {
+    void mark_not_converged(const LaneMask<W>& converged) {
         for (std::size_t l = 0; l < W; ++l) {
             if (!converged[l]) {
                 result_.status[l] = LaneStatus::not_converged;
@@ -217,13 +170,14 @@ class IntegratedTile {
         }
     }
 
-    // Integrates until the mesh period of every lane repeats the previous one, and keeps that one.
-    void converge_to_periodic_orbit() {
-        result_.records.push_back(new_record());
+    // Integrates until the mesh period of every lane repeats the previous one, and keeps that one
+    // as record 0. Returns the lanes that converged.
+    LaneMask<W> converge_to_periodic_orbit(bool with_motion) {
+        result_.records.push_back(new_record(with_motion));
         periodic_orbit_ = state_;
-        MeshRecord record = new_record();
-        std::array<bool, W> converged{};
-        for (int mesh = 0; mesh < settings_.max_meshes; ++mesh) {
+        MeshRecord record = new_record(with_motion);
+        LaneMask<W> converged{};
+        for (int mesh = 0; mesh < convergence_.max_meshes; ++mesh) {
             const TileState before = state_;
             integrate_periodic(record);
             LaneMask<W> unconverged;
@@ -240,7 +194,7 @@ class IntegratedTile {
                     mark_diverged(l);
                 }
                 const bool done =
-                    lost || distance(state_, before, record, l) <= settings_.tolerance;
+                    lost || distance(state_, before, record, l) <= convergence_.tolerance;
                 converged[static_cast<std::size_t>(l)] = done;
                 any_pending = any_pending || !done;
             }
@@ -248,80 +202,27 @@ class IntegratedTile {
                 break;
             }
         }
-        converged_ = converged;
-        // Separating teeth need not have a periodic motion, and full integration does not require
-        // one.
-        const bool may_be_aperiodic =
-            settings_.recorded_meshes > 0 && dynamics::separates(plan_.mesh_law);
-        if (!may_be_aperiodic) {
-            mark_not_converged(converged);
-        }
         state_ = periodic_orbit_;
+        return converged;
     }
 
-    // Appends the record of mesh period k of the span.
-    MeshRecord& add_record(int k) {
-        result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
-        return result_.records.emplace_back(new_record());
-    }
-
-    MeshRecord& record_of(int k) {
-        return result_
-            .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
-    }
-
-    // Integrates every mesh period of the span. Each goes into its own record, or to
-    // settings_.on_record if `streamed`.
-    void integrate_span(bool streamed) {
-        MeshRecord scratch = new_record();
-        const auto keep_state = [&] {
-            if (settings_.keep_states) {
-                result_.states.push_back(state_);
-            }
-        };
-        LaneMask<W> all;
-        all.fill(true);
-        for (int k = -settings_.run_in_meshes; k < settings_.recorded_meshes; ++k) {
-            keep_state();
-            integrate_counting_contact(k, schedule_.all_overrides(k),
-                                       k < 0 || streamed ? scratch : add_record(k), all);
-            if (k >= 0 && streamed) {
-                settings_.on_record(k, scratch);
-            }
-        }
-        keep_state();
-        for (int l = 0; l < W; ++l) {
-            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
-                mark_diverged(l);
-            }
-        }
-    }
-
-    // Passes the kept records to settings_.on_record and discards them.
-    void record_sensor_response() {
-        for (int k = 0; k < settings_.recorded_meshes; ++k) {
-            settings_.on_record(k, record_of(k));
-        }
-        result_.records.resize(1);
-        std::ranges::fill(result_.content, kUnchanged);
-    }
-
+    const TileInputs tile_;
     const IntegrationPlan& plan_;
-    const FaultCurves& faults_;
     FaultSchedule schedule_;
-    const TileSettings& settings_;
+    const Convergence convergence_;
     const std::unique_ptr<const MeshIntegrator<W>> mesh_integrator_;
     const std::unique_ptr<ExcitedIntegrator<W>>
         excited_integrator_;  // null for a steady excitation
+    const bool excitation_repeats_;
     const RigidRotation rotation_;
-    std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
+    std::optional<MeshForces<W>> mesh_forces_;  // present once a record holds motions
     std::optional<ToothContact> contact_;       // present if teeth can separate
     // sums of ToothContact::add_separation_time over the counted mesh periods
     machine::AlignedVector separation_time_;
-    machine::AlignedVector step_states_;  // MeshRecord::step_states of the counted mesh periods
+    // MeshRecord::step_states of mesh periods whose contact loss or mesh forces are computed
+    machine::AlignedVector step_states_;
     TileState state_;
     TileState periodic_orbit_;  // healthy periodic orbit at an integer phase
-    LaneMask<W> converged_{};   // lanes that converged to that orbit
     TileResult result_;
 };
 

@@ -16,8 +16,8 @@ struct MeshForces<W>::Model {
     using Lanes = MeshForces<W>::Lanes;
     using Mesh = Law;
     using Pairs = typename Law::template Pairs<dynamics::kMaxPairs, W, double>;
-    static const double* mesh_damping_factor(const Lanes& lanes, int pair) {
-        return lanes.damping_factor[pair];
+    static const auto& mesh_damping(const Lanes& lanes, int pair) {
+        return lanes.mesh_damping[pair];
     }
 };
 
@@ -31,8 +31,8 @@ MeshForces<W>::MeshForces(const IntegrationPlan& plan,
     }
     for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
         for (std::size_t l = 0; l < W; ++l) {
-            lanes_.damping_factor[pair][l] =
-                dynamics::mesh_damping_factor(plan.layout, inputs[l], pair);
+            lanes_.mesh_damping[pair].set(static_cast<int>(l),
+                                          dynamics::mesh_damping(plan.layout, inputs[l], pair));
         }
         const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, pair);
         row_.emplace_back(row.begin(), row.end());

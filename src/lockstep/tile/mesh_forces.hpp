@@ -32,7 +32,7 @@ class MeshForces {
 
     struct Lanes {
         alignas(64) double mesh_period[W], backlash[W];
-        double damping_factor[dynamics::kMaxPairs][W];
+        dynamics::DampingLanes<W> mesh_damping[dynamics::kMaxPairs];
     };
     template <class Law>
     struct Model;

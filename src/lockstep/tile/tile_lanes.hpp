@@ -42,13 +42,14 @@ double largest_difference(const machine::AlignedVector& a, const machine::Aligne
 template <int W>
 void copy_lanes(const machine::AlignedVector& from, machine::AlignedVector& to,
                 const LaneMask<W>& lanes) {
-    for (std::size_t row = 0; row < from.size(); row += W) {
+    for (std::size_t row = 0; row < to.size(); row += W) {
         for (std::size_t l = 0; l < W; ++l) {
             to[row + l] = lanes[l] ? from[row + l] : to[row + l];
         }
     }
 }
 
+// Copies what `to` holds; `from` may hold the motion in addition.
 template <int W>
 void copy_lanes(const MeshRecord& from, MeshRecord& to, const LaneMask<W>& lanes) {
     copy_lanes<W>(from.acceleration, to.acceleration, lanes);

@@ -1,6 +1,5 @@
 #include "signals/sensor/sensor_response.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "signals/sensor/sensor_response_kernel.hpp"

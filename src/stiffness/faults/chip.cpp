@@ -50,7 +50,6 @@ ToothChip::ToothChip(const gears::MeshGeometry& geometry, double face_width_m, i
       which_(which),
       depth_m_(depth_m),
       end_(end),
-      contact_ratio_(geometry.contact_ratio()),
       contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which))),
       contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which))),
       foot_axial_(profile_.section(profile_.involute_root()).axial) {

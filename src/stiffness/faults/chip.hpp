@@ -61,7 +61,6 @@ class ToothChip : public ToothFaultFamily {
     int which_;
     std::optional<double> depth_m_;
     FaceEnd end_;
-    double contact_ratio_;
     double contact_start_, contact_rate_;  // involute angle of the contact: start + rate tau
     double foot_axial_ = 0, height_ = 0;
 };

@@ -14,7 +14,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kPoints = 12;
+constexpr int kPitPoints = 12;
 
 // Roll angle at a distance along the profile from the base circle: the distance is R_b roll^2 / 2.
 double roll_at(double base_radius, double arc) {
@@ -77,7 +77,7 @@ class PittingFault : public ToothFault {
         for_panels(
             from, to, [&](double u) { return thickness_of(profile, u); },
             [&](double begin, double end) {
-                for_gauss_points<kPoints>(begin, end, [&](double weight, double u) {
+                for_gauss_points<kPitPoints>(begin, end, [&](double weight, double u) {
                     add_section(weight, profile.section(u), lost);
                 });
             });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
 
 namespace gearpod::stiffness {
 

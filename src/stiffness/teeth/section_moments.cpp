@@ -8,7 +8,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kPoints = 12;
+constexpr int kGaussPoints = 12;
 // Half the points suffice on panels on which the thickness changes by less than kEven, because the
 // pole of 1 / t^3 is far from them.
 constexpr int kFewPoints = 6;
@@ -72,7 +72,7 @@ void SectionSweep::add_lengthening() {
     };
     const double axial = moments_.axial;
     for_panels(root, root - length, thickness, [&](double from, double to) {
-        for_gauss_points<kPoints>(
+        for_gauss_points<kGaussPoints>(
             from, to, [&](double weight, double xi) { add_section(weight, xi, thickness(xi), 1); });
     });
     moments_.axial = axial;
@@ -100,7 +100,7 @@ void SectionSweep::advance(double to, bool cracked) {
         if (ratio < kEven && 1 < kEven * ratio && std::abs(from - until) < kShort_rad)
             for_gauss_points<kFewPoints>(from, until, add);
         else
-            for_gauss_points<kPoints>(from, until, add);
+            for_gauss_points<kGaussPoints>(from, until, add);
     });
     u_ = to;
 }

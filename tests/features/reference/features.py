@@ -160,6 +160,7 @@ def sensor_features(y, healthy):
         "sideband_level": sidebands / rms(about_mean),
         "frms": rms((carrier - np.mean(carrier, axis=0)).ravel()),
         "nsds": np.sum(np.maximum(0, s - s_healthy)[1:]) / np.sum(s_healthy[1:]),
+        "spectral_kurtosis": spectral_kurtosis(parts["residual"], ZP),
     }
     for name, part in (("na4", "residual"), ("nb4", "envelope")):
         x = parts[part]
@@ -169,6 +170,17 @@ def sensor_features(y, healthy):
     out |= windows("sun_", best_teeth(y, ZS, ZR), False)
     out |= windows("ring_", best_teeth(y, ZR, ZP), True)
     return out
+
+
+def spectral_kurtosis(residual, teeth):
+    """Largest value over the bands of Hann frames of one mesh period that overlap by half."""
+    starts = np.arange(2 * teeth) * P // 2
+    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(P) / P)
+    frames = window * residual[(starts[:, None] + np.arange(P)) % len(residual)]
+    power = np.abs(np.fft.fft(frames, axis=1)[:, 1 : (P + 1) // 2]) ** 2
+    mean = np.mean(power, axis=0)
+    kurtosis = np.mean(power**2, axis=0) / mean**2 - 2
+    return np.max(kurtosis[mean > 1e-12 * np.max(mean)])
 
 
 def columns(path):

@@ -50,7 +50,7 @@ struct TwoShafts {
         }
         in.motor_inertia_kg_m2 = 2e-3;
         in.load_inertia_kg_m2 = 1e-2;
-        in.mesh_damping = 1e3;
+        in.mesh_damping[0] = 1e3;
         in.mesh_period_s = kPeriod;
     }
 };

@@ -1,15 +1,12 @@
 // Checks the explicit integrators' order on a smooth stiffness, across contact transitions with a
-// node on each, and without such nodes; and the error estimate of bs3.
+// node on each, and without such nodes.
 #include <catch2/catch.hpp>
-#include <complex>
-#include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
-#include "tests/lockstep/pair_of_masses.hpp"
 
 namespace test_explicit_order {
 
@@ -146,46 +143,6 @@ TEST_CASE("A step of nearly zero length leaves an explicit integration unchanged
             CHECK(largest_difference(a.record.acceleration, b.record.acceleration) <
                   1e-4 * largest(a.record.acceleration));
         }
-    }
-}
-
-TEST_CASE("The error estimate of bs3 is the difference of its two solutions") {
-    // Writes d'' = -w^2 d as z' = i w z, z = d + i d'/w: one step by the pair's printed
-    // coefficients.
-    using Complex = std::complex<double>;
-    test::PairOfMasses pair(dynamics::MeshLaw::linear, 4, 4e-5, 0.0, Integrator::bs3);
-    pair.plan.grid.stage_nodes.push_back(1.0);
-    const std::size_t nodes = pair.plan.grid.steps.size() * 4;
-    pair.plan.nodes.stiffness.clear();
-    pair.plan.nodes.damping_shape.clear();
-    for (std::size_t i = 0; i < nodes; ++i) {
-        pair.plan.nodes.stiffness.insert(pair.plan.nodes.stiffness.end(),
-                                         {test::PairOfMasses::kStiffness, 0.0});
-        pair.plan.nodes.damping_shape.insert(pair.plan.nodes.damping_shape.end(), {1.0, 0.0});
-    }
-    // The masses move in opposite directions, the planet more.
-    const double share = test::PairOfMasses::kMass / test::PairOfMasses::kPlanet;
-    pair.state.q[2] = 1e-6 * test::PairOfMasses::kMass / test::PairOfMasses::kSun;
-    pair.state.q[3] = 1e-6 * share;
-    const dynamics::GearboxInputs inputs = pair.in;
-    MeshRecord record = make_record(pair.plan, 1, false);
-    record.estimate.resize(4 * kEstimateRows);
-    (*make_mesh_integrator<1>(pair.plan, std::span(&inputs, 1)))({}, pair.state, record);
-
-    const double w = pair.natural_rad_s(), h = 1e-5;
-    Complex z = 1e-6;
-    for (std::size_t step = 0; step < 4; ++step) {
-        const Complex rate(0.0, -w);
-        const Complex k1 = rate * z, k2 = rate * (z + h / 2 * k1), k3 = rate * (z + 0.75 * h * k2);
-        const Complex third = z + h * (2.0 / 9 * k1 + 1.0 / 3 * k2 + 4.0 / 9 * k3);
-        const Complex k4 = rate * third;
-        const Complex second = z + h * (7.0 / 24 * k1 + 1.0 / 4 * k2 + 1.0 / 3 * k3 + 1.0 / 8 * k4);
-        z = third;
-        const double* rows = record.estimate.data() + step * kEstimateRows;
-        CHECK(rows[0] == Approx(share * std::abs(third.real())).epsilon(1e-6));
-        CHECK(rows[1] == Approx(share * w * std::abs(third.imag())).epsilon(1e-6));
-        CHECK(rows[2] == Approx(share * std::abs((third - second).real())).epsilon(1e-6));
-        CHECK(rows[3] == Approx(share * w * std::abs((third - second).imag())).epsilon(1e-6));
     }
 }
 

@@ -1,7 +1,6 @@
 // Checks the implicit integrators against a much finer integration by another method, a conserved
 // energy and each other's bits.
 #include <catch2/catch.hpp>
-#include <numeric>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
@@ -55,11 +54,11 @@ std::vector<double> column(const machine::AlignedVector& values, std::size_t lan
 // The record of a tile of eight, recomputed from tiles of W.
 template <int W, class Faults>
 void check_lanes(const IntegrationPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
-                 const Faults& faults, const TileSettings& settings, std::size_t record,
+                 const Faults& faults, const Solution& solution, std::size_t record,
                  const TileResult& eight) {
     for (std::size_t first = 0; first < 8; first += W) {
         const TileResult tile =
-            run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), settings);
+            run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), solution);
         for (std::size_t l = 0; l < W; ++l) {
             const MeshRecord &a = tile.records[record], &b = eight.records[record];
             CHECK(column(a.acceleration, l, W) == column(b.acceleration, first + l, 8));
@@ -157,12 +156,12 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
     dynamics::PlanetaryInputs train = LiangTrain::instance().inputs(20.0);
     std::fill(std::begin(train.bearing_damping_N_s_m), std::end(train.bearing_damping_N_s_m), 0.0);
     std::fill(std::begin(train.force_N), std::end(train.force_N), 0.0);
-    train.support_damping_N_s_m = train.mesh_damping = 0.0;
+    train.support_damping_N_s_m = train.mesh_damping[0] = 0.0;
     dynamics::FixedShaftInputs stage = TianGearbox::instance().inputs();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
         stage.bearing_damping_N_s_m[g] = stage.coupling_damping_N_m_s_rad[g] = 0.0;
     }
-    stage.mesh_damping = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
+    stage.mesh_damping[0] = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
 
     IntegrationPlan planetary =
         liang_plan(1200, dynamics::Motion::translational_torsional, Integrator::newmark);
@@ -184,10 +183,10 @@ TEST_CASE("Newmark conserves the energy of an undamped, unloaded gearbox of cons
     }
 }
 
-TEST_CASE("Generalized-alpha damps modes that its steps cannot resolve") {
+TEST_CASE("Generalized-alpha and Bathe's method damp modes that their steps cannot resolve") {
     // An undamped stage a million times stiffer than Tian's, in 60 steps of many periods each.
-    // Newmark's method conserves its energy; here a factor of rho^2 per step remains (2e-12 in
-    // all), after an overshoot in the first step.
+    // Newmark's method conserves its energy. With generalized-alpha a factor of rho^2 per step
+    // remains (2e-12 in all), after an overshoot in the first step; with Bathe's method far less.
     const auto& gearbox = TianGearbox::instance();
     dynamics::FixedShaftInputs in = gearbox.inputs();
     for (const auto g : {dynamics::pinion, dynamics::gear}) {
@@ -195,8 +194,9 @@ TEST_CASE("Generalized-alpha damps modes that its steps cannot resolve") {
         in.bearing_stiffness_N_m[g] *= 1e6;
         in.coupling_stiffness_N_m_rad[g] *= 1e6;
     }
-    in.mesh_damping = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
-    for (const auto integrator : {Integrator::generalized_alpha, Integrator::newmark}) {
+    in.mesh_damping[0] = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
+    for (const auto integrator :
+         {Integrator::generalized_alpha, Integrator::bathe, Integrator::newmark}) {
         IntegrationPlan plan = gearbox.plan(20, 60, integrator);
         plan.grid = make_phase_grid(20, 60, {});
         plan.grid.stage_nodes = stage_nodes(integrator);
@@ -222,15 +222,15 @@ TEST_CASE("Implicit integrators converge to the periodic orbit of Runge-Kutta") 
     const auto& train = LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> one{train.inputs(10.0)};
     const auto full = dynamics::Motion::translational_torsional;
-    const TileResult exact =
-        run_tile<1>(liang_plan(4800, full, Integrator::rk4), one, train.no_fault(1), {});
+    const TileResult exact = run_tile<1>(liang_plan(4800, full, Integrator::rk4), one,
+                                         train.no_fault(1), PeriodicSolution{});
     double largest = 0.0;
     for (const double a : exact.records[0].acceleration) {
         largest = std::max(largest, std::abs(a));
     }
     for (const Integrator integrator : kImplicitOnes) {
-        const TileResult tile =
-            run_tile<1>(liang_plan(4800, full, integrator), one, train.no_fault(1), {});
+        const TileResult tile = run_tile<1>(liang_plan(4800, full, integrator), one,
+                                            train.no_fault(1), PeriodicSolution{});
         REQUIRE(tile.status[0] == LaneStatus::ok);
         CHECK(largest_difference(tile.records[0].acceleration, exact.records[0].acceleration) <
               2e-3 * largest);
@@ -246,20 +246,18 @@ TEST_CASE(
     for (int l = 0; l < 8; ++l) {
         inputs.push_back(train.inputs(10.0 + l, 1e8 * (0.8 + 0.05 * l)));
     }
-    TileSettings settings;
-    settings.max_meshes = 4;
+    const FullSolution solution{.convergence = {.max_meshes = 4}, .span = {.meshes = 6}};
     for (const Integrator integrator : kImplicitOnes) {
         const IntegrationPlan plan =
             liang_plan(240, dynamics::Motion::translational_torsional, integrator);
-        settings.recorded_meshes = 6;
         const auto cracks = [&](std::size_t first, std::ptrdiff_t count) {
             const auto depth = depths.begin() + static_cast<std::ptrdiff_t>(first);
             return train.ring_side_cracks({depth, depth + count});
         };
         const auto faults = cracks(0, 8);
-        const TileResult wide = run_tile<8>(plan, inputs, faults, settings);
-        check_lanes<4>(plan, inputs, cracks, settings, 5, wide);
-        check_lanes<1>(plan, inputs, cracks, settings, 5, wide);
+        const TileResult wide = run_tile<8>(plan, inputs, faults, solution);
+        check_lanes<4>(plan, inputs, cracks, solution, 5, wide);
+        check_lanes<1>(plan, inputs, cracks, solution, 5, wide);
         const machine::InstructionSet best = machine::best_instruction_set();
         for (const auto set :
              {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
@@ -267,8 +265,8 @@ TEST_CASE(
                 continue;
             }
             machine::use_instruction_set(set);
-            const TileResult other = run_tile<8>(plan, inputs, faults, settings);
-            check_lanes<4>(plan, inputs, cracks, settings, 5, wide);
+            const TileResult other = run_tile<8>(plan, inputs, faults, solution);
+            check_lanes<4>(plan, inputs, cracks, solution, 5, wide);
             machine::use_instruction_set(best);
             CHECK(other.records[5].acceleration == wide.records[5].acceleration);
             CHECK(other.records[5].te == wide.records[5].te);
@@ -347,13 +345,11 @@ TEST_CASE("Implicit and explicit integration of separating meshes agree") {
     }
     for (const Integrator integrator : kImplicitOnes) {
         const IntegrationPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
-        TileSettings settings;
-        settings.max_meshes = 1;
-        settings.recorded_meshes = 3;
-        const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), settings);
+        const FullSolution solution{.convergence = {.max_meshes = 1}, .span = {.meshes = 3}};
+        const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), solution);
         const auto healthy = [&](std::size_t, int count) { return gearbox.no_fault(count); };
-        check_lanes<4>(plan, lanes, healthy, settings, 2, wide);
-        check_lanes<1>(plan, lanes, healthy, settings, 2, wide);
+        check_lanes<4>(plan, lanes, healthy, solution, 2, wide);
+        check_lanes<1>(plan, lanes, healthy, solution, 2, wide);
     }
 }
 

@@ -10,7 +10,6 @@
 #include "tests/lockstep/pair_of_masses.hpp"
 
 namespace test_mesh_laws {
-
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using dynamics::MeshLaw;
@@ -206,12 +205,12 @@ TEST_CASE("A loaded train that never separates keeps the linear integration's bi
         const auto faults = train.ring_side_cracks(depths);
         const auto cracks_of_four = train.ring_side_cracks({depths.begin() + 4, depths.end()});
         const auto trains = eight_trains(1e-5);
-        const TileResult linear = run_tile<8>(plan, trains, faults, {});
+        const TileResult linear = run_tile<8>(plan, trains, faults, PeriodicSolution{});
         for (const auto law : {MeshLaw::with_error, MeshLaw::separating}) {
             plan.mesh_law = law;
-            const TileResult other = run_tile<8>(plan, trains, faults, {});
+            const TileResult other = run_tile<8>(plan, trains, faults, PeriodicSolution{});
             const TileResult four =
-                run_tile<4>(plan, std::span(trains).last(4), cracks_of_four, {});
+                run_tile<4>(plan, std::span(trains).last(4), cracks_of_four, PeriodicSolution{});
             CHECK(other.content == linear.content);
             REQUIRE(other.records.size() == linear.records.size());
             for (std::size_t r = 0; r < linear.records.size(); ++r) {
@@ -383,7 +382,7 @@ TEST_CASE("From a far start a loaded train converges to the periodic orbit reach
     plan.mesh_law = MeshLaw::separating;
     const dynamics::GearboxInputs inputs = train.inputs(10.0);
     const TileResult periodic_orbit =
-        run_tile<1>(plan, std::span(&inputs, 1), train.no_fault(1), {});
+        run_tile<1>(plan, std::span(&inputs, 1), train.no_fault(1), PeriodicSolution{});
     TileState state;
     state.q.assign(7, 0.0);
     state.v.assign(7, 0.0);
@@ -398,5 +397,4 @@ TEST_CASE("From a far start a loaded train converges to the periodic orbit reach
         CHECK(record.te[i] == Approx(periodic_orbit.records[0].te[i]).epsilon(1e-6));
     }
 }
-
 }  // namespace test_mesh_laws

@@ -97,7 +97,7 @@ class ToothByTooth {
                  const ToothErrors& errors, std::size_t lane, double crack_m)
         : plan_(plan), in_(in), errors_(errors), lane_(lane) {
         auto bare = in;
-        bare.mesh_damping = 0.0;
+        bare.mesh_damping[0] = 0.0;
         matrices_ = dynamics::assemble(plan.layout, bare, std::vector<double>(8, 0.0));
         inverse_mass_ = dynamics::inverse(matrices_.mass);
         for (int pair = 0; pair < 8; ++pair) {
@@ -167,8 +167,8 @@ class ToothByTooth {
         }
         lost += any_gap && pressed > 0.0 ? 1 : 0;
         open += pressed > 0.0 ? 0 : 1;
-        const double c = dynamics::mesh_damping_factor(plan_.layout, in_, pair) *
-                         dynamics::mesh_damping_shape(dynamics::MeshDamping::ratio, total);
+        const double c = dynamics::mesh_damping_N_s_m(
+            dynamics::MeshDamping::ratio, dynamics::mesh_damping(plan_.layout, in_, pair), total);
         return pressed > 0.0 ? pressed + c * rate : 0.0;
     }
 
@@ -214,8 +214,7 @@ Eigen::VectorXd lane_of(const machine::AlignedVector& values, std::size_t lane) 
 TEST_CASE("Tooth pairs without errors act as one mesh that separates") {
     const auto& train = LiangTrain::instance();
     const auto integrator =
-        GENERATE(Integrator::rk4, Integrator::bs3, Integrator::newmark, Integrator::sdirk3,
-                 Integrator::generalized_alpha, Integrator::central_difference);
+        GENERATE(from_range(all_integrators().begin(), all_integrators().end()));
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
         const auto faults = train.ring_side_cracks(kDepths);
@@ -248,8 +247,7 @@ TEST_CASE("Teeth with errors move as in an independent integration, in and out o
     // mesh does.
     for (const auto& [load, rms_m] : {std::pair{1.0, 1e-6}, std::pair{0.33, 3e-6}}) {
         const ToothErrors errors = random_errors(train.pairs, rms_m, with_slopes);
-        FaultCurves faults = train.ring_side_cracks(kDepths);
-        faults.tooth_errors = &errors;
+        const FaultCurves faults = train.ring_side_cracks(kDepths);
         const auto trains = light_trains(load, 10.0);
         for (const auto& [integrator, tolerance] :
              {std::pair{Integrator::rk4, 1e-6}, std::pair{Integrator::sdirk3, 1e-5},
@@ -257,7 +255,7 @@ TEST_CASE("Teeth with errors move as in an independent integration, in and out o
               std::pair{Integrator::central_difference, 1e-3}}) {
             const IntegrationPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400,
                                                   dynamics::Motion::translational_torsional);
-            FaultSchedule schedule(plan, faults);
+            FaultSchedule schedule(plan, faults, &errors);
             TileState state = equilibrium_state(plan, trains);
             const TileState start = state;
             MeshRecord record = make_record(plan, 8, false);
@@ -290,14 +288,13 @@ TEST_CASE("Teeth with errors move as in an independent integration, in and out o
 TEST_CASE("Kernels for varying forces, variable speed and single precision treat separate teeth") {
     const auto& train = LiangTrain::instance();
     const ToothErrors errors = random_errors(train.pairs, 1e-6, true);
-    FaultCurves faults = train.ring_side_cracks(kDepths);
-    faults.tooth_errors = &errors;
+    const FaultCurves faults = train.ring_side_cracks(kDepths);
     const auto trains = light_trains(1.0, 10.0);
     const auto full = dynamics::Motion::translational_torsional;
     const auto end_of = [&](const IntegrationPlan& plan, auto& integrate_mesh) {
         TileState state = equilibrium_state(plan, trains);
         MeshRecord record = make_record(plan, 8, false);
-        integrate_mesh(FaultSchedule(plan, faults).all_overrides(0), state, record);
+        integrate_mesh(FaultSchedule(plan, faults, &errors).all_overrides(0), state, record);
         return state.q;
     };
     // The excitation is constant, but kernels for varying excitation run.
@@ -339,12 +336,11 @@ TEST_CASE("Kernels for varying forces, variable speed and single precision treat
     sixteen.insert(sixteen.end(), trains.begin(), trains.end());
     auto depths = kDepths;
     depths.insert(depths.end(), kDepths.begin(), kDepths.end());
-    FaultCurves both = train.ring_side_cracks(depths);
-    both.tooth_errors = &twice;
+    const FaultCurves both = train.ring_side_cracks(depths);
     TileState state = equilibrium_state(plan, sixteen);
     MeshRecord record = make_record(plan, 16, false);
-    (*make_mesh_integrator<16>(plan, sixteen))(FaultSchedule(plan, both).all_overrides(0), state,
-                                               record);
+    (*make_mesh_integrator<16>(plan, sixteen))(FaultSchedule(plan, both, &twice).all_overrides(0),
+                                               state, record);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
         const double own = expected[i / 16 * 8 + i % 8];
         CHECK(state.q[i] == Approx(own).margin(1e-4 * largest(expected)));

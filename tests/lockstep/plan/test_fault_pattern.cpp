@@ -40,6 +40,14 @@ struct Train {
     PairSet pairs;
 };
 
+PlanetPositions equal_planets(int planets) {
+    PlanetPositions turns;
+    for (int n = 0; n < planets; ++n) {
+        turns.position.push_back(static_cast<double>(n) / planets);
+    }
+    return turns;
+}
+
 // Trains with equally spaced planets, and with planets at positions where (Z_s + Z_r) psi / 2 pi is
 // an integer.
 std::vector<Train> trains() {

@@ -4,7 +4,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/plan/tooth_errors.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
-#include "lockstep/tile/quasi_static.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "stiffness/faults/broken.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
@@ -141,11 +141,9 @@ TEST_CASE(
     errors.gears[2].error_m[5] = 4e-6;  // planet 1, sun side
     FaultCurves faults;
     faults.pairs = &pairs;
-    faults.tooth_errors = &errors;
     const dynamics::GearboxInputs in = train.inputs();
-    TileSettings settings;
-    settings.recorded_meshes = 31;
-    const TileResult tile = run_quasi_static<1>(plan, std::span(&in, 1), faults, settings);
+    const QuasiStaticSolution solution{StaticSpan{.meshes = 31, .tooth_errors = &errors}};
+    const TileResult tile = run_tile<1>(plan, std::span(&in, 1), faults, solution);
     const double rise = 4e-6 / 4.0 / train.sun.base_radius();  // one path of four equal ones
     for (int k = 0; k < 31; ++k) {
         const auto& te =
@@ -157,30 +155,28 @@ TEST_CASE(
                   Approx(touches ? rise : 0.0).margin(1e-9 * rise));
         }
     }
-    settings.recorded_meshes = 0;
-    CHECK_THROWS_AS(run_quasi_static<1>(plan, std::span(&in, 1), faults, settings),
-                    std::invalid_argument);
+    plan.nodes.tooth_pairs = 0;
+    CHECK_THROWS_AS(run_tile<1>(plan, std::span(&in, 1), faults, solution), std::invalid_argument);
 }
 
 TEST_CASE("Integrated with tooth errors, lanes keep their bits; without errors nothing changes") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = error_plan(12, 1200, dynamics::Motion::torsional);
     ToothErrors errors = no_errors(train.pairs, 8);
-    FaultCurves faults =
+    const FaultCurves faults =
         train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3});
     const std::vector<dynamics::GearboxInputs> inputs(8, train.inputs(10.0));
-    TileSettings settings;
-    settings.recorded_meshes = 4;
-    const TileResult plain = run_tile<8>(plan, inputs, faults, settings);
-    faults.tooth_errors = &errors;
-    const TileResult none = run_tile<8>(plan, inputs, faults, settings);
-    settings.run_in_meshes = 3;
+    FullSolution solution{.span = {.meshes = 4}};
+    const TileResult plain = run_tile<8>(plan, inputs, faults, solution);
+    solution.tooth_errors = &errors;
+    const TileResult none = run_tile<8>(plan, inputs, faults, solution);
+    solution.span.run_in_meshes = 3;
     for (std::size_t g = 0; g < errors.gears.size(); ++g) {
         for (std::size_t i = 0; i < errors.gears[g].error_m.size(); ++i) {
             errors.gears[g].error_m[i] = 1e-6 * std::sin(static_cast<double>(13 * g + i));
         }
     }
-    const TileResult wide = run_tile<8>(plan, inputs, faults, settings);
+    const TileResult wide = run_tile<8>(plan, inputs, faults, solution);
     for (std::size_t r = 0; r < plain.records.size(); ++r) {
         CHECK(none.records[r].te == plain.records[r].te);
         CHECK(none.records[r].acceleration == plain.records[r].acceleration);
@@ -195,8 +191,8 @@ TEST_CASE("Integrated with tooth errors, lanes keep their bits; without errors n
         FaultCurves one = train.no_fault(1);
         one.pattern = faults.pattern;
         one.curve[0][0] = faults.curve[0][l];
-        one.tooth_errors = &own;
-        const TileResult narrow = run_tile<1>(plan, std::span(inputs).first(1), one, settings);
+        solution.tooth_errors = &own;
+        const TileResult narrow = run_tile<1>(plan, std::span(inputs).first(1), one, solution);
         for (std::size_t r = 1; r < narrow.records.size(); ++r) {
             for (std::size_t i = 0; i < 12; ++i) {
                 CHECK(narrow.records[r].te[i] == wide.records[r].te[8 * i + l]);
@@ -242,10 +238,9 @@ TEST_CASE(
     for (const std::size_t l : {2U, 6U}) {
         faults.curve[0][l] = stiffness::faulty_mesh(mesh, family.at(0.5));
     }
-    faults.tooth_errors = &errors;
-    TileSettings settings;
-    settings.recorded_meshes = 7;
-    const TileResult tile = run_quasi_static<8>(plan, inputs, faults, settings);
+    const TileResult tile =
+        run_tile<8>(plan, inputs, faults,
+                    QuasiStaticSolution{StaticSpan{.meshes = 7, .tooth_errors = &errors}});
     int alone = 0;
     for (int mesh_period = 2; mesh_period < 6; ++mesh_period) {
         const auto& te = tile.records[static_cast<std::size_t>(

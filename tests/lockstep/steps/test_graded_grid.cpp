@@ -1,6 +1,5 @@
 // Checks graded grids and the pilots that choose them.
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/graded_grid.hpp"
@@ -109,20 +108,6 @@ TEST_CASE("Graded steps start short after a transition, double, and end on the n
     CHECK_THROWS_AS(make_graded_grid(10, transitions, {0.0, 1.0, 1.0}), std::invalid_argument);
 }
 
-TEST_CASE("A divided grid keeps a node on every sample and no step longer than allowed") {
-    const std::vector<double> transitions = liang_transitions();
-    const auto allowed = [](double start, double) { return start < 0.5 ? 1e-3 : 3.1e-4; };
-    const PhaseGrid grid = make_divided_grid(432, transitions, allowed);
-    check_grid(grid, transitions);
-    for (const Step& step : grid.steps) {
-        CHECK(step.inside == 0);
-        // Limit of the cell between samples, which may begin before the middle.
-        CHECK(step.length <= (step.phase < 0.5 ? 1e-3 : 3.1e-4) + 1e-12);
-    }
-    CHECK_THROWS_AS(make_divided_grid(10, {}, [](double, double) { return 0.0; }),
-                    std::invalid_argument);
-}
-
 TEST_CASE("Samples inside steps are interpolated at the integrator's order") {
     const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
     const auto record_of = [&](PhaseGrid grid, Integrator integrator) {
@@ -157,29 +142,6 @@ TEST_CASE("Samples inside steps are interpolated at the integrator's order") {
     }
 }
 
-TEST_CASE(
-    "Steps by bs3's error estimate decrease with the cube root of the tolerance and meet it") {
-    const std::vector<double> transitions = liang_transitions();
-    const Pilot pilot = liang_pilot(Integrator::bs3);
-    PhaseGrid uniform = make_phase_grid(24, 9600, transitions);
-    uniform.stage_nodes = {0.0, 0.5, 0.75, 1.0};
-    const StepProfile loose = estimated_profile(pilot, uniform, 2e-5);
-    const StepProfile tight = estimated_profile(pilot, uniform, 2e-5 / 8);
-    CHECK(loose.longest_step(0.0, 1.0) / tight.longest_step(0.0, 1.0) == Approx(2.0).epsilon(0.01));
-    // The error estimate stays within the tolerance on the chosen steps.
-    PhaseGrid graded = make_divided_grid(24, transitions, [&](double start, double end) {
-        return std::min(1.0 / 4000, tight.longest_step(start, end));
-    });
-    graded.stage_nodes = uniform.stage_nodes;
-    const StepProfile again = estimated_profile(pilot, graded, 2e-5 / 8);
-    double least = 10.0;
-    for (const Step& step : graded.steps) {
-        least =
-            std::min(least, again.longest_step(step.phase, step.phase + step.length) / step.length);
-    }
-    CHECK(least > 0.8);  // relative to the steps that it would choose now
-}
-
 TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the tolerance") {
     const std::vector<double> transitions = liang_transitions();
     const Pilot pilot = liang_pilot(Integrator::sdirk3);
@@ -196,9 +158,11 @@ TEST_CASE("A pilot grades implicit steps: fewer than uniform ones, within the to
     const auto& train = LiangTrain::instance();
     const std::vector<dynamics::GearboxInputs> one{train.inputs(2.0, 1.07e8)};
     const auto faults = train.ring_side_cracks({3e-3});
-    const TileResult ours = run_tile<1>(plan_of(choice.grid, Integrator::sdirk3), one, faults, {});
-    const TileResult exact = run_tile<1>(
-        plan_of(make_phase_grid(216, 8640, transitions), Integrator::rk4), one, faults, {});
+    const TileResult ours =
+        run_tile<1>(plan_of(choice.grid, Integrator::sdirk3), one, faults, PeriodicSolution{});
+    const TileResult exact =
+        run_tile<1>(plan_of(make_phase_grid(216, 8640, transitions), Integrator::rk4), one, faults,
+                    PeriodicSolution{});
     REQUIRE(ours.status[0] == LaneStatus::ok);
     for (std::size_t k = 0; k < ours.content.size(); ++k) {
         const auto& a = ours.records[static_cast<std::size_t>(ours.content[k])];

@@ -8,6 +8,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
+#include "tests/lockstep/integrators/order.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
@@ -27,11 +28,11 @@ dynamics::GearboxMatrices oscillator(double stiffness, double damping) {
 
 TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on the real axis") {
     const double omega = 5e4;
-    CHECK(lockstep::runge_kutta_limit(oscillator(omega * omega, 0.0)).step_s * omega ==
+    CHECK(longest_stable_step(oscillator(omega * omega, 0.0), Integrator::rk4) * omega ==
           Approx(2.0 * std::sqrt(2.0)).epsilon(1e-3));
     // Overdamped case: the fast root is close to the damping rate.
     const double rate = 1e7;
-    CHECK(lockstep::runge_kutta_limit(oscillator(1e6, rate)).step_s * rate ==
+    CHECK(longest_stable_step(oscillator(1e6, rate), Integrator::rk4) * rate ==
           Approx(2.7853).epsilon(1e-3));
 }
 
@@ -73,13 +74,13 @@ TEST_CASE("The step limit of central differences is where one mode's step begins
     const double omega = 5e4;
     for (const double zeta : {0.0, 0.01, 0.07, 0.2, 1.0, 5.0}) {
         const auto mode = oscillator(omega * omega, 2 * zeta * omega);
-        const double limit = lockstep::central_difference_limit(mode);
+        const double limit = longest_stable_step(mode, Integrator::central_difference);
         CHECK(limit * omega ==
               Approx(2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta)).epsilon(1e-9));
         CHECK(central_growth(mode, 0.999 * limit) <= 1 + 1e-9);
         CHECK(central_growth(mode, 1.001 * limit) > 1 + 1e-4);
     }
-    CHECK(std::isinf(lockstep::central_difference_limit(oscillator(0.0, 0.0))));
+    CHECK(std::isinf(longest_stable_step(oscillator(0.0, 0.0), Integrator::central_difference)));
 }
 
 TEST_CASE("The step limit of central differences holds for whole gearboxes, rotating or not") {
@@ -89,7 +90,7 @@ TEST_CASE("The step limit of central differences holds for whole gearboxes, rota
         for (const double stiffness : {2e8, 1e9}) {
             const auto m = dynamics::assemble(plan.layout, train.inputs(speedup),
                                               std::vector<double>(8, stiffness));
-            const double limit = lockstep::central_difference_limit(m);
+            const double limit = longest_stable_step(m, Integrator::central_difference);
             INFO("speed " << speedup << ", stiffness " << stiffness);
             CHECK(central_growth(m, 0.99 * limit) <= own_growth(m, limit) + 1e-6);
             CHECK(central_growth(m, 1.01 * limit) > own_growth(m, limit) + 1e-3);
@@ -98,13 +99,13 @@ TEST_CASE("The step limit of central differences holds for whole gearboxes, rota
     const auto stage =
         dynamics::assemble(dynamics::GearboxLayout(test::TianGearbox::instance().layout()),
                            test::TianGearbox::instance().inputs(), {1.1e9});
-    const double limit = lockstep::central_difference_limit(stage);
+    const double limit = longest_stable_step(stage, Integrator::central_difference);
     CHECK(central_growth(stage, 0.99 * limit) <= 1 + 1e-7);
     CHECK(central_growth(stage, 1.01 * limit) > 1 + 1e-3);
 }
 
 TEST_CASE("The slowest decay of an oscillator is half its damping rate") {
-    CHECK(lockstep::runge_kutta_limit(oscillator(1e8, 500.0)).slowest_decay_1_s == Approx(250.0));
+    CHECK(slowest_decay_1_s(oscillator(1e8, 500.0)) == Approx(250.0));
 }
 
 TEST_CASE("The stiff mode of Tian's gearbox is the motor coupling's damper; it requires sdirk3") {
@@ -116,9 +117,10 @@ TEST_CASE("The stiff mode of Tian's gearbox is the motor coupling's damper; it r
     CHECK(stiff.part == "the damper of the motor coupling");
     CHECK(stiff.motion == "pinion_u");
     CHECK(stiff.rate_1_s == Approx(5e5 * (1 / 0.0021 + 1 / 4.3659e-4)).epsilon(1e-3));
-    const StepLimit limit = runge_kutta_limit(dynamics::assemble(layout, in, {1.1e9}));
-    CHECK(limit.step_s * stiff.rate_1_s == Approx(2.7853).epsilon(1e-3));
-    CHECK(choose_integrator(in.mesh_period_s / limit.step_s) == Integrator::sdirk3);
+    const double step_s =
+        longest_stable_step(dynamics::assemble(layout, in, {1.1e9}), Integrator::rk4);
+    CHECK(step_s * stiff.rate_1_s == Approx(2.7853).epsilon(1e-3));
+    CHECK(choose_integrator(in.mesh_period_s / step_s) == Integrator::sdirk3);
 
     // A gearbox without strong dampers is stiff only by its springs and is integrated explicitly.
     const auto& train = test::LiangTrain::instance();
@@ -127,7 +129,8 @@ TEST_CASE("The stiff mode of Tian's gearbox is the motor coupling's damper; it r
     const std::vector<double> k(8, 1e9);
     CHECK(stiffest_part(plan.layout, inputs, k).part.find("the spring of planet") == 0);
     const double steps =
-        inputs.mesh_period_s / runge_kutta_limit(dynamics::assemble(plan.layout, inputs, k)).step_s;
+        inputs.mesh_period_s /
+        longest_stable_step(dynamics::assemble(plan.layout, inputs, k), Integrator::rk4);
     CHECK(choose_integrator(steps) == Integrator::rk4);
 }
 
@@ -158,11 +161,10 @@ TEST_CASE(
         const auto periodic_orbit = [&](Integrator integrator, double steps) {
             IntegrationPlan plan = gearbox.plan(50, static_cast<int>(std::ceil(steps)), integrator);
             plan.low_pass_rad_s = 2 * std::numbers::pi * low_pass_Hz;
-            return run_tile<1>(plan, stage, gearbox.no_fault(1), {}).records[0];
+            return run_tile<1>(plan, stage, gearbox.no_fault(1), PeriodicSolution{}).records[0];
         };
         const auto exact = periodic_orbit(Integrator::sdirk3, 10000);
-        for (const auto integrator :
-             {Integrator::newmark, Integrator::sdirk3, Integrator::generalized_alpha}) {
+        for (const auto integrator : test::integrators(false)) {
             const double steps =
                 implicit_steps(integrator, stage_matrices, gearbox.inputs().mesh_period_s,
                                2 * std::numbers::pi * low_pass_Hz);
@@ -178,18 +180,19 @@ TEST_CASE(
     const std::vector<dynamics::GearboxInputs> planetary{train.inputs(10.0)};
     const auto full = dynamics::Motion::translational_torsional;
     const IntegrationPlan fine = train.plan(24, 2400, full);
-    const auto exact = run_tile<1>(fine, planetary, train.no_fault(1), {}).records[0];
+    const auto exact =
+        run_tile<1>(fine, planetary, train.no_fault(1), PeriodicSolution{}).records[0];
     const auto matrices =
         dynamics::assemble(fine.layout, planetary[0], std::vector<double>(8, 1e9));
-    for (const auto integrator :
-         {Integrator::newmark, Integrator::sdirk3, Integrator::generalized_alpha}) {
+    for (const auto integrator : test::integrators(false)) {
         const double steps = implicit_steps(integrator, matrices, train.inputs(10.0).mesh_period_s,
                                             fine.low_pass_rad_s);
         IntegrationPlan plan = train.plan(24, static_cast<int>(std::ceil(steps)), full);
         plan.integrator = integrator;
         plan.grid.stage_nodes = stage_nodes(integrator);
         plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
-        const auto ours = run_tile<1>(plan, planetary, train.no_fault(1), {}).records[0];
+        const auto ours =
+            run_tile<1>(plan, planetary, train.no_fault(1), PeriodicSolution{}).records[0];
         const auto [acceleration, te] = errors(ours, exact);
         INFO("steps " << steps);
         CHECK(acceleration < 1e-3);

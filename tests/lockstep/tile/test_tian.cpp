@@ -29,10 +29,8 @@ constexpr double kLowPass_rad_s = 2 * pi * 100e3;  // above all relevant frequen
 TileResult periodic_orbit(const TianGearbox& gearbox, int steps, Integrator integrator) {
     IntegrationPlan plan = gearbox.plan(kSamples, steps, integrator);
     plan.low_pass_rad_s = kLowPass_rad_s;
-    TileSettings settings;
-    settings.with_motion = true;
     return run_tile<1>(plan, std::vector<dynamics::GearboxInputs>{gearbox.inputs()},
-                       gearbox.no_fault(1), settings);
+                       gearbox.no_fault(1), PeriodicSolution{.with_motion = true});
 }
 
 std::vector<double> along_y(const MeshRecord& record) {
@@ -158,7 +156,7 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
     for (int i = 1; i <= meshes * kSteps; ++i) {
         const double k = k_at(i);
         const Matrix kk = stiffness + k * mesh * mesh.transpose();
-        const Matrix cc = damping + in.mesh_damping * k * mesh * mesh.transpose();
+        const Matrix cc = damping + in.mesh_damping[0] * k * mesh * mesh.transpose();
         const Vector v_half = v + 0.5 * h * a, q_half = q + h * v + 0.25 * h * h * a;
         Matrix left = 0.5 * h * cc + 0.25 * h * h * kk;
         left.diagonal() += mass;
@@ -273,7 +271,7 @@ TEST_CASE(
     CHECK(least == 0.0);
 
     const TileResult tile = run_tile<1>(
-        plan, std::vector<dynamics::GearboxInputs>{gearbox.inputs()}, faults, TileSettings{});
+        plan, std::vector<dynamics::GearboxInputs>{gearbox.inputs()}, faults, PeriodicSolution{});
     REQUIRE(tile.status[0] == LaneStatus::ok);
     REQUIRE(tile.content[1] > 0);
     const auto shock = along_y(tile.records[static_cast<std::size_t>(tile.content[1])]);

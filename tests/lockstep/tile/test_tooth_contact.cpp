@@ -7,8 +7,8 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
-#include "lockstep/tile/quasi_static.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
 #include "stiffness/square_wave_mesh.hpp"
@@ -194,11 +194,9 @@ TEST_CASE("The share of time out of contact of large gaps is that of the double-
         for (std::size_t tooth = 0; tooth < 20; tooth += 2) {
             errors.gears[0].error_m[tooth * 4 + 1] = 1e-3;  // in lane 1 alone
         }
-        FaultCurves faults{&pairs, {}, {}};
-        faults.tooth_errors = &errors;
-        TileSettings settings;
-        settings.recorded_meshes = 960;
-        const TileResult tile = run_quasi_static<4>(plan, inputs, faults, settings);
+        const TileResult tile =
+            run_tile<4>(plan, inputs, FaultCurves{&pairs, {}, {}},
+                        QuasiStaticSolution{StaticSpan{.meshes = 960, .tooth_errors = &errors}});
         REQUIRE(tile.contact_loss.size() == 4);
         CHECK(tile.contact_loss[0] == 0.0);
         CHECK(tile.contact_loss[1] == Approx((ratio - 1.0) / ratio).epsilon(0.02));
@@ -233,12 +231,9 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
         }
     }
     const ToothErrors errors = wavy_errors(8);
-    FaultCurves faults = LiangTrain::instance().no_fault(8);
-    faults.tooth_errors = &errors;
-    TileSettings settings;
-    settings.recorded_meshes = 30;
-    settings.run_in_meshes = 3;
-    const TileResult wide = run_tile<8>(plan, inputs, faults, settings);
+    const FaultCurves faults = LiangTrain::instance().no_fault(8);
+    FullSolution solution{.span = {.meshes = 30, .run_in_meshes = 3}, .tooth_errors = &errors};
+    const TileResult wide = run_tile<8>(plan, inputs, faults, solution);
     REQUIRE(wide.contact_loss.size() == 8 * 8);
     CHECK(*std::ranges::max_element(wide.contact_loss) > 0.01);
     CHECK(*std::ranges::max_element(wide.contact_loss) < 1.0);
@@ -249,17 +244,17 @@ TEST_CASE("The share of time out of contact keeps its bits for any lanes and is 
                 own.gears[g].error_m[i] = errors.gears[g].error_m[8 * i + lane];
             }
         }
-        FaultCurves one = LiangTrain::instance().no_fault(1);
-        one.tooth_errors = &own;
-        const TileResult narrow =
-            run_tile<1>(plan, std::span(inputs).subspan(lane, 1), one, settings);
+        solution.tooth_errors = &own;
+        const TileResult narrow = run_tile<1>(plan, std::span(inputs).subspan(lane, 1),
+                                              LiangTrain::instance().no_fault(1), solution);
         for (std::size_t pair = 0; pair < 8; ++pair) {
             CHECK(narrow.contact_loss[pair] == wide.contact_loss[8 * pair + lane]);
         }
     }
     const IntegrationPlan linear =
         LiangTrain::instance().plan(24, 1200, dynamics::Motion::translational_torsional);
-    CHECK(run_tile<8>(linear, inputs, LiangTrain::instance().no_fault(8), {}).contact_loss.empty());
+    CHECK(run_tile<8>(linear, inputs, LiangTrain::instance().no_fault(8), PeriodicSolution{})
+              .contact_loss.empty());
 }
 
 }  // namespace test_tooth_contact

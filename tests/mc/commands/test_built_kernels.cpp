@@ -51,13 +51,4 @@ TEST_CASE("Single-precision gearboxes that do not converge are counted with sixt
     }
 }
 
-TEST_CASE("A grid for single precision is graded with sixteen lanes") {
-    const Outcome described = test::program(
-        "describe " + study("crack-in-sun.toml") + " --set numerics.precision='\"single\"'" +
-        " --set numerics.integrator='\"rk4\"' --set numerics.grid='\"graded\"'");
-    INFO(described.output);
-    CHECK(described.code == 0);
-    CHECK(described.mentions("after a transition"));
-}
-
 }  // namespace test_built_kernels

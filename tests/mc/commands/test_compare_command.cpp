@@ -1,6 +1,5 @@
 // Checks compare: which gearboxes are paired, what is refused, and zero differences of a file from
 // itself.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/mc/program.hpp"

@@ -3,12 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "features/feature.hpp"
 #include "mc/files/hdf5_data.hpp"

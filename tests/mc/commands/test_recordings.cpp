@@ -1,7 +1,6 @@
 // Checks gearpod features of many recordings, and the report on them.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>

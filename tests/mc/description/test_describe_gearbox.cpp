@@ -48,6 +48,15 @@ TEST_CASE("The description of a study fits 80 columns") {
     }
 }
 
+TEST_CASE("describe shows the graded steps of a study and the error of their pilot") {
+    const auto description = program("describe " + test::study("published/tian-fig-4-9.toml") +
+                                     " --set numerics.grid='\"graded\"'");
+    INFO(description.output);
+    CHECK(description.code == 0);
+    CHECK(description.mentions("signal error "));
+    CHECK(description.mentions(" after a transition, "));
+}
+
 TEST_CASE("describe states which damping is omitted") {
     const auto description = program(kDescribe +
                                      "--set gearbox.support_damping_N_s_m=0 --set "

@@ -1,5 +1,4 @@
 // Checks the cost forecast of `describe` for lives.
-#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "mc/description/lives_forecast.hpp"

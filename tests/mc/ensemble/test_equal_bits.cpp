@@ -3,7 +3,6 @@
 // neighbours change with the number of lanes.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "mc/study/fluctuations.hpp"

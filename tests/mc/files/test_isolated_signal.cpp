@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <new>
 
 #include "mc/files/isolated_signal.hpp"
 #include "tests/mc/program.hpp"

@@ -48,7 +48,9 @@ TEST_CASE("Few meshes are integrated for a further size of a fault") {
     const auto path = path_grid(scene);
     Realization gearbox = scene.sampler().draw({Group::graded, 5});
     gearbox.inputs.fault_size = 0.0;
-    const GearboxTile healthy = run_realizations(scene, path, {gearbox}, 1, {.keep_states = true});
+    const GearboxTile healthy =
+        run_realizations(scene, path, {gearbox}, 1,
+                         {.records = lockstep::RecordOptions{.states = true}});
     // A fault of size zero causes no change.
     const GearboxTile none =
         run_fault_perturbations(scene, {gearbox}, 1, healthy.integration.states);

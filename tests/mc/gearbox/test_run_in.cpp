@@ -1,7 +1,7 @@
 // Checks the run-in before the first recorded mesh against a much longer run-in.
 #include <catch2/catch.hpp>
 
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "tests/mc/gearbox/relative_difference.hpp"
@@ -22,14 +22,12 @@ lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
     const auto errors = draw_tooth_errors(scene, std::span(&gearbox, 1));
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.assign(static_cast<std::size_t>(scene.fault().curves()), {nullptr});
-    faults.tooth_errors = &errors.value();
-    lockstep::TileSettings settings;
-    settings.tolerance = 1e-10;
-    settings.max_meshes = scene.max_meshes();
-    settings.recorded_meshes = 1;
-    settings.run_in_meshes = run_in;
+    const lockstep::FullSolution solution{
+        .convergence = {.tolerance = 1e-10, .max_meshes = scene.max_meshes()},
+        .span = {.meshes = 1, .run_in_meshes = run_in},
+        .tooth_errors = &errors.value()};
     const lockstep::TileResult tile =
-        lockstep::run_tile<1>(scene.plan(), std::span(&inputs, 1), faults, settings);
+        lockstep::run_tile<1>(scene.plan(), std::span(&inputs, 1), faults, solution);
     REQUIRE(tile.status.front() == lockstep::LaneStatus::ok);
     return tile.records.at(static_cast<std::size_t>(tile.content.front()));
 }

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "lockstep/tile/tile.hpp"
+#include "lockstep/strategies/solution.hpp"
 #include "mc/gearbox/healthy_solution.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"
@@ -124,15 +124,14 @@ class ContactLimit {
             inputs.push_back(scene_.inputs(gearboxes.back().inputs));
         }
         const auto errors = draw_tooth_errors(scene_, gearboxes);
-        lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
-        faults.tooth_errors = &*errors;
-        lockstep::TileSettings settings;
-        settings.tolerance = 1e-10;
-        settings.max_meshes = scene_.max_meshes();
-        settings.recorded_meshes = 12;
-        settings.run_in_meshes = run_in_meshes(scene_);
-        settings.superpose = use_superposition;
-        return lockstep::run_tile<8>(scene_.plan(), inputs, faults, settings);
+        const lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
+        const lockstep::Convergence convergence{1e-10, scene_.max_meshes()};
+        const lockstep::RecordedSpan span{.meshes = 12, .run_in_meshes = run_in_meshes(scene_)};
+        const auto run = [&](const lockstep::Solution& solution) {
+            return lockstep::run_tile<8>(scene_.plan(), inputs, faults, solution);
+        };
+        return use_superposition ? run(lockstep::SuperposedSolution{*errors, convergence, span})
+                                 : run(lockstep::FullSolution{convergence, span, &*errors});
     }
 
   private:

@@ -2,7 +2,6 @@
 // crack.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "dynamics/effects/mesh_law.hpp"

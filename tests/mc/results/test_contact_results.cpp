@@ -2,7 +2,6 @@
 #include <hdf5.h>
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <limits>
 
 #include "mc/files/hdf5_data.hpp"

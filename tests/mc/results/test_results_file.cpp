@@ -11,9 +11,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "mc/files/hdf5_data.hpp"

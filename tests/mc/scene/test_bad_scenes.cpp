@@ -5,12 +5,11 @@
 
 #include "mc/study/study.hpp"
 #include "tests/mc/scene_examples.hpp"
-#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_problems.hpp"
 
 namespace test_bad_scenes {
 
 using gearpod::mc::format;
-using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;
 using namespace gearpod::tests;
 
@@ -215,10 +214,6 @@ const BadScene kBadScenes[] = {
      "[random]\nfault.chip_height_mm = { distribution = \"constant\", value = 1 }\n[sensor]",
      "random.fault.chip_height_mm", "only the size of a fault may be random"},
 };
-
-bool mentions(const Problem& problem, const std::string& words) {
-    return (problem.what + "; " + problem.remedy).find(words) != std::string::npos;
-}
 
 // The pinion of Tian's gearbox with a band of pits at that radius.
 std::string pitted(double radius_mm) {

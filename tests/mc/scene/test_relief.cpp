@@ -1,7 +1,6 @@
 // Checks tip and root relief in a study: the springs of the integration, and refused values.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <fstream>
 
 #include "lockstep/plan/tooth_errors.hpp"

@@ -1,10 +1,8 @@
 // Checks random numbers, distributions and gearboxes sampled from them.
-#include <algorithm>
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <set>
 #include <tuple>

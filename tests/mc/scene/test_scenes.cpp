@@ -1,13 +1,13 @@
 // Checks scenes of every kind of gearbox and degrees of freedom, from study text to recorded
 // response.
 #include <algorithm>
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/step_limit.hpp"
 #include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_scenes {
@@ -21,7 +21,7 @@ namespace {
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
     return mc::run_gearboxes(scene, mc::path_grid(scene), std::span(&id, 1), 1,
-                             {.with_motion = true});
+                             {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }
 
 // Text without the line that begins with `key`.
@@ -134,6 +134,14 @@ TEST_CASE("A pilot grades the steps of a study, the same in every run") {
         FAIL("accepted");
     } catch (const mc::SceneError& error) {
         CHECK(error.key() == "numerics.grid_tolerance");
+    }
+    try {
+        const Scene scene(test::study_of_text(kExampleStudy,
+                                              {"numerics.integrator=rk4", "numerics.grid=graded"}));
+        FAIL("accepted");
+    } catch (const mc::SceneError& error) {
+        CHECK(error.key() == "numerics.grid");
+        CHECK(error.remedy().find("sdirk3") != std::string::npos);
     }
 }
 

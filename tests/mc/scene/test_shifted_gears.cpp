@@ -1,5 +1,4 @@
 // Checks studies of gears with profile shift.
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

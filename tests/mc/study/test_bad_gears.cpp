@@ -5,27 +5,14 @@
 
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_problems.hpp"
 
 namespace test_bad_gears {
 
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;
-using gearpod::tests::example_with;
-
-namespace {
-
-// Line number of `marker`, 1 for the first line.
-int line_of(const std::string& text, const std::string& marker) {
-    const auto at = text.begin() + static_cast<std::ptrdiff_t>(text.find(marker));
-    return 1 + static_cast<int>(std::count(text.begin(), at, '\n'));
-}
-
-bool mentions(const Problem& problem, const std::string& words) {
-    return problem.what.find(words) != std::string::npos;
-}
-
-}  // namespace
+using namespace gearpod::tests;
 
 TEST_CASE("All gears that do not mesh are named, on the line of the angle or the smaller gear") {
     // Lengths in modules, tip circles one module from the pitch circles. True if the mate's contact

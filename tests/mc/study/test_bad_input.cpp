@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/mc/study_problems.hpp"
 
 namespace test_bad_input {
 
@@ -14,20 +14,9 @@ using gearpod::mc::Problem;
 using gearpod::mc::Problems;
 using gearpod::mc::read_study;
 using gearpod::mc::read_study_text;
-using gearpod::tests::example_with;
-using gearpod::tests::kExampleStudy;
+using namespace gearpod::tests;
 
 namespace {
-
-// Line number of `marker`, 1 for the first line; 0 if the text does not hold it.
-int line_of(const std::string& text, const std::string& marker) {
-    const std::size_t at = text.find(marker);
-    if (at == std::string::npos) {
-        return 0;
-    }
-    return 1 + static_cast<int>(
-                   std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-}
 
 struct BadFile {
     const char* from;    // text of the example to replace
@@ -116,8 +105,8 @@ const BadFile kBadFiles[] = {
      "precision", "numerics.precision",
      "\"single\" is for the integrators rk4 and central-difference, but numerics.integrator is "
      "\"sdirk3\""},
-    {"[operation]", "[numerics]\nstep_tolerance = 0\n[operation]", "step_tolerance",
-     "numerics.step_tolerance", "must be > 0 and < 1"},
+    {"[operation]", "[numerics]\ngrid_tolerance = 0\n[operation]", "grid_tolerance",
+     "numerics.grid_tolerance", "must be > 0 and < 1"},
     {"low_pass_Hz = 800", "low_pass_Hz = 2500", "low_pass", "sensor.low_pass_Hz",
      "not below half of sampling_Hz"},
     // Missing.
@@ -203,10 +192,6 @@ const BadFile kBadFiles[] = {
     {"[operation]", "[[[operation]]]", "[[[operation", "", "not valid TOML"},
     {"[operation]", "[[operation]]", "[[operation", "operation", "must be a section"},
 };
-
-bool mentions(const Problem& problem, const std::string& words) {
-    return (problem.what + "; " + problem.remedy).find(words) != std::string::npos;
-}
 
 }  // namespace
 

@@ -182,6 +182,15 @@ TEST_CASE("Spellings of earlier versions are accepted with a notice") {
     CHECK(read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
 }
 
+TEST_CASE("Keys of earlier versions are ignored with a notice") {
+    const auto former = read_study_text(kExampleStudy, "s.toml", {"numerics.step_tolerance=1e-5"});
+    REQUIRE(former.study);
+    CHECK(*former.study == study_of(kExampleStudy));
+    REQUIRE(former.notices.size() == 1);
+    CHECK(former.notices[0].key == "numerics.step_tolerance");
+    CHECK(former.notices[0].remedy == "remove it");
+}
+
 TEST_CASE("The resolved text gives the same study, bit for bit") {
     std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {

@@ -1,6 +1,5 @@
 #include "peer_runs.hpp"
 
-#include <algorithm>
 #include <variant>
 
 namespace gearpod::peers {

@@ -1,0 +1,65 @@
+#include "mc/gearbox/solution_choice.hpp"
+
+#include <utility>
+
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
+#include "mc/study/fluctuations.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+template <class T>
+const T* pointer_to(const std::optional<T>& value) {
+    return value ? &*value : nullptr;
+}
+
+lockstep::Convergence convergence(const Scene& scene) {
+    return {convergence_tolerance(scene.study()), scene.max_meshes()};
+}
+
+}  // namespace
+
+lockstep::Solution choose_solution(
+    const Scene& scene, const TileLoads& loads, const lockstep::RecordOptions& options,
+    std::function<void(int, const lockstep::MeshRecord&)> on_record) {
+    const bool periodic = scene.study().numerics.horizon == Horizon::periodic;
+    const bool quasi_static = scene.study().effects.quasi_static();
+    if (quasi_static && !periodic) {
+        return lockstep::QuasiStaticSolution{
+            lockstep::StaticSpan{scene.recorded_meshes(), options.motion_meshes,
+                                 pointer_to(loads.tooth_errors), pointer_to(loads.excitation)}};
+    }
+    if (periodic) {
+        const bool with_motion = options.motion_meshes > 0;
+        std::optional<lockstep::ConstantGravity> gravity;
+        if (loads.excitation) {
+            gravity = loads.excitation->gravity;
+        }
+        if (quasi_static) {
+            return lockstep::QuasiStaticSolution{lockstep::StaticPattern{with_motion, gravity}};
+        }
+        return lockstep::PeriodicSolution{convergence(scene), with_motion, gravity};
+    }
+    lockstep::RecordedSpan span{scene.recorded_meshes(), run_in_meshes(scene), options,
+                                std::move(on_record)};
+    if (const Superposition use = superposition(scene); use.healthy) {
+        return lockstep::SuperposedSolution{*loads.tooth_errors, convergence(scene),
+                                            std::move(span), use.faulty};
+    }
+    return lockstep::FullSolution{convergence(scene), std::move(span),
+                                  pointer_to(loads.tooth_errors), pointer_to(loads.excitation)};
+}
+
+lockstep::FaultPerturbation fault_perturbation(const Scene& scene, const TileLoads& loads,
+                                               const lockstep::SpanStates& healthy) {
+    return {healthy, convergence(scene), pointer_to(loads.tooth_errors)};
+}
+
+bool integrates_perturbation_only(const Scene& scene) {
+    const Study& study = scene.study();
+    return study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static() &&
+           !has_variable_excitation(study) && scene.recorded_meshes() == scene.span_meshes();
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,119 @@
+// Tile during the time integration of every mesh period of a span.
+#pragma once
+
+#include <algorithm>
+
+#include "lockstep/tile/integrated_tile.hpp"
+
+namespace gearpod::lockstep {
+
+template <int W>
+class SpanTile : protected IntegratedTile<W> {
+  protected:
+    // As IntegratedTile; `span` must outlive the object.
+    SpanTile(const TileInputs& tile, const Convergence& convergence, const RecordedSpan& span,
+             const ToothErrors* tooth_errors, const Excitation* excitation)
+        : Base(tile, convergence, tooth_errors, excitation), span_(span) {
+        result_.content.assign(static_cast<std::size_t>(span.meshes), kUnchanged);
+    }
+
+    // Converges to the periodic orbit, from which the span and its run-in start. Returns the lanes
+    // that converged.
+    LaneMask<W> start() {
+        const LaneMask<W> converged = converge_to_periodic_orbit(false);
+        // Separating teeth need not have a periodic motion, and full integration does not require
+        // one.
+        if (!dynamics::separates(plan_.mesh_law)) {
+            mark_not_converged(converged);
+        }
+        return converged;
+    }
+
+    bool counts_contact_in(int k) const {
+        return contact_ && k >= 0 && counts_contact(k, span_.options.motion_meshes);
+    }
+
+    // Integrates mesh period k of the span, and adds the contact loss of the lanes in the mask.
+    void integrate_counting_contact(int k, const MeshOverrides& overrides, MeshRecord& record,
+                                    const LaneMask<W>& lanes) {
+        if (!counts_contact_in(k)) {
+            integrate_mesh(k, overrides, record);
+            return;
+        }
+        record.step_states.swap(step_states_);
+        size_step_states(plan_, W, record);
+        integrate_mesh(k, overrides, record);
+        contact_->add_separation_time(record, overrides.gaps, lanes, separation_time_);
+        record.step_states.swap(step_states_);
+    }
+
+    // Clears the contact loss of superposed lanes, whose tooth pairs never separate.
+    void clear_contact_loss(const LaneMask<W>& lanes) {
+        for (int l = 0; l < W; ++l) {
+            if (lanes[static_cast<std::size_t>(l)]) {
+                fill_lane<W>(separation_time_, l, 0.0);
+            }
+        }
+    }
+
+    // Sets TileResult::contact_loss after the mesh periods of the span.
+    void add_contact_loss_of_span() {
+        int meshes = 0;
+        for (int k = 0; k < span_.meshes; ++k) {
+            meshes += counts_contact_in(k) ? 1 : 0;
+        }
+        add_contact_loss(meshes);
+    }
+
+    // True if any record of the span holds motions.
+    bool with_motion() const { return span_.options.motion_meshes > 0; }
+
+    // Appends the record of mesh period k of the span.
+    MeshRecord& add_record(int k) {
+        result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
+        return result_.records.emplace_back(new_record(k < span_.options.motion_meshes));
+    }
+
+    MeshRecord& record_of(int k) {
+        return result_
+            .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
+    }
+
+    // Integrates the run-in and every mesh period of the span. Each goes into its own record, or to
+    // RecordedSpan::on_record if `streamed`.
+    void integrate_span(bool streamed) {
+        MeshRecord scratch = new_record(streamed && with_motion());
+        const auto keep_state = [&] {
+            if (span_.options.states) {
+                result_.states.all.push_back(state_);
+            }
+        };
+        result_.states.run_in_meshes = span_.run_in_meshes;
+        LaneMask<W> all;
+        all.fill(true);
+        for (int k = -span_.run_in_meshes; k < span_.meshes; ++k) {
+            keep_state();
+            integrate_counting_contact(k, schedule_.all_overrides(k),
+                                       k < 0 || streamed ? scratch : add_record(k), all);
+            if (k >= 0 && streamed) {
+                span_.on_record(k, scratch);
+            }
+        }
+        keep_state();
+        for (int l = 0; l < W; ++l) {
+            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
+                mark_diverged(l);
+            }
+        }
+    }
+
+    const RecordedSpan& span_;
+
+    using Base = IntegratedTile<W>;
+    using Base::add_contact_loss, Base::contact_, Base::converge_to_periodic_orbit, Base::diverged,
+        Base::integrate_mesh, Base::mark_diverged, Base::mark_not_converged, Base::new_record,
+        Base::plan_, Base::result_, Base::schedule_, Base::separation_time_, Base::state_,
+        Base::step_states_;
+};
+
+}  // namespace gearpod::lockstep

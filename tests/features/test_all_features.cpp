@@ -1,0 +1,92 @@
+// Checks the table of features: its entries, and the signals that follow from their parameters.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "features/feature.hpp"
+
+namespace test_all_features {
+
+using namespace gearpod;
+using namespace gearpod::features;
+
+namespace {
+
+TEST_CASE("Every feature is registered once, with its unit, alarm side and definition") {
+    int basic = 0;
+    for (const Feature& feature : all_features()) {
+        basic += feature.basic() ? 1 : 0;
+        CHECK(find_feature(feature.name) == &feature);
+        CHECK(!feature.unit.empty());
+        CHECK(!feature.doc.empty());
+        const bool falls = feature.name == "te_fc" || feature.name == "own_te_fc";
+        CHECK((feature.alarm == AlarmSide::low) == falls);
+    }
+    CHECK(basic == 7);
+    CHECK(find_feature("te_RMS") == nullptr);
+}
+
+TEST_CASE("A feature needs the signals of its parameters") {
+    const auto needs = [](const char* name) { return find_feature(name)->needs; };
+    CHECK(needs("te_fm4").has<TeParts>());
+    CHECK(!find_feature("te_fm4")->from_sensor);
+    CHECK(!needs("te_fm4").has<TeTurn, SensorTurn, HealthyRecords>());
+    CHECK(needs("na4").has<SensorTurn>());
+    CHECK(needs("na4").has<HealthyRecords>());
+    CHECK(find_feature("na4")->from_sensor);
+    CHECK(needs("sun_window_ratio").within(SignalSet::of<ToothRms<Gear::sun>>()));
+    CHECK(needs("ring_window_m8a").overlaps(kCentralGears));
+    CHECK(!needs("window_m8a").overlaps(kCentralGears));
+    CHECK(needs("own_frms").has<FilteredSensor>());
+    CHECK(SignalSet().empty());
+    CHECK(!needs("te_rms").empty());
+}
+
+TEST_CASE("A feature of a gear uses the teeth of that gear") {
+    const std::vector<double> even(19, 2.0);
+    std::vector<double> odd(even);
+    odd[3] = 5.0;
+    FeatureInput input;
+    input.get<ToothRms<Gear::planet>>() = {even};
+    input.get<ToothMoments<Gear::planet>>() = {even, odd, odd};
+    input.get<ToothRms<Gear::sun>>() = {odd};
+    input.get<ToothMoments<Gear::sun>>() = {even, odd, even};
+    input.get<ToothRms<Gear::ring>>() = {even};
+    input.get<ToothMoments<Gear::ring>>() = {odd, even, odd};
+    const auto value = [&](const std::string& name) { return find_feature(name)->value(input); };
+    CHECK(value("window_ratio") == 1.0);
+    CHECK(value("sun_window_ratio") == 2.5);
+    CHECK(value("ring_window_ratio") == 1.0);
+    CHECK(value("window_z") == 0.0);
+    CHECK(value("sun_window_z") > 1e5);
+    CHECK(value("ring_window_z") == 0.0);
+    CHECK(value("window_kurtosis") == 1.0);
+    CHECK(value("window_crest") == 2.5);
+    CHECK(value("window_m8a") == 2.5);
+    CHECK(value("sun_window_kurtosis") == 1.0);
+    CHECK(value("sun_window_crest") == 2.5);
+    CHECK(value("sun_window_m8a") == 1.0);
+    CHECK(value("ring_window_kurtosis") == 2.5);
+    CHECK(value("ring_window_crest") == 1.0);
+    CHECK(value("ring_window_m8a") == 2.5);
+}
+
+TEST_CASE("Features compare a record with its baseline and with the change since then") {
+    const std::vector<double> now{1.0, 1.0, 3.0}, before{1.0, 1.0, 2.0}, since{1.0, 1.0, 4.0};
+    FeatureInput input, baseline, change;
+    input.baseline = &baseline;
+    input.change = &change;
+    input.get<ToothRms<Gear::planet>>() = {now};
+    baseline.get<ToothRms<Gear::planet>>() = {before};
+    change.get<ToothRms<Gear::planet>>() = {since};
+    CHECK(find_feature("window_ratio")->value(input) == 3.0);
+    CHECK(find_feature("own_window_ratio")->value(input) == 1.5);
+    CHECK(find_feature("change_window_ratio")->value(input) == 4.0);
+    CHECK(!find_feature("own_window_ratio")->basic());
+    CHECK(!find_feature("change_window_ratio")->basic());
+}
+
+}  // namespace
+
+}  // namespace test_all_features
