@@ -32,30 +32,25 @@ struct Item {
 class Simulator {
   public:
     Simulator(const Scene& scene, const RecordLengths& lengths, const SetSummary& summary)
-        : scene_(scene),
-          sampler_(scene.study()),
-          path_(path_grid(scene)),
-          lengths_(lengths),
-          summary_(summary) {}
+        : scene_(scene), path_(path_grid(scene)), lengths_(lengths), summary_(summary) {}
 
     int lanes() const { return scene_.study().numerics.lanes; }
 
     // Values [item][background][record][feature]; empty for a gearbox that failed.
     std::vector<RecordValues> run(std::span<const Item> items) const {
-        std::vector<GearboxId> ids;
-        std::vector<InstanceInputs> inputs;
+        std::vector<Realization> realizations;
         for (const Item& item : items) {
-            ids.push_back(id_of(item));
-            inputs.push_back(sampler_.sample(ids.back(), item.given.front()));
+            realizations.push_back(scene_.sampler().draw(id_of(item), item.given.front()));
             // gain and tone level are applied for each background
-            inputs.back().gain = inputs.back().tone_level = 1.0;
+            InstanceInputs& inputs = realizations.back().inputs;
+            inputs.gain = inputs.tone_level = 1.0;
         }
-        const GearboxTile tile = run_with_inputs(scene_, path_, ids, inputs, lanes(),
-                                                 {.records = lockstep::RecordOptions{}});
+        const GearboxTile tile = run_realizations(scene_, path_, std::move(realizations), lanes(),
+                                                  {.records = lockstep::RecordOptions{}});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             if (tile.status[lane] == Status::ok) {
-                values[lane] = records_of(tile, static_cast<int>(lane), items[lane], ids[lane]);
+                values[lane] = records_of(tile, static_cast<int>(lane), items[lane]);
             }
         }
         return values;
@@ -73,13 +68,13 @@ class Simulator {
     }
 
     // Records of a gearbox with each background.
-    RecordValues records_of(const GearboxTile& tile, int lane, const Item& item,
-                            const GearboxId& id) const {
+    RecordValues records_of(const GearboxTile& tile, int lane, const Item& item) const {
+        const GearboxId id = id_of(item);
         RecordValues values;
         std::vector<double> bare, tones;
         std::optional<double> exponent;
         for (std::size_t k = 0; k < item.given.size(); ++k) {
-            const InstanceInputs inputs = sampler_.sample(id, item.given[k]);
+            const InstanceInputs inputs = scene_.sampler().draw(id, item.given[k]).inputs;
             if (exponent != inputs.path_exponent) {
                 exponent = inputs.path_exponent;
                 bare = synthesize(tile, lane, *exponent, {});
@@ -93,8 +88,9 @@ class Simulator {
             values.emplace_back();
             const std::vector<int>& lengths = lengths_[item.gearbox];
             for (std::size_t record = 0; record < lengths.size(); ++record) {
-                Philox engine =
-                    gearbox_stream(scene_.study(), id, fmt::format("calibrate.{}.{}", k, record));
+                Philox engine = gearbox_stream(scene_.study(), id,
+                                               with_suffix(StreamPurpose::calibration_record,
+                                                           fmt::format("{}.{}", k, record)));
                 values.back().push_back(measured_values(
                     scene_, record_with_background(bare, tones, inputs, lengths[record], engine),
                     summary_.features()));
@@ -132,7 +128,6 @@ class Simulator {
     }
 
     const Scene& scene_;
-    const Sampler sampler_;
     const signals::PathGrid path_;
     const RecordLengths& lengths_;
     const SetSummary& summary_;
@@ -146,7 +141,8 @@ std::vector<std::vector<double>> places(const Study& study, std::span<const Cali
     std::vector<std::vector<double>> all(backgrounds, std::vector<double>(inputs.size()));
     for (std::size_t p = 0; p < inputs.size(); ++p) {
         Philox engine =
-            gearbox_stream(study, {Group::threshold, number}, "calibrate.prior." + inputs[p].key);
+            gearbox_stream(study, {Group::threshold, number},
+                           with_suffix(StreamPurpose::calibration_prior, inputs[p].key));
         for (std::size_t k = 0; k < backgrounds; ++k) {
             all[k][p] = k > 0 && !inputs[p].independent_of_motion()
                             ? all[0][p]

@@ -8,7 +8,7 @@
 
 #include "mc/description/entries.hpp"
 #include "mc/description/undamped.hpp"
-#include "mc/scene/sampling.hpp"
+#include "mc/scene/instance_inputs.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
@@ -199,7 +199,7 @@ std::string sizes(double amplitude, const std::string& rate, double rms, double 
 }
 
 void print_excitation(const Study& study) {
-    const FluctuationInstance f = Sampler(study).nominal().fluctuations;
+    const FluctuationInstance f = nominal_inputs(study).fluctuations;
     if (torque_fluctuates(study)) {
         const std::string rate = !torque_has_sine(study) ? ""
                                  : f.torque_order > 0.0

@@ -152,7 +152,7 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     const BatchPlan plan(study.ensemble);
     const int threads = thread_count(study);
     const RunCost calibration = measure_run_cost(scene, plan, threads, kBudget_s);
-    const AnalysisTrial trial = measure_analysis(study, calibration, plan, threads, kBudget_s);
+    const AnalysisTrial trial = measure_analysis(scene, calibration, plan, threads, kBudget_s);
     const RunForecast forecast = forecast_run(scene, plan, calibration, trial, setup_s);
     if (teeth_can_separate(study)) {
         print_heading("contact");

@@ -35,12 +35,11 @@ std::string rpm(double rad_s) {
 // rotation; torques are magnitudes.
 void print_planetary_members(const Study& study) {
     const gears::PlanetaryTrain train = planetary_train(study);
-    const Sampler sampler(study);
-    const InstanceInputs nominal = sampler.nominal();
+    const InstanceInputs nominal = nominal_inputs(study);
     const gears::PowerFlow flow{fixed_member(study.operation.fixed),
                                 central_member(study.operation.input)};
-    const gears::Speeds turning = gears::signed_speeds(
-        train, flow, central_member(sampler.speed_member()), nominal.speed_rad_s);
+    const gears::Speeds turning =
+        gears::signed_speeds(train, flow, central_member(speed_member(study)), nominal.speed_rad_s);
     const gears::CentralMembers torque = gears::balanced_torques(
         train, central_member(study.operation.torque_on), nominal.torque_N_m);
     const double of_input = study.operation.input == Member::sun    ? turning.sun
@@ -69,7 +68,7 @@ void print_members(const Study& study) {
         print_planetary_members(study);
         return;
     }
-    const InstanceInputs nominal = Sampler(study).nominal();
+    const InstanceInputs nominal = nominal_inputs(study);
     const double ratio =
         static_cast<double>(*teeth_of(study, Member::pinion)) / *teeth_of(study, Member::gear);
     print_entry("pinion", fmt::format("{}, {} N m (input)", rpm(nominal.speed_rad_s),
@@ -131,7 +130,7 @@ void print_planetary(const PlanetaryDrivetrain& drivetrain) {
 void print_fixed_shaft(const Study& study) {
     const int pinion = *teeth_of(study, Member::pinion), gear = *teeth_of(study, Member::gear);
     print_entry("teeth (pinion/gear)", fmt::format("{}/{}", pinion, gear));
-    const InstanceInputs nominal = Sampler(study).nominal();
+    const InstanceInputs nominal = nominal_inputs(study);
     const double balanced = nominal.torque_N_m * gear / pinion;
     const double load = nominal.fixed_shaft.load_torque_N_m;
     if (std::abs(load - balanced) > 1e-6 * balanced) {

@@ -53,7 +53,7 @@ RankForecast forecast_ranks(const Scene& scene, const BatchPlan& plan, const Run
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double motion = motion_bytes(scene);
     const IntegrationCounts integrations = integrations_of_ranks(scene, plan, motion, ranks);
-    const RowShape shape = row_shape(Sampler(scene.study()), scene.study());
+    const RowShape shape = row_shape(scene.study());
     const auto batches = static_cast<double>(plan.batches());
 
     RankForecast forecast;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "mc/scene/sampling.hpp"
+#include "mc/scene/instance_inputs.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -40,7 +40,7 @@ std::string undamped(const Study& study) {
         return "";
     }
     const Gearbox& g = study.gearbox;
-    const InstanceInputs nominal = resolve_inputs(study);
+    const InstanceInputs nominal = nominal_inputs(study);
     std::vector<std::string> parts, bearings;
     if (no_mesh_damping(study, nominal.mesh_damping)) {
         parts.push_back("meshes");

@@ -25,17 +25,15 @@ Seconds& Seconds::operator+=(const Seconds& other) {
     return *this;
 }
 
-RowShape row_shape(const Sampler& sampler, const Study& study) {
+RowShape row_shape(const Study& study) {
     const std::size_t meshes =
         teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
-    return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size(),
-            meshes};
+    return {input_columns(study).size(), study.features.use.size(),
+            study.sensor.noise_levels.size(), meshes};
 }
 
 BatchWorker::BatchWorker(const BatchTask& task)
-    : task_(task),
-      features_(task.scene, &task.healthy),
-      shape_(row_shape(task.sampler, task.scene.study())) {}
+    : task_(task), features_(task.scene, &task.healthy), shape_(row_shape(task.scene.study())) {}
 
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     const NoiseSampling noise_sampling = batch.group == Group::threshold
@@ -61,9 +59,9 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 // Adds the rows of at most as many gearboxes as there are lanes.
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
-    GearboxTile computed = run_gearboxes(
-        task_.scene, task_.sampler, task_.path, ids, task_.scene.study().numerics.lanes,
-        {.signal_meshes = features_.meshes(), .cache = &task_.cache});
+    GearboxTile computed =
+        run_gearboxes(task_.scene, task_.path, ids, task_.scene.study().numerics.lanes,
+                      {.signal_meshes = features_.meshes(), .cache = &task_.cache});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
@@ -73,17 +71,9 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
         const LaneSignals own = std::move(signals[lane]);
-        GearboxId id = ids[lane];
-        const std::vector<double> parameters = task_.sampler.row(id);
-        const bool importance_sampled = id.noise_sampling != NoiseSampling::plain;
-        for (id.repeat = 0; id.repeat < records; ++id.repeat) {
-            rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
-            // second last parameter; the fault size is the last
-            const std::size_t weight = rows.values.size() - 2;
-            add_features(id, computed, lane, own, rows);
-            if (importance_sampled && computed.status[lane] == Status::ok) {
-                rows.values[weight] = features_.noise_weight();
-            }
+        Realization& record = computed.realizations[lane];
+        for (record.id.repeat = 0; record.id.repeat < records; ++record.id.repeat) {
+            add_row(record, computed, lane, own, rows);
         }
     }
     const double spent_s = seconds_since(start);
@@ -99,16 +89,20 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
                 computed.superposition_fallbacks};
 }
 
-void BatchWorker::add_features(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
-                               const LaneSignals& signals, BatchRows& rows) {
+void BatchWorker::add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
+                          const LaneSignals& signals, BatchRows& rows) {
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 
     std::vector<double> values(shape_.features * shape_.levels,
                                std::numeric_limits<double>::quiet_NaN());
+    double noise_weight = 1.0;
     if (status == Status::ok) {
-        values = features_.compute(signals, computed.inputs[lane], id);
+        values = features_.compute(signals, record);
+        noise_weight = features_.noise_weight();
     }
+    append_random_inputs(task_.scene.study(), record, noise_weight, rows.values);
+    rows.values.push_back(record.inputs.fault_size);
     rows.values.insert(rows.values.end(), values.begin(), values.end());
     std::vector<double> loss = contact_loss(computed, lane, shape_.meshes);
     if (status != Status::ok) {

@@ -26,24 +26,22 @@ struct Seconds {
 };
 
 // Shape of the result rows of a study.
-RowShape row_shape(const Sampler& sampler, const Study& study);
+RowShape row_shape(const Study& study);
 
 // Data shared by all workers of a process.
 struct BatchTask {
     explicit BatchTask(const Scene& shared_scene)
         : scene(shared_scene),
-          sampler(scene.study()),
           path(path_grid(scene)),
           cache(scene),
-          healthy(healthy_reference(scene, sampler, path)) {}
+          healthy(healthy_reference(scene, path)) {}
 
     const Scene& scene;
-    const Sampler sampler;
     const signals::PathGrid path;
     const IntegrationCache cache;
     const HealthyReference healthy;
-    // Noise of graded gearboxes with several records. If it is tilted, the sampler must have a
-    // column for the importance weights.
+    // Noise of graded gearboxes with several records. If it is tilted, the study must use
+    // importance sampling, so that its rows have a column for the weights.
     NoiseSampling graded_noise = NoiseSampling::plain;
 };
 
@@ -61,8 +59,9 @@ class BatchWorker {
   private:
     void add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                   Seconds& seconds);
-    void add_features(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
-                      const LaneSignals& signals, BatchRows& rows);
+    // Adds the row of one record of the gearbox in a lane.
+    void add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
+                 const LaneSignals& signals, BatchRows& rows);
 
     const BatchTask& task_;
     RealizationFeatures features_;

@@ -17,7 +17,7 @@ namespace gearpod::mc {
 
 Results results_frame(const Study& study) {
     Results results;
-    for (const ParameterColumn& column : Sampler(study).columns()) {
+    for (const ParameterColumn& column : input_columns(study)) {
         results.parameters.push_back({column.name, column.unit, {}});
     }
     results.noise_levels = study.sensor.noise_levels;

@@ -25,7 +25,7 @@ struct MissRecords {
                 failed += rows.status[row] == static_cast<int>(Status::ok) ? 0 : 1;
             }
             values.push_back(values_of[shape.value_of(0, 0)]);
-            weights.push_back(values_of[shape.parameters - 2]);
+            weights.push_back(values_of[shape.noise_weight()]);
             gearbox.push_back(static_cast<std::size_t>(gearboxes));
         }
     }
@@ -98,7 +98,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     if (const std::string why = failure_reason(outcome); !why.empty()) {
         throw std::runtime_error(why);
     }
-    const RowShape shape = row_shape(Sampler(scene.study()), scene.study());
+    const RowShape shape = row_shape(scene.study());
     MissRecords all;
     for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
         all.add(store.read(batch), shape, records);

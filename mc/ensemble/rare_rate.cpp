@@ -32,7 +32,7 @@ class SplitRun {
           ranks_(ranks),
           progress_(progress),
           interruption_(interruption),
-          shape_(row_shape(Sampler(scene.study()), scene.study())) {}
+          shape_(row_shape(scene.study())) {}
 
     std::vector<double> values(std::span<const analysis::SplitMember> members) {
         const BatchPlan plan(0, static_cast<std::int64_t>(members.size()));
@@ -98,12 +98,12 @@ struct InputSums {
     std::vector<double> sum, squares;
     double count = 0.0;
 
-    void add(const std::vector<double>& row) {
-        sum.resize(row.size());
-        squares.resize(row.size());
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            sum[i] += row[i];
-            squares[i] += row[i] * row[i];
+    void add(const std::vector<double>& values) {
+        sum.resize(values.size());
+        squares.resize(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            sum[i] += values[i];
+            squares[i] += values[i] * values[i];
         }
         count += 1.0;
     }
@@ -115,21 +115,23 @@ struct InputSums {
 
 // Random inputs whose mean in the last level differs from the mean of all gearboxes by more than
 // chance. The chance deviation is that of as many independent gearboxes as there are families.
-std::vector<ShiftedInput> shifted_inputs(const Study& study, const RareRateRequest& request,
+std::vector<ShiftedInput> shifted_inputs(const Scene& scene, const RareRateRequest& request,
                                          const analysis::SplitTail& tail) {
     constexpr double kBeyondChance = 3.0;
-    const Sampler sampler(study);
+    const auto values_of = [&](const analysis::SplitMember& member) {
+        return scene.sampler().draw(id_of(request, member)).random_values;
+    };
     InputSums all, last;
     for (long i = 0; i < request.gearboxes; ++i) {
-        all.add(sampler.row(id_of(request, {static_cast<std::uint64_t>(i), {}})));
+        all.add(values_of({static_cast<std::uint64_t>(i), {}}));
     }
     for (const analysis::SplitMember& member : tail.last()) {
-        last.add(sampler.row(id_of(request, member)));
+        last.add(values_of(member));
     }
     const double chance = kBeyondChance / std::sqrt(tail.last_families());
     std::vector<ShiftedInput> shifted;
-    const std::vector<ParameterColumn> columns = sampler.columns();
-    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {  // the last column is the fault size
+    const std::vector<ParameterColumn> columns = input_columns(scene.study());
+    for (std::size_t i = 0; i < all.sum.size(); ++i) {
         if (std::abs(last.mean(i) - all.mean(i)) > chance * all.deviation(i)) {
             shifted.push_back({columns[i].name, columns[i].unit, all.mean(i), last.mean(i)});
         }
@@ -192,7 +194,7 @@ RareRateResult estimate_rare_rate(const Scene& scene, const RareRateRequest& req
                                                               result.estimate->variance)
                                      : analysis::kNan;
     if (ranks.leads() && tail.levels() > 1) {
-        result.shifted = shifted_inputs(scene.study(), request, tail);
+        result.shifted = shifted_inputs(scene, request, tail);
     }
     return result;
 }

@@ -148,7 +148,7 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan&
                                             const std::string& results_path,
                                             const StoreOptions& options) {
     const Study& study = scene.study();
-    return open_checkpoint(study, row_shape(Sampler(study), study), plan, results_path, options);
+    return open_checkpoint(study, row_shape(study), plan, results_path, options);
 }
 
 std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& shape,

@@ -11,7 +11,6 @@
 #include "analysis/statistics/wilson.hpp"
 #include "mc/ensemble/batch_worker.hpp"
 #include "mc/scene/feature_needs.hpp"
-#include "mc/scene/sampling.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
@@ -28,7 +27,7 @@ std::size_t level_next_to(const std::vector<double>& levels, double requested) {
 }  // namespace
 
 RunningPd::RunningPd(const Study& study, const BatchPlan& plan, const std::string& feature)
-    : request_(detection_request(study)), plan_(plan), shape_(row_shape(Sampler(study), study)) {
+    : request_(detection_request(study)), plan_(plan), shape_(row_shape(study)) {
     const Until& until = study.ensemble.until;
     const auto used = used_features(study);
     feature_name_ = feature.empty() ? study.features.use.front() : feature;
@@ -83,7 +82,7 @@ void RunningPd::count(const BatchRows& rows) {
         const double value = values[column_];
         ++graded_;
         if (std::isfinite(value) && !std::isnan(threshold_) &&
-            analysis::group_of(values[shape_.parameters - 1], request_.groups) == group_) {
+            analysis::group_of(values[shape_.fault_size()], request_.groups) == group_) {
             ++tested_;
             detected_ += analysis::is_alarm(value, threshold_, alarm_) ? 1 : 0;
         }

@@ -141,7 +141,7 @@ class Pool {
 
     // The last parameter.
     double size(std::size_t row) const {
-        return rows_.values[row * shape_.values() + shape_.parameters - 1];
+        return rows_.values[row * shape_.values() + shape_.fault_size()];
     }
 
   private:
@@ -182,10 +182,11 @@ double seconds_of_analysis(Results results, int threads, bool assessed) {
 
 }  // namespace
 
-Results synthetic_results(const Study& study, const RunCost& calibration, const BatchPlan& plan,
+Results synthetic_results(const Scene& scene, const RunCost& calibration, const BatchPlan& plan,
                           std::size_t rows, const std::vector<std::size_t>& levels) {
-    const Sampler sampler(study);
-    const RowShape shape = row_shape(sampler, study);
+    Study study = scene.study();
+    study.ensemble.threshold_records = 1;  // a row for each gearbox
+    const RowShape shape = row_shape(study);
     Results results = results_frame(study);
     results.noise_levels.clear();
     for (const std::size_t level : levels) {
@@ -211,13 +212,17 @@ Results synthetic_results(const Study& study, const RunCost& calibration, const 
     }
     for (std::size_t i = 0; i < rows; ++i) {
         const GearboxId id = id_of_row(study, static_cast<long>(i * gearboxes_of(plan) / rows));
-        const std::vector<double> parameters = sampler.row(id);
+        const Realization realization = scene.sampler().draw(id);
+        const double size = realization.inputs.fault_size;
+        std::vector<double> parameters;
+        append_random_inputs(study, realization, 1.0, parameters);
+        parameters.push_back(size);
         Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
-                      parameter_id("analysis.trial"));
+                      StreamPurpose::forecast_rows);
         boost::random::normal_distribution<double> normal;
         const Pool& own = pools[static_cast<std::size_t>(id.group)];
         const Pool& pool = own.empty() ? scatter : own;
-        const std::size_t template_row = pool.draw(parameters.back(), engine);
+        const std::size_t template_row = pool.draw(size, engine);
         results.group.push_back(static_cast<int>(id.group));
         results.status.push_back(calibration.rows.status[template_row]);
         for (std::size_t p = 0; p < shape.parameters; ++p) {
@@ -228,7 +233,7 @@ Results synthetic_results(const Study& study, const RunCost& calibration, const 
                 const std::size_t at = f * levels.size() + l;
                 const Trend& trend = trends[static_cast<std::size_t>(id.group)][at];
                 results.features[f].values.push_back(
-                    pool.value(template_row, f, levels[l]) + trend.at(parameters.back()) -
+                    pool.value(template_row, f, levels[l]) + trend.at(size) -
                     trend.at(pool.size(template_row)) + smoothing[at] * normal(engine));
             }
         }
@@ -255,9 +260,10 @@ double assessment_bytes(const Study& study, const BatchPlan& plan) {
                     kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
 }
 
-AnalysisTrial measure_analysis(const Study& study, const RunCost& calibration,
+AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
                                const BatchPlan& plan, int threads, double budget_s) {
     AnalysisTrial trial;
+    const Study& study = scene.study();
     const std::size_t levels = study.sensor.noise_levels.size();
     const bool assessed = values_of(study, plan) <= kMostAssessedValues;
     trial.bytes = assessment_bytes(study, plan);
@@ -265,8 +271,6 @@ AnalysisTrial measure_analysis(const Study& study, const RunCost& calibration,
         return trial;
     }
     trial.rows = std::min(gearboxes_of(plan), kTrialRows);
-    Study gearboxes = study;
-    gearboxes.ensemble.threshold_records = 1;
     const std::vector<std::size_t> order = level_order(levels);
     const auto start = WallClock::now();
     while (trial.levels < levels && (trial.levels == 0 || trial.trial_s < budget_s)) {
@@ -276,7 +280,7 @@ AnalysisTrial measure_analysis(const Study& study, const RunCost& calibration,
         std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
         std::sort(now.begin(), now.end());
         trial.total_s += seconds_of_analysis(
-            synthetic_results(gearboxes, calibration, plan, trial.rows, now), threads, assessed);
+            synthetic_results(scene, calibration, plan, trial.rows, now), threads, assessed);
         trial.levels += count;
         trial.trial_s = seconds_since(start);
     }

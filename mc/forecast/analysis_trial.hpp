@@ -21,13 +21,13 @@ struct AnalysisTrial {
 // along the feature's trend over the size. A smoothed bootstrap (B. W. Silverman, G. A. Young,
 // Biometrika 74 (1987), 469-479) avoids ties that a run would not have. Detection results are not
 // filled in.
-Results synthetic_results(const Study& study, const RunCost& calibration, const BatchPlan& plan,
+Results synthetic_results(const Scene& scene, const RunCost& calibration, const BatchPlan& plan,
                           std::size_t rows, const std::vector<std::size_t>& levels);
 
 // Runs detection and reliability analysis on synthetic results, as `run` does: all features, up to
 // kTrialRows gearboxes, and as many noise levels at once as there are threads, until `budget_s`
 // seconds are over. The rest is extrapolated in proportion.
-AnalysisTrial measure_analysis(const Study& study, const RunCost& calibration,
+AnalysisTrial measure_analysis(const Scene& scene, const RunCost& calibration,
                                const BatchPlan& plan, int threads, double budget_s);
 
 inline constexpr std::size_t kTrialRows = 6000;

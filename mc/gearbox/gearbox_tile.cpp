@@ -29,13 +29,13 @@ double lap(WallClock::time_point& start) {
     return std::chrono::duration<double>(now - std::exchange(start, now)).count();
 }
 
-lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const InstanceInputs> inputs) {
+lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realization> realizations) {
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
     for (int c = 0; c < scene.fault().curves(); ++c) {
-        for (const InstanceInputs& instance : inputs) {
+        for (const Realization& realization : realizations) {
             faults.curve[static_cast<std::size_t>(c)].push_back(
-                scene.fault().mesh(c, instance.fault_size));
+                scene.fault().mesh(c, realization.inputs.fault_size));
         }
     }
     return faults;
@@ -43,17 +43,16 @@ lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const InstanceI
 
 // Solves the tile by the strategy that solution_of(loads) returns.
 template <class SolutionOf>
-void solve(const Scene& scene, std::span<const GearboxId> ids, SolutionOf solution_of,
-           GearboxTile& tile) {
+void solve(const Scene& scene, SolutionOf solution_of, GearboxTile& tile) {
     auto start = WallClock::now();
     std::vector<dynamics::GearboxInputs> inputs;
-    for (const InstanceInputs& instance : tile.inputs) {
-        inputs.push_back(scene.inputs(instance));
+    for (const Realization& realization : tile.realizations) {
+        inputs.push_back(scene.inputs(realization.inputs));
     }
-    const lockstep::FaultCurves faults = fault_curves(scene, tile.inputs);
-    TileLoads loads{draw_tooth_errors(scene, ids, tile.inputs), std::nullopt};
+    const lockstep::FaultCurves faults = fault_curves(scene, tile.realizations);
+    TileLoads loads{draw_tooth_errors(scene, tile.realizations), std::nullopt};
     tile.stiffness_s = lap(start);
-    loads.excitation = draw_excitation(scene, ids, tile.inputs);
+    loads.excitation = draw_excitation(scene, tile.realizations);
     const lockstep::Solution solution = solution_of(loads);
     const double processor_start = thread_processor_s();
     tile.integration = with_lane_count(static_cast<int>(inputs.size()), [&](auto lanes) {
@@ -62,8 +61,8 @@ void solve(const Scene& scene, std::span<const GearboxId> ids, SolutionOf soluti
     tile.integration_s = lap(start);
     tile.meshes = tile.integration.integrated_meshes;
     if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
-        tile.superposed = std::ranges::count(std::span(superposed).first(ids.size()), true);
-        tile.superposition_fallbacks = std::ssize(ids) - tile.superposed;
+        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
+        tile.superposition_fallbacks = static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
     }
     tile.integration_cpu_s = thread_processor_s() - processor_start;
 }
@@ -110,29 +109,39 @@ signals::PathGrid path_grid(const Scene& scene) {
 
 namespace {
 
-GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids, int lanes) {
-    auto start = WallClock::now();
+GearboxTile tile_of(std::vector<Realization> realizations, int lanes) {
     GearboxTile tile;
+    tile.gearboxes = realizations.size();
+    tile.realizations = std::move(realizations);
+    const Realization last = tile.realizations.back();
+    tile.realizations.resize(static_cast<std::size_t>(lanes), last);
+    return tile;
+}
+
+GearboxTile drawn_tile(const Scene& scene, std::span<const GearboxId> ids, int lanes) {
+    auto start = WallClock::now();
+    std::vector<Realization> realizations;
     for (const GearboxId& id : ids) {
-        tile.inputs.push_back(sampler.sample(id));
+        realizations.push_back(scene.sampler().draw(id));
     }
-    tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
+    GearboxTile tile = tile_of(std::move(realizations), lanes);
     tile.sampling_s = lap(start);
     return tile;
 }
 
-void add_status(const Scene& scene, std::span<const GearboxId> ids, GearboxTile& tile) {
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        tile.status.push_back(status_of(scene, tile.inputs[lane], tile.integration.status[lane]));
+void add_status(const Scene& scene, GearboxTile& tile) {
+    for (std::size_t lane = 0; lane < tile.gearboxes; ++lane) {
+        tile.status.push_back(
+            status_of(scene, tile.realizations[lane].inputs, tile.integration.status[lane]));
     }
 }
 
 // Solves the tile and records its sensor signals meanwhile.
-void solve_and_record(const Scene& scene, const signals::PathGrid& path,
-                      std::span<const GearboxId> ids, int signal_meshes, GearboxTile& tile) {
-    TileSensorRecorder recorder(scene, path, ids, tile.inputs, signal_meshes);
+void solve_and_record(const Scene& scene, const signals::PathGrid& path, int signal_meshes,
+                      GearboxTile& tile) {
+    TileSensorRecorder recorder(scene, path, tile.realizations, signal_meshes);
     solve(
-        scene, ids,
+        scene,
         [&](const TileLoads& loads) {
             return choose_solution(scene, loads, {}, std::ref(recorder));
         },
@@ -144,9 +153,8 @@ void solve_and_record(const Scene& scene, const signals::PathGrid& path,
 }
 
 // Computes the signals of the sensors from an integrated tile.
-void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 GearboxTile& tile) {
-    add_status(scene, ids, tile);
+void add_signals(const Scene& scene, const signals::PathGrid& path, GearboxTile& tile) {
+    add_status(scene, tile);
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
     if (tile.sensor_response != nullptr) {
@@ -155,16 +163,16 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
         tile.signals_s += lap(start);
         return;
     }
-    if (has_gain(tile.inputs)) {
+    if (has_gain(tile.realizations)) {
         for (lockstep::MeshRecord& record : tile.integration.records) {
-            apply_gain(tile.inputs, record.acceleration);
+            apply_gain(tile.realizations, record.acceleration);
         }
     }
     // A quasi-static gearbox has no inertia and therefore no acceleration.
     if (!scene.study().effects.quasi_static()) {
-        tile.tones = draw_tones(scene, ids, tile.inputs);
+        tile.tones = draw_tones(scene, tile.realizations);
         const signals::FoldPlan plan(tile.integration.content, scene.span());
-        signals::fold_squares(tile.views, plan, path, path_exponents(tile.inputs), tile.tones,
+        signals::fold_squares(tile.views, plan, path, path_exponents(tile.realizations), tile.tones,
                               tile.folded);
     }
     signals::average_te(tile.views, tile.integration.content, scene.span(),
@@ -172,33 +180,32 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
     tile.signals_s += lap(start);
 }
 
-void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 const TileOptions& options, GearboxTile& tile) {
+void run_tile(const Scene& scene, const signals::PathGrid& path, const TileOptions& options,
+              GearboxTile& tile) {
     const IntegrationCache* const cache = options.records ? nullptr : options.cache;
     auto start = WallClock::now();
-    if (const auto before = cache != nullptr ? cache->find(tile.inputs) : nullptr) {
+    if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
     } else if (records_during_integration(scene) && !options.records) {
-        solve_and_record(scene, path, ids, options.signal_meshes, tile);
+        solve_and_record(scene, path, options.signal_meshes, tile);
     } else {
         const auto records = options.records.value_or(lockstep::RecordOptions{});
         solve(
-            scene, ids,
+            scene,
             [&](const TileLoads& loads) { return choose_solution(scene, loads, records, nullptr); },
             tile);
         if (cache != nullptr) {
-            cache->keep(tile.inputs, tile.integration);
+            cache->keep(tile.realizations, tile.integration);
         }
     }
-    add_signals(scene, path, ids, tile);
+    add_signals(scene, path, tile);
 }
 
-GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_records(const Scene& scene, const signals::PathGrid& path,
                         std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
-    GearboxTile tile =
-        sampled_tile(sampler, ids, lockstep::lanes_for(scene.plan().precision, fewest));
-    run_sampled(scene, path, ids, options, tile);
+    GearboxTile tile = drawn_tile(scene, ids, lockstep::lanes_for(scene.plan().precision, fewest));
+    run_tile(scene, path, options, tile);
     return tile;
 }
 
@@ -212,11 +219,11 @@ std::vector<GearboxId> baselines_of(std::span<const GearboxId> ids) {
 
 // Computes signals, status and times of the baseline records. Their motion is freed before the test
 // records are integrated.
-GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_baselines(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
     const int meshes = needed_sensor_meshes(scene);
-    GearboxTile tile = run_records(scene, sampler, path, baselines_of(ids), fewest,
+    GearboxTile tile = run_records(scene, path, baselines_of(ids), fewest,
                                    {.signal_meshes = meshes, .cache = cache});
     auto start = WallClock::now();
     tile.baseline = all_lane_signals(scene, path, tile, meshes);
@@ -253,16 +260,15 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 
 // Runs gearboxes that fill at most half of the lanes. Their baseline records take further lanes of
 // the same tile, after the test records.
-GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
-                             const signals::PathGrid& path, std::span<const GearboxId> ids,
-                             int lanes, TileOptions options) {
+GearboxTile run_side_by_side(const Scene& scene, const signals::PathGrid& path,
+                             std::span<const GearboxId> ids, int lanes, TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
     const std::vector<GearboxId> earlier = baselines_of(ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
     if (options.signal_meshes >= 0) {
         options.signal_meshes = std::max(options.signal_meshes, needed_sensor_meshes(scene));
     }
-    GearboxTile tile = run_records(scene, sampler, path, both, lanes, options);
+    GearboxTile tile = run_records(scene, path, both, lanes, options);
     auto start = WallClock::now();
     std::vector<LaneSignals> baseline;
     for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
@@ -279,24 +285,24 @@ GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
 
 }  // namespace
 
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
     if (!compares_records(scene.study())) {
-        return run_records(scene, sampler, path, ids, fewest, options);
+        return run_records(scene, path, ids, fewest, options);
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     if (2 * ids.size() <= static_cast<std::size_t>(lanes)) {
-        return run_side_by_side(scene, sampler, path, ids, lanes, options);
+        return run_side_by_side(scene, path, ids, lanes, options);
     }
-    GearboxTile earlier = run_baselines(scene, sampler, path, ids, fewest, options.cache);
-    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, options);
+    GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);
+    GearboxTile tile = run_records(scene, path, ids, fewest, options);
     add_baselines(std::move(earlier), tile);
     return tile;
 }
 
 std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes) {
     const machine::AlignedVector& ratio = tile.integration.contact_loss;  // [gear pair][lane]
-    const std::size_t lanes = tile.inputs.size();
+    const std::size_t lanes = tile.realizations.size();
     const std::size_t pairs = ratio.size() / lanes / std::max<std::size_t>(1, meshes);
     std::vector<double> mean(meshes, 0.0);
     for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
@@ -308,38 +314,33 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
     return mean;
 }
 
-GearboxTile run_with_inputs(const Scene& scene, const signals::PathGrid& path,
-                            std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                            int fewest, const TileOptions& options) {
-    GearboxTile tile;
-    tile.inputs = std::move(inputs);
-    tile.inputs.resize(
-        static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest)),
-        tile.inputs.back());
-    run_sampled(scene, path, ids, options, tile);
+GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
+                             std::vector<Realization> realizations, int fewest,
+                             const TileOptions& options) {
+    GearboxTile tile =
+        tile_of(std::move(realizations), lockstep::lanes_for(scene.plan().precision, fewest));
+    run_tile(scene, path, options, tile);
     return tile;
 }
 
-GearboxTile run_fault_perturbations(const Scene& scene, std::span<const GearboxId> ids,
-                                    std::vector<InstanceInputs> inputs,
-                                    const lockstep::SpanStates& healthy) {
-    GearboxTile tile;
-    tile.inputs = std::move(inputs);
+GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
+                                    int lanes, const lockstep::SpanStates& healthy) {
+    GearboxTile tile = tile_of(std::move(realizations), lanes);
     solve(
-        scene, ids,
-        [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); }, tile);
-    add_status(scene, ids, tile);
+        scene, [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); },
+        tile);
+    add_status(scene, tile);
     return tile;
 }
 
-GearboxTile complete_tile(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile complete_tile(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult integration) {
-    GearboxTile tile = sampled_tile(sampler, ids, static_cast<int>(integration.status.size()));
+    GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);
-    add_signals(scene, path, ids, tile);
+    add_signals(scene, path, tile);
     if (compares_records(scene.study())) {
         add_baselines(
-            run_baselines(scene, sampler, path, ids, static_cast<int>(tile.inputs.size()), nullptr),
+            run_baselines(scene, path, ids, static_cast<int>(tile.realizations.size()), nullptr),
             tile);
     }
     return tile;

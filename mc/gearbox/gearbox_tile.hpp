@@ -28,13 +28,15 @@ struct LaneSignals {
     // Signals of the gearbox's baseline record, owned by the tile. Null unless a feature compares
     // with the baseline.
     const LaneSignals* baseline = nullptr;
+    double noise_m_s2 = 0.0;  // rms noise of the sensor in this record, at noise level 1
 };
 
 // Results of a tile. `integration.records` owns the data that `views` refers to. If
 // `sensor_response` recorded the sensor signal, `integration.records` holds only the healthy mesh
 // period.
 struct GearboxTile {
-    std::vector<InstanceInputs> inputs;  // one entry per lane
+    std::vector<Realization> realizations;  // one entry per lane
+    std::size_t gearboxes = 0;              // requested; further lanes repeat the last one
     lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
@@ -72,30 +74,29 @@ struct TileOptions {
 // gearbox. If features compare with baseline records, these run first, or in the same tile if half
 // of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh period is
 // integrated, the sensor signals are recorded during integration and the motion is not kept.
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
                           const TileOptions& options = {});
 
-// Runs the test records of gearboxes with the given inputs, without baselines. The distributions of
-// the study are not used.
-GearboxTile run_with_inputs(const Scene& scene, const signals::PathGrid& path,
-                            std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                            int fewest, const TileOptions& options = {});
+// Runs the test records of these gearboxes, without baselines. Their inputs need not be those that
+// the study's distributions give.
+GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
+                             std::vector<Realization> realizations, int fewest,
+                             const TileOptions& options = {});
 
-// Integrates only the mesh periods that the faults of gearboxes with the given inputs change.
-// Starts from the healthy states of the same gearboxes; their number must equal the number of
-// lanes. Requires integrates_perturbation_only(scene). Sets only inputs, integration and status of
-// the result.
-GearboxTile run_fault_perturbations(const Scene& scene, std::span<const GearboxId> ids,
-                                    std::vector<InstanceInputs> inputs,
-                                    const lockstep::SpanStates& healthy);
+// Integrates only the mesh periods that the faults of these gearboxes change. Starts from the
+// healthy states of the same gearboxes in a tile of `lanes` lanes. Requires
+// integrates_perturbation_only(scene). Sets only realizations, integration and status of the
+// result.
+GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
+                                    int lanes, const lockstep::SpanStates& healthy);
 
 // Views of the recorded motion of a tile, which must outlive them.
 signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
 
 // Completes a tile from a time integration made elsewhere, as run_gearboxes does. The number of
 // lanes is the number of status entries of `integration`.
-GearboxTile complete_tile(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+GearboxTile complete_tile(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult integration);
 
 // Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.

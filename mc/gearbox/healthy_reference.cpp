@@ -53,16 +53,14 @@ HealthyReference HealthyRecordsMean::mean() const {
     return mean;
 }
 
-HealthyReference healthy_reference(const Scene& scene, const Sampler& sampler,
-                                   const signals::PathGrid& path) {
+HealthyReference healthy_reference(const Scene& scene, const signals::PathGrid& path) {
     if (!needs_of(used_features(scene.study())).has<features::HealthyRecords>()) {
         return {};
     }
-    return simulated_reference(scene, sampler, path);
+    return simulated_reference(scene, path);
 }
 
-HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
-                                     const signals::PathGrid& path) {
+HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid& path) {
     const int lanes = scene.study().numerics.lanes;
     RealizationSignals records(scene, features::SignalSet::of<features::SensorTurn>());
     const std::size_t levels = scene.study().sensor.noise_levels.size();
@@ -73,12 +71,12 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
             ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
         }
         const GearboxTile tile =
-            run_gearboxes(scene, sampler, path, ids, lanes, {.signal_meshes = records.meshes()});
+            run_gearboxes(scene, path, ids, lanes, {.signal_meshes = records.meshes()});
         const auto signals = all_lane_signals(scene, path, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
-                records.load(signals[lane], tile.inputs[lane], ids[lane]);
+                records.load(signals[lane], tile.realizations[lane]);
                 for (std::size_t level = 0; level < levels; ++level) {
                     mean.add(level, records.at(level));
                 }

@@ -37,10 +37,8 @@ class HealthyRecordsMean {
 
 // Mean over the first eight gearboxes of the threshold sample, with their own noise. Gearboxes that
 // failed are left out.
-HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
-                                     const signals::PathGrid& path);
+HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid& path);
 // The same mean; empty unless a feature of the study needs it.
-HealthyReference healthy_reference(const Scene& scene, const Sampler& sampler,
-                                   const signals::PathGrid& path);
+HealthyReference healthy_reference(const Scene& scene, const signals::PathGrid& path);
 
 }  // namespace gearpod::mc

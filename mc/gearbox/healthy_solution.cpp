@@ -47,20 +47,19 @@ void clear_failed(HealthySolution::Signals& all) {
 }  // namespace
 
 HealthySolution::HealthySolution(const Scene& scene, const signals::PathGrid& path,
-                                 std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                                 int fewest)
-    : scene_(scene), path_(path), ids_(ids), inputs_(std::move(inputs)) {
-    for (InstanceInputs& one : inputs_) {
-        one.gain = 1.0;
+                                 std::vector<Realization> realizations, int fewest)
+    : scene_(scene), path_(path), realizations_(std::move(realizations)) {
+    for (Realization& one : realizations_) {
+        one.inputs.gain = 1.0;
     }
     const bool keep = integrates_perturbation_only(scene);
     TileOptions options;
     if (keep) {
         options.records.emplace().states = true;
     }
-    GearboxTile tile = run_with_inputs(scene, path, ids, inputs_of(0.0), fewest, options);
+    GearboxTile tile = run_realizations(scene, path, with_size(0.0), fewest, options);
     healthy_ = signals_of(tile);
-    inputs_.resize(tile.inputs.size(), inputs_.back());
+    lanes_ = static_cast<int>(tile.realizations.size());
     if (keep) {
         states_ = std::move(tile.integration.states);
         for (const int record : tile.integration.content) {
@@ -69,10 +68,10 @@ HealthySolution::HealthySolution(const Scene& scene, const signals::PathGrid& pa
     }
 }
 
-std::vector<InstanceInputs> HealthySolution::inputs_of(double size) const {
-    std::vector<InstanceInputs> all = inputs_;
-    for (InstanceInputs& one : all) {
-        one.fault_size = size;
+std::vector<Realization> HealthySolution::with_size(double size) const {
+    std::vector<Realization> all = realizations_;
+    for (Realization& one : all) {
+        one.inputs.fault_size = size;
     }
     return all;
 }
@@ -85,12 +84,11 @@ HealthySolution::Signals HealthySolution::signals_of(const GearboxTile& tile) co
 
 HealthySolution::Signals HealthySolution::with_fault(double size) const {
     if (states_.all.empty()) {
-        return signals_of(run_with_inputs(scene_, path_, ids_, inputs_of(size),
-                                          static_cast<int>(inputs_.size())));
+        return signals_of(run_realizations(scene_, path_, with_size(size), lanes_));
     }
-    const GearboxTile changed = run_fault_perturbations(scene_, ids_, inputs_of(size), states_);
+    const GearboxTile changed = run_fault_perturbations(scene_, with_size(size), lanes_, states_);
     Signals all = healthy_;
-    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+    for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         all.lane[lane].folded.clear();  // the folded squares of the healthy gearbox no longer apply
         if (all.status[lane] == Status::ok) {
             all.status[lane] = changed.status[lane];
@@ -105,7 +103,7 @@ HealthySolution::Signals HealthySolution::with_fault(double size) const {
 // Adds to the average of tooth j the mean change of its mesh periods (signals::average_te).
 void HealthySolution::change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const {
     const auto per_mesh = static_cast<std::size_t>(scene_.te_samples_per_mesh());
-    const std::size_t width = inputs_.size(),
+    const std::size_t width = static_cast<std::size_t>(lanes_),
                       stride =
                           static_cast<std::size_t>(scene_.samples_per_mesh()) / per_mesh * width;
     const auto teeth = static_cast<std::size_t>(scene_.span().planet_teeth);
@@ -116,7 +114,7 @@ void HealthySolution::change_te(const GearboxTile& changed, std::vector<LaneSign
             continue;
         }
         const auto& now = changed.integration.records[static_cast<std::size_t>(record)].te;
-        for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+        for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
             std::vector<double>& turn = lanes[lane].te_turn;
             for (std::size_t p = 0; p < per_mesh && !turn.empty(); ++p) {
                 const std::size_t at = p * stride + lane;
@@ -136,10 +134,9 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
         return;
     }
     const int phases = scene_.samples_per_mesh();
-    const auto sensor =
-        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_,
-                            path_exponents(std::span(inputs_).first(ids_.size())), span.meshes);
-    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+    const auto sensor = signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(),
+                                            path_, path_exponents(realizations_), span.meshes);
+    for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {
             continue;
         }

@@ -3,21 +3,20 @@
 // integrates_perturbation_only (solution_choice.hpp).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mc/gearbox/gearbox_tile.hpp"
 
 namespace gearpod::mc {
 
-// Healthy reference solution of a tile, and its solutions with a fault. The scene, the path and the
-// ids must outlive it.
+// Healthy reference solution of a tile, and its solutions with a fault. The scene and the path must
+// outlive it.
 class HealthySolution {
   public:
-    // `inputs` holds the inputs of the gearboxes in `ids`; their fault sizes are ignored. The
-    // sensor gain is taken as 1, because the records apply it later.
+    // The fault sizes of the gearboxes are ignored. The sensor gain is taken as 1, because the
+    // records apply it later.
     HealthySolution(const Scene& scene, const signals::PathGrid& path,
-                    std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs, int fewest);
+                    std::vector<Realization> realizations, int fewest);
 
     // Sensor signal, transmission error and status of each gearbox. A gearbox that failed has no
     // signals.
@@ -31,15 +30,15 @@ class HealthySolution {
     Signals with_fault(double size) const;
 
   private:
-    std::vector<InstanceInputs> inputs_of(double size) const;
+    std::vector<Realization> with_size(double size) const;
     Signals signals_of(const GearboxTile& tile) const;
     void change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const;
     void change_sensor(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const;
 
     const Scene& scene_;
     const signals::PathGrid& path_;
-    const std::span<const GearboxId> ids_;
-    std::vector<InstanceInputs> inputs_;  // one per lane
+    std::vector<Realization> realizations_;
+    int lanes_ = 0;
     lockstep::SpanStates states_;
     std::vector<machine::AlignedVector> te_;  // MeshRecord::te of every mesh period
     Signals healthy_;

@@ -17,9 +17,10 @@ static_assert(std::is_trivially_copyable_v<InstanceInputs> &&
               "the inputs of a gearbox are compared byte by byte");
 
 // Bytes of all inputs on which the time integration depends; a key for exact comparison.
-std::string key_of(std::span<const InstanceInputs> lanes) {
+std::string key_of(std::span<const Realization> lanes) {
     std::string key;
-    for (InstanceInputs inputs : lanes) {
+    for (const Realization& lane : lanes) {
+        InstanceInputs inputs = lane.inputs;
         inputs.path_exponent = inputs.gain = inputs.tone_level = 0.0;
         inputs.noise_m_s2 = inputs.encoder_noise_rad = 0.0;
         key.append(reinterpret_cast<const char*>(&inputs), sizeof inputs);
@@ -76,18 +77,18 @@ IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
         if (distinct > kMostDistinct) {
             continue;
         }
-        const Sampler sampler(scene.study());
         const std::size_t before = keys.size();
         // n distinct gearboxes in cyclic order fill at most n different tiles; the last tile may be
         // partly filled.
         for (std::size_t t = 0; t < tiles;
              t = t + 1 < distinct ? t + 1 : std::max(t + 1, tiles - 1)) {
-            std::vector<InstanceInputs> inputs;
+            std::vector<Realization> gearboxes;
             for (std::size_t i = t * lanes; i < std::min(rows[g], (t + 1) * lanes); ++i) {
-                inputs.push_back(sampler.sample(static_cast<Group>(g), i));
+                gearboxes.push_back(scene.sampler().draw({static_cast<Group>(g), i}));
             }
-            inputs.resize(lanes, inputs.back());
-            keys.insert(key_of(inputs));
+            const Realization last = gearboxes.back();
+            gearboxes.resize(lanes, last);
+            keys.insert(key_of(gearboxes));
         }
         counts.integrated[g] = keys.size() - before;
     }
@@ -108,7 +109,7 @@ IntegrationCounts count_integrations(const Scene& scene, const BatchPlan& plan,
 }
 
 std::shared_ptr<const lockstep::TileResult> IntegrationCache::find(
-    std::span<const InstanceInputs> lanes) const {
+    std::span<const Realization> lanes) const {
     if (!active_) {
         return nullptr;
     }
@@ -118,7 +119,7 @@ std::shared_ptr<const lockstep::TileResult> IntegrationCache::find(
     return found == results_.end() ? nullptr : found->second;
 }
 
-void IntegrationCache::keep(std::span<const InstanceInputs> lanes,
+void IntegrationCache::keep(std::span<const Realization> lanes,
                             const lockstep::TileResult& result) const {
     const std::size_t bytes = bytes_of(result);
     if (!active_ || bytes > kMostBytes) {

@@ -40,8 +40,8 @@ class IntegrationCache {
         : active_(distinct_integrations(scene).has_value()) {}
 
     // Null if these gearboxes, in this order of lanes, are not in the cache.
-    std::shared_ptr<const lockstep::TileResult> find(std::span<const InstanceInputs> lanes) const;
-    void keep(std::span<const InstanceInputs> lanes, const lockstep::TileResult& result) const;
+    std::shared_ptr<const lockstep::TileResult> find(std::span<const Realization> lanes) const;
+    void keep(std::span<const Realization> lanes, const lockstep::TileResult& result) const;
 
     std::size_t kept() const;
 

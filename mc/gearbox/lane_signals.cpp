@@ -6,7 +6,7 @@
 namespace gearpod::mc {
 
 signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
-    signals::TileSignals views{static_cast<int>(tile.inputs.size()),
+    signals::TileSignals views{static_cast<int>(tile.realizations.size()),
                                dynamics::sources(scene.plan().layout),
                                scene.samples_per_mesh(),
                                {},
@@ -24,6 +24,7 @@ namespace {
 LaneSignals folded_lane(const GearboxTile& tile, int lane) {
     const auto lanes = static_cast<std::size_t>(tile.views.lanes);
     LaneSignals lane_result;
+    lane_result.noise_m_s2 = tile.realizations[static_cast<std::size_t>(lane)].inputs.noise_m_s2;
     lane_result.folded.resize(tile.folded.size() / lanes);
     lane_result.te_turn.resize(tile.te_turn.size() / lanes);
     signals::copy_lane(tile.folded, tile.views.lanes, lane, lane_result.folded);
@@ -44,7 +45,8 @@ LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, cons
     } else if (meshes > 0) {
         lane_result.sensor = signals::synthesize(
             tile.views, lane, tile.integration.content, scene.span(), path,
-            tile.inputs[static_cast<std::size_t>(lane)].path_exponent, 0, meshes, tile.tones);
+            tile.realizations[static_cast<std::size_t>(lane)].inputs.path_exponent, 0, meshes,
+            tile.tones);
     }
     return lane_result;
 }
@@ -56,12 +58,12 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::Pat
         all.push_back(folded_lane(tile, static_cast<int>(lane)));
     }
     if (meshes > 0) {
-        auto sensor =
-            tile.sensor_response != nullptr
-                ? tile.sensor_response->signals(all.size(), meshes)
-                : signals::synthesize(tile.views, tile.integration.content, scene.span(), path,
-                                      path_exponents(std::span(tile.inputs).first(all.size())), 0,
-                                      meshes, tile.tones);
+        auto sensor = tile.sensor_response != nullptr
+                          ? tile.sensor_response->signals(all.size(), meshes)
+                          : signals::synthesize(
+                                tile.views, tile.integration.content, scene.span(), path,
+                                path_exponents(std::span(tile.realizations).first(all.size())), 0,
+                                meshes, tile.tones);
         for (std::size_t lane = 0; lane < all.size(); ++lane) {
             all[lane].sensor = std::move(sensor[lane]);
         }

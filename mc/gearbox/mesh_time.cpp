@@ -30,10 +30,9 @@ namespace {
 template <int W>
 double least_mesh_s(const Scene& scene, const lockstep::IntegrationPlan& plan, bool with_excitation,
                     int repetitions) {
-    const std::vector<InstanceInputs> instances(W, Sampler(scene.study()).nominal());
-    const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(instances[0]));
-    const std::vector<GearboxId> ids(W);
-    const auto excitation = with_excitation ? draw_excitation(scene, ids, instances) : std::nullopt;
+    const std::vector<Realization> gearboxes(W, {{}, nominal_inputs(scene.study())});
+    const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(gearboxes[0].inputs));
+    const auto excitation = with_excitation ? draw_excitation(scene, gearboxes) : std::nullopt;
     lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
     std::function<void(lockstep::TileState&)> integrate;
     if constexpr (W <= 8) {  // there is no kernel with variable excitation for 16 lanes

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "gears/tooth_deviations.hpp"
-#include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -166,12 +165,11 @@ class LaneTeeth {
 }  // namespace
 
 std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
-                                                       std::span<const GearboxId> ids,
-                                                       std::span<const InstanceInputs> inputs) {
+                                                       std::span<const Realization> realizations) {
     if (!has_tooth_errors(scene.study())) {
         return std::nullopt;
     }
-    const std::size_t lanes = inputs.size();
+    const std::size_t lanes = realizations.size();
     const auto* planetary = dynamic_cast<const PlanetaryDrivetrain*>(&scene.drivetrain());
     lockstep::ToothErrors errors;
     errors.pairs =
@@ -185,14 +183,14 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
         errors.gears.insert(errors.gears.end(), body.sides.size(), {teeth, none, none});
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto normals = [&](const char* purpose) {
-            return Normals(scene.study(), id_of_lane(ids, lane), purpose);
+        const auto normals = [&](StreamPurpose purpose) {
+            return Normals(scene.study(), realizations[lane].id, purpose);
         };
-        LaneTeeth teeth(scene, lane, lanes, normals("gearbox.pitch_error.teeth"),
-                        normals("gearbox.index_wave.gears"), normals("gearbox.profile_slope.teeth"),
+        LaneTeeth teeth(scene, lane, lanes, normals(StreamPurpose::pitch_errors),
+                        normals(StreamPurpose::index_waves), normals(StreamPurpose::profile_slopes),
                         errors);
         for (const ToothedBody& body : bodies) {
-            teeth.draw(body, scales_of_member(scene, body.member, inputs[lane]));
+            teeth.draw(body, scales_of_member(scene, body.member, realizations[lane].inputs));
         }
     }
     return errors;

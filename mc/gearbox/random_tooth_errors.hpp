@@ -11,10 +11,9 @@
 
 namespace gearpod::mc {
 
-// `inputs` has one gearbox per lane; lanes beyond `ids` repeat the last gearbox. The errors of a
-// gearbox depend on no other gearbox. Empty without tooth errors.
+// `realizations` has one gearbox per lane. The errors of a gearbox depend on no other gearbox.
+// Empty without tooth errors.
 std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
-                                                       std::span<const GearboxId> ids,
-                                                       std::span<const InstanceInputs> inputs);
+                                                       std::span<const Realization> realizations);
 
 }  // namespace gearpod::mc

@@ -7,18 +7,6 @@
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-// Rms of the sensor noise in the baseline record of the gearbox, m/s^2.
-double earlier_noise(const Study& study, const InstanceInputs& inputs, const GearboxId& earlier) {
-    const RandomInput* drawn = study.find_random("sensor.noise_m_s2");
-    return drawn != nullptr && drawn->distribution.per_record()
-               ? Sampler(study).sample(earlier).noise_m_s2
-               : inputs.noise_m_s2;
-}
-
-}  // namespace
-
 RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy)
     : RealizationSignals(scene, compared_needs(used_features(scene.study())).record),
       scene_(scene),
@@ -34,30 +22,29 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
     }
 }
 
-void RealizationFeatures::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                               const GearboxId& id) {
-    RealizationSignals::load(gearbox, inputs, id);
-    InstanceInputs before = inputs;
+void RealizationFeatures::load(const LaneSignals& gearbox, const Realization& realization) {
+    RealizationSignals::load(gearbox, realization);
+    const double noise_m_s2 = realization.inputs.noise_m_s2;
+    Realization earlier = realization;
     if (baseline_) {
-        GearboxId earlier = id;
-        earlier.record = Record::baseline;
-        earlier.noise_sampling = NoiseSampling::plain;
-        before.noise_m_s2 = earlier_noise(scene_.study(), inputs, earlier);
-        baseline_->load(*gearbox.baseline, before, earlier);
+        earlier.id.record = Record::baseline;
+        earlier.id.noise_sampling = NoiseSampling::plain;
+        earlier.inputs.noise_m_s2 = gearbox.baseline->noise_m_s2;
+        baseline_->load(*gearbox.baseline, earlier);
     }
     if (change_) {
-        const double rms = inputs.noise_m_s2 > 0.0 ? before.noise_m_s2 / inputs.noise_m_s2 : 1.0;
+        const double rms = noise_m_s2 > 0.0 ? earlier.inputs.noise_m_s2 / noise_m_s2 : 1.0;
         changed_ = change_since_baseline(scene_, gearbox);
-        change_->load(changed_, inputs,
+        change_->load(changed_, realization.inputs,
                       noise_of_change(scene_, changed_, noise(), baseline_->noise(), rms));
     }
 }
 
 std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
-                                                 const InstanceInputs& inputs, const GearboxId& id,
+                                                 const Realization& realization,
                                                  std::vector<LevelSignals>* signals) {
     std::vector<double> values(features_.size() * levels_);
-    load(gearbox, inputs, id);
+    load(gearbox, realization);
     for (std::size_t level = 0; level < levels_; ++level) {
         features::FeatureInput input = at(level), before, change;
         if (baseline_) {

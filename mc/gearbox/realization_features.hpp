@@ -23,11 +23,11 @@ class RealizationFeatures : public RealizationSignals {
 
     // Values of all used features, [feature * noise levels + level]. If `signals` is not null, one
     // entry per noise level is appended to it.
-    std::vector<double> compute(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                                const GearboxId& id, std::vector<LevelSignals>* signals = nullptr);
+    std::vector<double> compute(const LaneSignals& gearbox, const Realization& realization,
+                                std::vector<LevelSignals>* signals = nullptr);
 
   private:
-    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void load(const LaneSignals& gearbox, const Realization& realization);
 
     const Scene& scene_;
     std::vector<const features::Feature*> features_;

@@ -36,18 +36,20 @@ signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& i
     return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s);
 }
 
-std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
-                                 std::span<const double> clean, const signals::NoiseVariates& draw,
-                                 const GearboxId& id) {
+std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
+                                 std::span<const double> clean,
+                                 const signals::NoiseVariates& draw) {
     if (noise_by_density(scene.study())) {
-        Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor");
+        Normals engine =
+            Normals::of_noise(scene.study(), realization.id, StreamPurpose::sensor_noise);
         std::vector<double> unit(clean.size());
-        low_pass_noise(scene, inputs).draw(engine, std::span(unit));
+        low_pass_noise(scene, realization.inputs).draw(engine, std::span(unit));
         return unit;
     }
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
     // the directions that expand folded sensor noise to individual samples.
-    Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor.direction");
+    Normals engine =
+        Normals::of_noise(scene.study(), realization.id, StreamPurpose::sensor_noise_direction);
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -82,19 +84,20 @@ bool RealizationSignals::has_sensor_noise(const InstanceInputs& inputs) const {
     return highest_level_ * inputs.noise_m_s2 > 0.0;
 }
 
-void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                                           const GearboxId& id) {
+void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
+                                           const Realization& realization) {
+    const GearboxId& id = realization.id;
     const std::size_t bins = gearbox.folded.size();
     const bool by_density = noise_by_density(scene_.study());
     if (!by_density) {
-        Normals engine = Normals::of_noise(scene_.study(), id, "noise.sensor");
+        Normals engine = Normals::of_noise(scene_.study(), id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.noise_sampling != NoiseSampling::plain) {
-            sample_sensor_noise(gearbox, inputs, id);
+            sample_sensor_noise(gearbox, realization);
         }
     }
     if (!gearbox.sensor.empty()) {
-        noise_.samples = sample_noise(scene_, inputs, gearbox.sensor, noise_.sensor, id);
+        noise_.samples = sample_noise(scene_, realization, gearbox.sensor, noise_.sensor);
     }
     if (by_density) {
         const std::size_t span = bins * static_cast<std::size_t>(span_.ring_teeth);
@@ -104,7 +107,8 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox, const Ins
 }
 
 void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
-                                             const InstanceInputs& inputs, const GearboxId& id) {
+                                             const Realization& realization) {
+    const GearboxId& id = realization.id;
     const auto same = [&](const GearboxId& other) {
         return other.group == id.group && other.index == id.index &&
                other.noise_sampling == id.noise_sampling;
@@ -112,7 +116,7 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
     if (!sampler_ || !same(sampled_gearbox_)) {
         std::vector<double> sigmas;
         for (const double level : scene_.study().sensor.noise_levels) {
-            sigmas.push_back(level * inputs.noise_m_s2);
+            sigmas.push_back(level * realization.inputs.noise_m_s2);
         }
         sampler_.emplace(span_, scene_.samples_per_mesh(), scene_.study().features.tukey_taper);
         sampler_->load(gearbox.folded, sigmas,
@@ -121,7 +125,7 @@ void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
                            : signals::NoiseImportanceSampler::TargetTail::quiet);
         sampled_gearbox_ = id;
     }
-    Philox engine = noise_stream(scene_.study(), id, "noise.sensor.tilt");
+    Philox engine = noise_stream(scene_.study(), id, StreamPurpose::sensor_noise_kind);
     const double pick = boost::random::uniform_01<double>()(engine);
     sampler_->sample(id.repeat % signals::NoiseImportanceSampler::kKinds, pick, noise_.sensor);
     importance_sampled_ = true;
@@ -131,13 +135,13 @@ double RealizationSignals::noise_weight() const {
     return importance_sampled_ ? sampler_->weight(noise_.sensor) : 1.0;
 }
 
-void RealizationSignals::draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                                    const GearboxId& id) {
+void RealizationSignals::draw_noise(const LaneSignals& gearbox, const Realization& realization) {
+    const InstanceInputs& inputs = realization.inputs;
     const Stopwatch watch(noise_s_);
     importance_sampled_ = false;
     const std::size_t bins = gearbox.folded.size();
     if (bins > 0 && has_sensor_noise(inputs)) {
-        draw_sensor_noise(gearbox, inputs, id);
+        draw_sensor_noise(gearbox, realization);
     } else {
         noise_.sensor.along.assign(bins, 0.0);
         noise_.sensor.across.assign(bins, 0.0);
@@ -145,15 +149,15 @@ void RealizationSignals::draw_noise(const LaneSignals& gearbox, const InstanceIn
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Normals encoder = Normals::of_noise(scene_.study(), id, "noise.encoder");
+        Normals encoder =
+            Normals::of_noise(scene_.study(), realization.id, StreamPurpose::encoder_noise);
         signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }
 
-void RealizationSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                              const GearboxId& id) {
-    draw_noise(gearbox, inputs, id);
-    load_signals(gearbox, inputs);
+void RealizationSignals::load(const LaneSignals& gearbox, const Realization& realization) {
+    draw_noise(gearbox, realization);
+    load_signals(gearbox, realization.inputs);
 }
 
 void RealizationSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,

@@ -22,9 +22,8 @@ namespace gearpod::mc {
 // span. Within the span, the noise folds exactly to `draw`; after it, each sample is independent.
 // Noise given by its spectral density is generated sample by sample throughout, and `draw` follows
 // from it.
-std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
-                                 std::span<const double> clean, const signals::NoiseVariates& draw,
-                                 const GearboxId& id);
+std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
+                                 std::span<const double> clean, const signals::NoiseVariates& draw);
 // Low-pass filter for the unit noise of a sensor whose noise is given by its spectral density.
 // Samples count as evenly spaced even if the speed fluctuates.
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
@@ -53,7 +52,7 @@ class RealizationSignals {
 
     // Loads the next gearbox, with newly generated noise or with the given noise. `gearbox` must
     // outlive all calls of at() for it.
-    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void load(const LaneSignals& gearbox, const Realization& realization);
     void load(const LaneSignals& gearbox, const InstanceInputs& inputs, RealizationNoise noise);
     // Signals of the loaded gearbox at a noise level; valid until the next call.
     features::FeatureInput at(std::size_t level);
@@ -67,13 +66,11 @@ class RealizationSignals {
   private:
     // True if any noise level adds noise to the sensor.
     bool has_sensor_noise(const InstanceInputs& inputs) const;
-    void draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                           const GearboxId& id);
+    void draw_sensor_noise(const LaneSignals& gearbox, const Realization& realization);
     // Tilts the noise exponentially. The kind of tilting follows from the record's number.
-    void sample_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                             const GearboxId& id);
+    void sample_sensor_noise(const LaneSignals& gearbox, const Realization& realization);
     // Generates the noise; zeros where no noise level adds any.
-    void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void draw_noise(const LaneSignals& gearbox, const Realization& realization);
     void load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs);
     // Both add the signals at one noise level, given as rms in m/s^2 and rad.
     void sensor_features(double noise, features::FeatureInput& input);

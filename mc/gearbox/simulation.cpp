@@ -36,7 +36,7 @@ std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Va
 void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simulation& out) {
     const auto names = dynamics::motion_names(scene.plan().layout);
     const int samples = scene.samples_per_mesh();
-    const std::size_t lanes = tile.inputs.size();
+    const std::size_t lanes = tile.realizations.size();
     out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
                                return r.te[p * lanes];
                            })});
@@ -56,28 +56,26 @@ void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simula
 }
 
 void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::PathGrid& path,
-                const RealizationFeatures& features, const GearboxId& id, std::size_t rows,
-                Simulation& out) {
-    const InstanceInputs& inputs = tile.inputs[0];
+                const RealizationFeatures& features, std::size_t rows, Simulation& out) {
+    const Realization& realization = tile.realizations[0];
     const auto clean = lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
-    const auto noise = sample_noise(scene, inputs, clean, features.noise().sensor, id);
+    const auto noise = sample_noise(scene, realization, clean, features.noise().sensor);
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
     out.columns.push_back({"sensor", "m/s^2", first(clean)});
     for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
         std::vector<double> noisy = clean;
-        add_noise(noise, out.noise_levels[level] * inputs.noise_m_s2, noisy);
+        add_noise(noise, out.noise_levels[level] * realization.inputs.noise_m_s2, noisy);
         out.columns.push_back(
             {fmt::format("sensor_noise_{:g}", out.noise_levels[level]), "m/s^2", first(noisy)});
     }
 }
 
 // Time of every sample, s. A fluctuating speed makes the spacing uneven.
-std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
-                                 const InstanceInputs& instance, long meshes) {
+std::vector<double> sample_times(const Scene& scene, const Realization& realization, long meshes) {
     const auto& grid = scene.plan().grid;
-    const std::vector<dynamics::GearboxInputs> inputs{scene.inputs(instance)};
+    const std::vector<dynamics::GearboxInputs> inputs{scene.inputs(realization.inputs)};
     std::vector<double> times;
     if (!speed_fluctuates(scene.study())) {
         const double period_s = dynamics::mesh_period_s(inputs[0]);
@@ -87,7 +85,7 @@ std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
         }
         return times;
     }
-    const auto excitation = draw_excitation(scene, std::span(&id, 1), std::span(&instance, 1));
+    const auto excitation = draw_excitation(scene, std::span(&realization, 1));
     lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
     for (long mesh = 0; mesh < meshes; ++mesh) {
         rows.fill(static_cast<int>(mesh));
@@ -114,23 +112,22 @@ GearboxId id_of_row(const Study& study, long row) {
 
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
-    const Sampler sampler(scene.study());
     const GearboxTile tile = run_gearboxes(
-        scene, sampler, path, std::span(&id, 1), 1,
+        scene, path, std::span(&id, 1), 1,
         {.records = lockstep::RecordOptions{.motion_meshes = static_cast<int>(meshes)}});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
-    const HealthyReference healthy = healthy_reference(scene, sampler, path);
+    const HealthyReference healthy = healthy_reference(scene, path);
     RealizationFeatures features(scene, &healthy);
     Simulation out;
     out.noise_levels = scene.study().sensor.noise_levels;
     out.feature_names = scene.study().features.use;
-    out.features =
-        features.compute(lane_signals(scene, path, tile, 0, features.meshes()), tile.inputs[0], id);
+    out.features = features.compute(lane_signals(scene, path, tile, 0, features.meshes()),
+                                    tile.realizations[0]);
 
     const int samples = scene.samples_per_mesh();
-    const auto inputs = scene.inputs(tile.inputs[0]);
+    const auto inputs = scene.inputs(tile.realizations[0].inputs);
     const auto rows = static_cast<std::size_t>(meshes) * static_cast<std::size_t>(samples);
     Column time{"time", "s", {}}, phase{"mesh_phase", "mesh periods", {}},
         angle{"carrier_angle", "rad", {}};
@@ -140,13 +137,13 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         phase.values.push_back(mesh);
         angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
     }
-    time.values = sample_times(scene, id, tile.inputs[0], meshes);
+    time.values = sample_times(scene, tile.realizations[0], meshes);
     out.columns = {time, phase};
     if (scene.study().gearbox.kind == GearboxKind::planetary) {
         out.columns.push_back(angle);
     }
     if (!scene.study().effects.quasi_static()) {
-        add_sensor(scene, tile, path, features, id, rows, out);
+        add_sensor(scene, tile, path, features, rows, out);
     }
     add_motion(scene, tile, meshes, out);
     if (!tile.integration.contact_loss.empty()) {

@@ -82,8 +82,7 @@ int run_in_meshes(const Scene& scene) {
 }
 
 std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
-                                                    std::span<const GearboxId> ids,
-                                                    std::span<const InstanceInputs> inputs) {
+                                                    std::span<const Realization> realizations) {
     const Study& study = scene.study();
     if (!has_variable_excitation(study)) {
         return std::nullopt;
@@ -95,18 +94,16 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
     std::vector<NoiseInputs> torque_noise, speed_noise;
     std::vector<Philox> torque_engines, speed_engines;
     lockstep::Excitation excitation;
-    for (std::size_t lane = 0; lane < inputs.size(); ++lane) {
-        const FluctuationInstance& f = inputs[lane].fluctuations;
-        mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(inputs[lane])));
+    for (const Realization& one : realizations) {
+        const FluctuationInstance& f = one.inputs.fluctuations;
+        mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(one.inputs)));
         add_sine({f.torque, f.torque_order * input_turns, f.torque_Hz, f.torque_phase_rad}, torque);
         add_sine({f.speed, f.speed_order * input_turns, 0.0, f.speed_phase_rad}, speed);
         torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
         speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
-        torque_engines.push_back(
-            record_stream(study, id_of_lane(ids, lane), "operation.torque_noise.knots"));
-        speed_engines.push_back(
-            record_stream(study, id_of_lane(ids, lane), "operation.speed_noise.knots"));
-        excitation.rotation_m_s.push_back(drivetrain.rotation_m_s(inputs[lane]));
+        torque_engines.push_back(record_stream(study, one.id, StreamPurpose::torque_noise));
+        speed_engines.push_back(record_stream(study, one.id, StreamPurpose::speed_noise));
+        excitation.rotation_m_s.push_back(drivetrain.rotation_m_s(one.inputs));
     }
     // When the speed drops, the sensor's time continues: the torque needs additional knots.
     const double first = -most_run_in(scene), last = scene.signal_meshes();
@@ -133,18 +130,19 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
     return excitation;
 }
 
-signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
-                          std::span<const InstanceInputs> inputs) {
+signals::Tones draw_tones(const Scene& scene, std::span<const Realization> realizations) {
     signals::Tones tones;
     const std::vector<Tone>& requested = scene.study().sensor.tones;
     if (requested.empty()) {
         return tones;
     }
-    const std::size_t lanes = inputs.size();
+    const std::size_t lanes = realizations.size();
     tones.phase_rad.resize(requested.size() * lanes);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        tones.mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(inputs[lane])));
-        Philox engine = record_stream(scene.study(), id_of_lane(ids, lane), "sensor.tones.phase");
+        tones.mesh_period_s.push_back(
+            dynamics::mesh_period_s(scene.inputs(realizations[lane].inputs)));
+        Philox engine =
+            record_stream(scene.study(), realizations[lane].id, StreamPurpose::tone_phases);
         boost::random::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi);
         for (std::size_t i = 0; i < requested.size(); ++i) {
             tones.phase_rad[i * lanes + lane] = turn(engine);
@@ -152,8 +150,8 @@ signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
     }
     for (const Tone& tone : requested) {
         tones.frequency_Hz.insert(tones.frequency_Hz.end(), lanes, tone.frequency_Hz);
-        for (const InstanceInputs& one : inputs) {
-            tones.amplitude_m_s2.push_back(one.tone_level * tone.amplitude_m_s2);
+        for (const Realization& one : realizations) {
+            tones.amplitude_m_s2.push_back(one.inputs.tone_level * tone.amplitude_m_s2);
         }
     }
     return tones;

@@ -13,18 +13,11 @@
 
 namespace gearpod::mc {
 
-// In the functions below `inputs` has one gearbox per lane; lanes beyond `ids` repeat the last
-// gearbox.
-
-// Id of the gearbox in a lane.
-inline const GearboxId& id_of_lane(std::span<const GearboxId> ids, std::size_t lane) {
-    return ids[lane < ids.size() ? lane : ids.size() - 1];
-}
+// In the functions below `realizations` has one gearbox per lane.
 
 // Interfering tones. Their phases are uniformly distributed, because no tone is synchronous with
 // the meshes. Empty without tones.
-signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
-                          std::span<const InstanceInputs> inputs);
+signals::Tones draw_tones(const Scene& scene, std::span<const Realization> realizations);
 
 // Run-in: mesh periods that are integrated before the first recorded one. In this time, the
 // transient from the onset of tooth errors or variable excitation decays to the convergence
@@ -35,7 +28,6 @@ int run_in_meshes(const Scene& scene);
 // run-in until after the last mesh of scene.signal_meshes(), independent of the actual run-in. Its
 // first knot has a random position. Empty if the excitation is constant.
 std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
-                                                    std::span<const GearboxId> ids,
-                                                    std::span<const InstanceInputs> inputs);
+                                                    std::span<const Realization> realizations);
 
 }  // namespace gearpod::mc

@@ -7,36 +7,36 @@
 
 namespace gearpod::mc {
 
-bool has_gain(std::span<const InstanceInputs> inputs) {
-    return std::ranges::any_of(inputs, [](const InstanceInputs& one) { return one.gain != 1.0; });
+bool has_gain(std::span<const Realization> realizations) {
+    return std::ranges::any_of(realizations,
+                               [](const Realization& one) { return one.inputs.gain != 1.0; });
 }
 
-void apply_gain(std::span<const InstanceInputs> inputs, machine::AlignedVector& acceleration) {
+void apply_gain(std::span<const Realization> realizations, machine::AlignedVector& acceleration) {
     for (std::size_t i = 0; i < acceleration.size(); ++i) {
-        acceleration[i] *= inputs[i % inputs.size()].gain;
+        acceleration[i] *= realizations[i % realizations.size()].inputs.gain;
     }
 }
 
-std::vector<double> path_exponents(std::span<const InstanceInputs> inputs) {
+std::vector<double> path_exponents(std::span<const Realization> realizations) {
     std::vector<double> exponents;
-    for (const InstanceInputs& instance : inputs) {
-        exponents.push_back(instance.path_exponent);
+    for (const Realization& one : realizations) {
+        exponents.push_back(one.inputs.path_exponent);
     }
     return exponents;
 }
 
 TileSensorRecorder::TileSensorRecorder(const Scene& scene, const signals::PathGrid& path,
-                                       std::span<const GearboxId> ids,
-                                       std::span<const InstanceInputs> inputs, int kept_meshes)
-    : inputs_(inputs),
-      has_gain_(has_gain(inputs)),
+                                       std::span<const Realization> realizations, int kept_meshes)
+    : realizations_(realizations),
+      has_gain_(has_gain(realizations)),
       signal_meshes_(scene.signal_meshes()),
       recorded_meshes_(scene.recorded_meshes()) {
-    const signals::Tones tones = draw_tones(scene, ids, inputs);
-    const std::vector<double> exponents = path_exponents(inputs);
+    const signals::Tones tones = draw_tones(scene, realizations);
+    const std::vector<double> exponents = path_exponents(realizations);
     response_ = std::make_unique<signals::SensorResponse>(
         path, scene.span(),
-        signals::SensorResponse::Tile{static_cast<int>(inputs.size()), exponents, &tones,
+        signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents, &tones,
                                       scene.te_samples_per_mesh(), signal_meshes_,
                                       kept_meshes < 0 ? signal_meshes_ : kept_meshes});
 }
@@ -46,7 +46,7 @@ void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
     const double* acceleration = record.acceleration.data();
     if (has_gain_) {
         amplified_acceleration_ = record.acceleration;
-        apply_gain(inputs_, amplified_acceleration_);
+        apply_gain(realizations_, amplified_acceleration_);
         acceleration = amplified_acceleration_.data();
     }
     for (int at = k; at < signal_meshes_; at += recorded_meshes_) {

@@ -13,19 +13,18 @@
 
 namespace gearpod::mc {
 
-bool has_gain(std::span<const InstanceInputs> inputs);
+bool has_gain(std::span<const Realization> realizations);
 // Multiplies the recorded acceleration of each lane by the sensor gain of that lane's gearbox.
-void apply_gain(std::span<const InstanceInputs> inputs, machine::AlignedVector& acceleration);
+void apply_gain(std::span<const Realization> realizations, machine::AlignedVector& acceleration);
 
-std::vector<double> path_exponents(std::span<const InstanceInputs> inputs);
+std::vector<double> path_exponents(std::span<const Realization> realizations);
 
 class TileSensorRecorder {
   public:
-    // Keeps the first `kept_meshes` mesh periods of sensor samples; -1 keeps all. `inputs` has one
-    // entry per lane and must outlive the object. `path` must outlive the time integration.
+    // Keeps the first `kept_meshes` mesh periods of sensor samples; -1 keeps all. `realizations`
+    // has one entry per lane and must outlive the object. `path` must outlive the time integration.
     TileSensorRecorder(const Scene& scene, const signals::PathGrid& path,
-                       std::span<const GearboxId> ids, std::span<const InstanceInputs> inputs,
-                       int kept_meshes);
+                       std::span<const Realization> realizations, int kept_meshes);
 
     // Takes the record of mesh period k; matches lockstep::RecordedSpan::on_record. If fewer mesh
     // periods are recorded than the signal has, the signal repeats them.
@@ -35,7 +34,7 @@ class TileSensorRecorder {
     double spent_s() const { return spent_s_; }
 
   private:
-    const std::span<const InstanceInputs> inputs_;
+    const std::span<const Realization> realizations_;
     const bool has_gain_;
     const int signal_meshes_, recorded_meshes_;
     std::unique_ptr<signals::SensorResponse> response_;

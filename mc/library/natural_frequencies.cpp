@@ -44,7 +44,7 @@ std::vector<double> natural_frequencies_Hz(const Study& study) {
         throw SceneError("gearbox", "masses or inertias are missing, but modes need them",
                          "add them to [gearbox]");
     }
-    const auto inputs = body_inputs(study, Sampler(study).nominal());
+    const auto inputs = body_inputs(study, nominal_inputs(study));
     return dynamics::natural_frequencies_Hz(
         dynamics::assemble(layout_at_rest(study), inputs, mean_pairs(study)));
 }

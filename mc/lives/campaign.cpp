@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
 #include <stdexcept>
 
 #include "mc/lives/life_rows.hpp"
@@ -22,25 +21,23 @@ long count_in(const Results& frame, const char* name) {
     return count;
 }
 
-BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch& batch,
-                    Seconds& seconds) {
-    std::vector<GearboxId> ids;
+BatchRows life_rows(const LifeTiles& tiles, const Batch& batch, Seconds& seconds) {
+    std::vector<Realization> gearboxes;
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {
-        ids.push_back({batch.group, batch.first_index + i});
+        gearboxes.push_back(tiles.draw({batch.group, batch.first_index + i}));
     }
     BatchRows rows;
     LifeCosts costs;
-    for (std::size_t first = 0; first < ids.size(); first += tiles.lanes()) {
+    for (std::size_t first = 0; first < gearboxes.size(); first += tiles.lanes()) {
         const auto part =
-            std::span(ids).subspan(first, std::min(tiles.lanes(), ids.size() - first));
+            std::span(gearboxes).subspan(first, std::min(tiles.lanes(), gearboxes.size() - first));
         std::vector<InterpolationErrors> errors(part.size());
-        const auto measured_count =
-            static_cast<std::size_t>(std::ranges::count_if(part, measures_interpolation));
+        const auto measured_count = static_cast<std::size_t>(
+            std::ranges::count_if(part, measures_interpolation, &Realization::id));
         const auto lives = tiles.run(part, batch.group == Group::graded, costs,
                                      std::span(errors).first(measured_count));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
-            add_life(tiles.scene().study(), sampler.row(part[lane]), lives[lane], errors[lane],
-                     rows);
+            add_life(tiles.scene().study(), part[lane], lives[lane], errors[lane], rows);
         }
     }
     seconds.integration += costs.gearboxes;
@@ -54,9 +51,8 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
 
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run) {
     const Study& study = tiles.scene().study();
-    const auto sampler = std::make_shared<const Sampler>(study_of_gearboxes(study));
-    const BatchComputer compute = [&tiles, sampler](const Batch& batch, Seconds& seconds) {
-        return life_rows(tiles, *sampler, batch, seconds);
+    const BatchComputer compute = [&tiles](const Batch& batch, Seconds& seconds) {
+        return life_rows(tiles, batch, seconds);
     };
     return run_batches(study, plan, run,
                        [&]() -> BatchComputers { return [compute] { return compute; }; });

@@ -52,12 +52,13 @@ double CrackLife::range_per_force(double depth_m) const {
     return crack_.largest_intensity(depth_m, 1.0);
 }
 
-LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs,
-                               bool cracked) const {
+LifeHistory CrackLife::history(const Realization& gearbox, bool cracked) const {
+    const GearboxId& id = gearbox.id;
+    const InstanceInputs& inputs = gearbox.inputs;
     const Study& study = scene_.study();
     const Life& life = study.life;
     LifeHistory history;
-    Philox engine = gearbox_stream(study, id, "life.records");
+    Philox engine = gearbox_stream(study, id, StreamPurpose::life_records);
     boost::random::normal_distribution<double> unit;
     for (int i = 0; i < life.records; ++i) {
         LifeRecord record;
@@ -68,7 +69,7 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
         history.records.push_back(record);
     }
     if (distributions_.speed.varies()) {
-        Philox speeds = gearbox_stream(study, id, "life.speeds");
+        Philox speeds = gearbox_stream(study, id, StreamPurpose::life_speeds);
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
             record.speed = distributions_.speed.factor(of_speed(speeds));

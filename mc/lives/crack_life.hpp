@@ -39,7 +39,7 @@ class CrackLife {
     // History of a gearbox. The crack exists from the first record after the baseline. A healthy
     // life has all its records, a cracked one those before its end. The random numbers depend only
     // on the gearbox.
-    LifeHistory history(const GearboxId& id, const InstanceInputs& inputs, bool cracked) const;
+    LifeHistory history(const Realization& gearbox, bool cracked) const;
 
   private:
     // Both end the history when the tooth fails.

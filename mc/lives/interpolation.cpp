@@ -80,7 +80,7 @@ void LifeTiles::InterpolationCheck::between_loads(const SignalsByLoad& healthy) 
 }
 
 void LifeTiles::InterpolationCheck::at_load(const Load& load, const SignalsByLoad& healthy) {
-    const HealthySolution there = tiles_.healthy_solution(ids_, load);
+    const HealthySolution there = tiles_.healthy_solution(gearboxes_, load);
     const std::vector<double> load_weights = tiles_.load_weights(load);
     for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
         const auto& at = there.healthy().lane[lane].sensor;

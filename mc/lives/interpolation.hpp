@@ -10,9 +10,9 @@ namespace gearpod::mc {
 class LifeTiles::InterpolationCheck {
   public:
     // `solution` holds these gearboxes at the first load.
-    InterpolationCheck(const LifeTiles& tiles, std::span<const GearboxId> ids,
+    InterpolationCheck(const LifeTiles& tiles, std::span<const Realization> gearboxes,
                        const HealthySolution& solution, std::span<InterpolationErrors> errors)
-        : tiles_(tiles), ids_(ids), solution_(solution), errors_(errors) {}
+        : tiles_(tiles), gearboxes_(gearboxes), solution_(solution), errors_(errors) {}
 
     // Computes the largest error halfway between neighbouring loads.
     void between_loads(const SignalsByLoad& healthy);
@@ -25,7 +25,7 @@ class LifeTiles::InterpolationCheck {
     void at_load(const Load& load, const SignalsByLoad& healthy);
 
     const LifeTiles& tiles_;
-    const std::span<const GearboxId> ids_;
+    const std::span<const Realization> gearboxes_;
     const HealthySolution& solution_;
     const std::span<InterpolationErrors> errors_;
 };

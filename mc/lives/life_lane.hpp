@@ -18,10 +18,10 @@ class LifeTiles::Lane {
   public:
     using LaneFeatures = std::vector<const features::Feature*>;
 
-    Lane(const LifeTiles& tiles, const GearboxId& id, bool cracked)
+    Lane(const LifeTiles& tiles, const Realization& gearbox, bool cracked)
         : tiles_(tiles),
-          id_(id),
-          inputs_(tiles.inputs(id)),
+          id_(gearbox.id),
+          inputs_(gearbox.inputs),
           features_(used_features(tiles.scene_.study())),
           compares_(std::ranges::any_of(features_,
                                         [](const features::Feature* one) {
@@ -31,7 +31,7 @@ class LifeTiles::Lane {
           span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
           record_(tiles.scene_, {}, span_.turns * span_.recordings),
           change_(tiles.scene_, {}, span_.turns * span_.recordings) {
-        life_.history = tiles.crack_.history(id, inputs_, cracked);
+        life_.history = tiles.crack_.history(gearbox, cracked);
         life_.values.assign(features_.size(),
                             std::vector<double>(life_.history.records.size(), 0.0));
     }
@@ -56,7 +56,7 @@ class LifeTiles::Lane {
         const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
-        Philox engine = gearbox_stream(study, id_, "life.pattern.noise");
+        Philox engine = gearbox_stream(study, id_, StreamPurpose::reference_noise);
         signals::draw_normals(engine, std::span(noise_.sensor));
         const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
                              std::sqrt(std::max(1.0, records * spans)) *
@@ -64,13 +64,14 @@ class LifeTiles::Lane {
         for (double& value : noise_.sensor) {
             value *= sigma;
         }
-        const auto normals = [&](const char* purpose) {
+        const auto normals = [&](StreamPurpose purpose) {
             Philox own = gearbox_stream(study, id_, purpose);
             std::vector<double> unit(static_cast<std::size_t>(records));
             signals::draw_normals(own, std::span(unit));
             return unit;
         };
-        const auto torques = normals("life.pattern.torque"), speeds = normals("life.pattern.speed");
+        const auto torques = normals(StreamPurpose::reference_torques),
+                   speeds = normals(StreamPurpose::reference_speeds);
         pattern_.assign(healthy.size(), 0.0);
         for (std::size_t i = 0; i < torques.size(); ++i) {
             const auto load_weights =
@@ -152,7 +153,8 @@ class LifeTiles::Lane {
                 coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * one;
             }
         }
-        InstanceInputs inputs = inputs_;
+        Realization own_record{record_id(id_, r, false), inputs_};
+        InstanceInputs& inputs = own_record.inputs;
         inputs.noise_m_s2 *= record.noise;
         inputs.encoder_noise_rad *= tiles_.distributions_.sensor_noise_only ? 1.0 : record.noise;
         const std::vector<std::size_t> starts = starts_of(r);
@@ -160,7 +162,7 @@ class LifeTiles::Lane {
         for (double& value : own.te_turn) {
             value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
         }
-        record_.load(own, inputs, record_id(id_, r, false));
+        record_.load(own, own_record);
         features::FeatureInput input = record_.at(0), change;
         LaneSignals changed;
         if (compares_) {
@@ -169,7 +171,8 @@ class LifeTiles::Lane {
             }
             coefficients.back() = -1.0;
             changed = fold_record(superposed, coefficients, starts);
-            change_.load(changed, inputs, record_id(id_, r, true));
+            own_record.id = record_id(id_, r, true);
+            change_.load(changed, own_record);
             change = change_.at(0);
             input.change = &change;
         }
@@ -183,8 +186,8 @@ class LifeTiles::Lane {
     std::vector<std::size_t> starts_of(std::size_t r) const {
         std::vector<std::size_t> starts;
         if (!span_.whole()) {
-            Philox engine =
-                gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false), "life.starts");
+            Philox engine = gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false),
+                                           StreamPurpose::life_recording_starts);
             boost::random::uniform_int_distribution<std::size_t> turn(
                 0, static_cast<std::size_t>(span_.all_turns) - 1);
             for (int i = 0; i < span_.recordings; ++i) {

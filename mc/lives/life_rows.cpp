@@ -73,11 +73,11 @@ bool measures_interpolation(const GearboxId& id) {
     return id.group == Group::graded && id.index < kMeasuredLives;
 }
 
-void add_life(const Study& study, const std::vector<double>& parameters, const GearboxLife& life,
+void add_life(const Study& study, const Realization& gearbox, const GearboxLife& life,
               const InterpolationErrors& errors, BatchRows& rows) {
     const auto& records = life.history.records;
     rows.status.push_back(static_cast<int>(life.status));
-    rows.values.insert(rows.values.end(), parameters.begin(), parameters.end() - 1);
+    append_random_inputs(study, gearbox, 1.0, rows.values);
     rows.values.insert(rows.values.end(), {life.history.end_hours.value_or(kNoNumber),
                                            static_cast<double>(records.size()), errors.first,
                                            errors.last, errors.load});

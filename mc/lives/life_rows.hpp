@@ -20,8 +20,8 @@ void check_lives(const std::string& path, const Results& frame, const RowSource&
 // True if the interpolation errors of a gearbox are measured.
 bool measures_interpolation(const GearboxId& id);
 
-// Appends the row of a life. `parameters` comes from Sampler::row().
-void add_life(const Study& study, const std::vector<double>& parameters, const GearboxLife& life,
+// Appends the row of a gearbox's life.
+void add_life(const Study& study, const Realization& gearbox, const GearboxLife& life,
               const InterpolationErrors& errors, BatchRows& rows);
 
 // Life in a row of such a frame.

@@ -23,10 +23,10 @@ std::size_t LifeTiles::gap_count() const {
                      distributions_.speed.factors_between(integrated_speeds(life)).size();
 }
 
-InstanceInputs LifeTiles::inputs(const GearboxId& id) const {
-    InstanceInputs inputs = sampler_.sample(id.group, id.index);
-    inputs.fault_size = 0.0;
-    return inputs;
+Realization LifeTiles::draw(const GearboxId& id) const {
+    Realization gearbox = sampler_.draw(id);
+    gearbox.inputs.fault_size = 0.0;
+    return gearbox;
 }
 
 double LifeTiles::depth(int step) const {
@@ -53,16 +53,15 @@ std::vector<double> LifeTiles::load_weights(const Load& load) const {
     return all;
 }
 
-HealthySolution LifeTiles::healthy_solution(std::span<const GearboxId> ids,
+HealthySolution LifeTiles::healthy_solution(std::span<const Realization> gearboxes,
                                             const Load& load) const {
-    std::vector<InstanceInputs> all;
-    for (const GearboxId& id : ids) {
-        all.push_back(inputs(id));
-        all.back().torque_N_m *= load.torque;
-        all.back().fixed_shaft.load_torque_N_m *= load.torque;
-        all.back().speed_rad_s *= load.speed;
+    std::vector<Realization> all(gearboxes.begin(), gearboxes.end());
+    for (Realization& one : all) {
+        one.inputs.torque_N_m *= load.torque;
+        one.inputs.fixed_shaft.load_torque_N_m *= load.torque;
+        one.inputs.speed_rad_s *= load.speed;
     }
-    return {scene_, path_, ids, std::move(all), static_cast<int>(lanes())};
+    return {scene_, path_, std::move(all), static_cast<int>(lanes())};
 }
 
 }  // namespace gearpod::mc

@@ -54,9 +54,13 @@ class LifeTiles {
     // Throws SceneError if the study's records cannot be superposed.
     explicit LifeTiles(const Scene& scene);
 
+    // A gearbox without its fault. Inputs that vary by record are nominal.
+    Realization draw(const GearboxId& id) const;
+
     // Simulates the lives of gearboxes. `errors`: interpolation errors of the first gearboxes; NaN
     // for those that failed.
-    std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked, LifeCosts& costs,
+    std::vector<GearboxLife> run(std::span<const Realization> gearboxes, bool cracked,
+                                 LifeCosts& costs,
                                  std::span<InterpolationErrors> errors = {}) const;
 
     // Computes all records of a gearbox from synthetic signals, and measures the time.
@@ -82,8 +86,8 @@ class LifeTiles {
         double torque = 1.0, speed = 1.0;
     };
     // Healthy reference solution of the gearboxes at a load.
-    HealthySolution healthy_solution(std::span<const GearboxId> ids, const Load& load) const;
-    InstanceInputs inputs(const GearboxId& id) const;
+    HealthySolution healthy_solution(std::span<const Realization> gearboxes,
+                                     const Load& load) const;
     double depth(int step) const;
     // Integrated loads, and interpolation weights of each of them for another load.
     std::vector<Load> loads() const;
@@ -92,7 +96,7 @@ class LifeTiles {
     const Scene& scene_;
     const RecordDistributions distributions_;
     const std::vector<double> torques_, speeds_;  // factors that are integrated
-    const Sampler sampler_;
+    const Sampler sampler_;                       // of study_of_gearboxes()
     const signals::PathGrid path_;
     const CrackLife crack_;
 };

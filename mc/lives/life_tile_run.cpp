@@ -6,7 +6,7 @@
 
 namespace gearpod::mc {
 
-std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cracked,
+std::vector<GearboxLife> LifeTiles::run(std::span<const Realization> gearboxes, bool cracked,
                                         LifeCosts& costs,
                                         std::span<InterpolationErrors> errors) const {
     std::vector<Lane> lanes;
@@ -16,19 +16,19 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cra
         sum += now - start;
         start = now;
     };
-    for (const GearboxId& id : ids) {
-        lanes.emplace_back(*this, id, cracked);
+    for (const Realization& one : gearboxes) {
+        lanes.emplace_back(*this, one, cracked);
     }
     std::vector<HealthySolution> solutions;
     for (const Load& load : loads()) {
-        solutions.push_back(healthy_solution(ids, load));
+        solutions.push_back(healthy_solution(gearboxes, load));
     }
     const auto at_depth = [&](double depth_m) {
-        SignalsByLoad all(ids.size());
+        SignalsByLoad all(gearboxes.size());
         for (const HealthySolution& one : solutions) {
             HealthySolution::Signals solution =
                 depth_m > 0.0 ? one.with_fault(depth_m) : one.healthy();
-            for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+            for (std::size_t lane = 0; lane < gearboxes.size(); ++lane) {
                 all[lane].push_back(std::move(solution.lane[lane]));
                 if (solution.status[lane] != Status::ok && !lanes[lane].failed()) {
                     lanes[lane].fail(solution.status[lane]);
@@ -39,18 +39,18 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cra
     };
     const SignalsByLoad healthy = at_depth(0.0);
     lap(costs.gearboxes);
-    InterpolationCheck check(*this, ids, solutions.front(), errors);
+    InterpolationCheck check(*this, gearboxes, solutions.front(), errors);
     check.between_loads(healthy);
     lap(check_s);
     SignalsByLoad low = healthy;
     for (int step = 0; step < (cracked ? scene_.study().life.depth_steps : 1); ++step) {
-        SignalsByLoad high = cracked ? at_depth(depth(step + 1)) : SignalsByLoad(ids.size());
+        SignalsByLoad high = cracked ? at_depth(depth(step + 1)) : SignalsByLoad(gearboxes.size());
         lap(costs.gearboxes);
         if (cracked) {
             check.between_depths(step, healthy, low, high);
             lap(check_s);
         }
-        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        for (std::size_t lane = 0; lane < gearboxes.size(); ++lane) {
             if (lanes[lane].failed()) {
                 continue;
             }
@@ -69,7 +69,7 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cra
         lives.push_back(std::move(lane).take());
         costs.record_count += static_cast<long>(lives.back().history.records.size());
     }
-    costs.gearbox_count += static_cast<long>(ids.size());
+    costs.gearbox_count += static_cast<long>(gearboxes.size());
     lap(costs.gearboxes);
     return lives;
 }

@@ -47,7 +47,7 @@ RecordSpan record_span(const Scene& scene, double speed_rad_s) {
 }
 
 std::string record_text(const Scene& scene) {
-    const double speed = Sampler(scene.study()).nominal().speed_rad_s;
+    const double speed = nominal_inputs(scene.study()).speed_rad_s;
     const RecordSpan record = record_span(scene, speed);
     const int teeth = scene.span().planet_teeth;
     std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
@@ -111,7 +111,7 @@ void check_superposable(const Scene& scene) {
                "remove them");
     }
     if (short_records) {
-        record_span(scene, Sampler(study).nominal().speed_rad_s);
+        record_span(scene, nominal_inputs(study).speed_rad_s);
     }
 }
 

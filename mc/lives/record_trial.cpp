@@ -11,7 +11,8 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
         return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
     };
     LaneSignals all;
-    Philox engine = gearbox_stream(scene_.study(), {Group::graded, number}, "life.made_up.signals");
+    Philox engine =
+        gearbox_stream(scene_.study(), {Group::graded, number}, StreamPurpose::forecast_signals);
     all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
     signals::draw_normals(engine, std::span(all.sensor));
     all.te_turn.resize(samples(scene_.te_samples_per_mesh(), scene_.span().planet_teeth));
@@ -22,7 +23,7 @@ LaneSignals LifeTiles::synthetic_signals(std::uint64_t number) const {
 RecordTimes LifeTiles::time_records() const {
     const std::vector<LaneSignals> none, healthy(load_count(), synthetic_signals(0)),
         low(load_count(), synthetic_signals(1)), high(load_count(), synthetic_signals(2));
-    Lane lane(*this, {Group::graded, 0}, false);
+    Lane lane(*this, draw({Group::graded, 0}), false);
     lane.compute_reference_pattern(healthy);
     const auto seconds = [](const auto& work) {
         const double start = thread_processor_s();
@@ -36,7 +37,7 @@ RecordTimes LifeTiles::time_records() const {
 }
 
 LifeHistory LifeTiles::history(const GearboxId& id) const {
-    return crack_.history(id, inputs(id), true);
+    return crack_.history(draw(id), true);
 }
 
 }  // namespace gearpod::mc

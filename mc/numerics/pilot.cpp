@@ -116,13 +116,13 @@ std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride
 }
 
 Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
-    : ids_(std::move(ids)), sampler_(scene.study()), path_(path_grid(scene)) {}
+    : ids_(std::move(ids)), path_(path_grid(scene)) {}
 
 PilotRecord Pilot::run(const Scene& scene) const {
     const lockstep::Precision precision = scene.plan().precision;
     const int lanes = lockstep::lanes_for(precision, full_lanes(precision));
     return record(scene, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(scene, sampler_, path_, filled(some, lanes), lanes,
+        return run_gearboxes(scene, path_, filled(some, lanes), lanes,
                              {.records = lockstep::RecordOptions{}});
     });
 }
@@ -130,7 +130,7 @@ PilotRecord Pilot::run(const Scene& scene) const {
 PilotRecord Pilot::record_of_integration(const Scene& scene,
                                          const ForeignIntegrator& integrate) const {
     return record(scene, lockstep::kPilotLanes, [&](std::span<const GearboxId> some) {
-        return complete_tile(scene, sampler_, path_, some, integrate(some));
+        return complete_tile(scene, path_, some, integrate(some));
     });
 }
 
@@ -139,7 +139,7 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
     record.features_used = static_cast<int>(scene.study().features.use.size());
     record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
     record.steps = static_cast<int>(scene.plan().grid.steps.size());
-    const HealthyReference healthy = healthy_reference(scene, sampler_, path_);
+    const HealthyReference healthy = healthy_reference(scene, path_);
     RealizationFeatures features(scene, &healthy);
     const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
     double tiles_s = 0.0, features_s = 0.0, lanes_run = 0.0;
@@ -154,7 +154,7 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
         record.integration_s += tile.integration_cpu_s;
         for (std::size_t g = 0; g < some.size(); ++g) {
             const int lane = static_cast<int>(g);
-            const InstanceInputs& inputs = tile.inputs[g];
+            const Realization& realization = tile.realizations[g];
             const bool ok = tile.status[g] == Status::ok;
             record.ok.push_back(ok);
             record.sensor.emplace_back();
@@ -165,11 +165,11 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
             }
             const double features_start = thread_processor_s();
             record.features.back() = features.compute(
-                lane_signals(scene, path_, tile, lane, features.meshes()), inputs, some[g]);
+                lane_signals(scene, path_, tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
             record.sensor.back() =
                 signals::synthesize(tile.views, lane, tile.integration.content, scene.span(), path_,
-                                    inputs.path_exponent, 0, meshes);
+                                    realization.inputs.path_exponent, 0, meshes);
             record.te.back() = te_without_mean(scene, tile, lane, meshes);
         }
     }

@@ -56,7 +56,6 @@ class Pilot {
     PilotRecord record(const Scene& scene, int lanes, const Tile& tile_of) const;
 
     std::vector<GearboxId> ids_;
-    Sampler sampler_;
     signals::PathGrid path_;
 };
 

@@ -37,25 +37,23 @@ struct Squares {
 
 class StepPilot {
   public:
-    explicit StepPilot(const Scene& scene) : ids_(pilot_gearboxes()) {
-        const Sampler sampler(scene.study());
-        for (const GearboxId& id : ids_) {
-            inputs_.push_back(sampler.sample(id));
+    explicit StepPilot(const Scene& scene) {
+        for (const GearboxId& id : pilot_gearboxes()) {
+            gearboxes_.push_back(scene.sampler().draw(id));
         }
     }
 
     GearboxTile run(const Scene& scene) const {
         const int lanes =
-            lockstep::lanes_for(scene.plan().precision, static_cast<int>(ids_.size()));
-        return run_with_inputs(scene, path_grid(scene), ids_, inputs_, lanes,
-                               {.records = lockstep::RecordOptions{}});
+            lockstep::lanes_for(scene.plan().precision, static_cast<int>(gearboxes_.size()));
+        return run_realizations(scene, path_grid(scene), gearboxes_, lanes,
+                                {.records = lockstep::RecordOptions{}});
     }
 
-    std::size_t size() const { return ids_.size(); }
+    std::size_t size() const { return gearboxes_.size(); }
 
   private:
-    std::vector<GearboxId> ids_;
-    std::vector<InstanceInputs> inputs_;
+    std::vector<Realization> gearboxes_;
 };
 
 const lockstep::MeshRecord& record_of(const GearboxTile& tile, int mesh) {
@@ -103,9 +101,9 @@ std::optional<StepError> find_step_error(const Scene& scene, double most_meshes)
         ++error.gearboxes;
         for (int mesh = 0; mesh < error.meshes; ++mesh) {
             const lockstep::MeshRecord &a = record_of(own, mesh), &b = record_of(reference, mesh);
-            add_lane(a.acceleration, own.inputs.size(), b.acceleration, reference.inputs.size(),
-                     lane, sensor);
-            add_lane(a.te, own.inputs.size(), b.te, reference.inputs.size(), lane, te);
+            add_lane(a.acceleration, own.realizations.size(), b.acceleration,
+                     reference.realizations.size(), lane, sensor);
+            add_lane(a.te, own.realizations.size(), b.te, reference.realizations.size(), lane, te);
         }
     }
     if (error.gearboxes == 0) {

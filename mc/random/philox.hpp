@@ -1,7 +1,6 @@
 // Counter-based random numbers: Philox4x64-10 (Salmon et al. 2011), from Random123.
-// Contract: the words depend on (seed, group, instance, parameter) only. The same instance is the
-// same gearbox for any ranks, threads, lanes, order or restart. A new random parameter does not
-// change the random numbers of the others.
+// Contract: the words depend on (seed, group, instance, purpose) only. The same instance is the
+// same gearbox for any ranks, threads, lanes, order or restart.
 #pragma once
 
 #include <Random123/philox.h>
@@ -11,9 +10,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string_view>
 
-#include "mc/random/fnv.hpp"
+#include "mc/random/stream_purpose.hpp"
 
 namespace gearpod::mc {
 
@@ -21,20 +19,16 @@ namespace gearpod::mc {
 // which the thresholds are applied.
 enum class Group : std::uint64_t { threshold = 0, graded = 1 };
 
-// Identifier of a random parameter, computed from its name.
-constexpr std::uint64_t parameter_id(std::string_view name) {
-    return fnv1a(name);
-}
-
 // UniformRandomBitGenerator. Word w of a stream is word w mod 4 of block w / 4. The block is Philox
-// at counter (block, instance, parameter, 0) and key (seed, group).
+// at counter (block, instance, purpose, 0) and key (seed, group).
 class Philox {
   public:
     using result_type = std::uint64_t;
     using Block = std::array<std::uint64_t, 4>;
 
-    Philox(std::uint64_t seed, Group group, std::uint64_t instance, std::uint64_t parameter)
-        : key_{{seed, static_cast<std::uint64_t>(group)}}, counter_{{0, instance, parameter, 0}} {}
+    Philox(std::uint64_t seed, Group group, std::uint64_t instance, StreamPurpose purpose)
+        : key_{{seed, static_cast<std::uint64_t>(group)}},
+          counter_{{0, instance, static_cast<std::uint64_t>(purpose), 0}} {}
 
     static constexpr result_type min() { return 0; }
     static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }

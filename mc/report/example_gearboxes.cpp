@@ -154,8 +154,7 @@ class Examples {
         : scene_(scene),
           frame_(frame),
           path_(path_grid(scene)),
-          sampler_(scene.study()),
-          healthy_(healthy_reference(scene, sampler_, path_)),
+          healthy_(healthy_reference(scene, path_)),
           features_(scene, &healthy_),
           level_(reference_level(frame.noise_levels)) {}
 
@@ -173,7 +172,7 @@ class Examples {
 
     Json run(const ExampleRow& row) {
         const GearboxId id = id_of(row.row);
-        const GearboxTile tile = run_gearboxes(scene_, sampler_, path_, std::span(&id, 1), 1);
+        const GearboxTile tile = run_gearboxes(scene_, path_, std::span(&id, 1), 1);
         if (tile.status[0] != Status::ok) {
             throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +
                                      " failed when computed again");
@@ -181,11 +180,11 @@ class Examples {
         std::vector<LevelSignals> levels;
         const LaneSignals gearbox_signals =
             lane_signals(scene_, path_, tile, 0, features_.meshes());
-        const auto values = features_.compute(gearbox_signals, tile.inputs[0], id, &levels);
+        const auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
-        const double period_s = dynamics::mesh_period_s(scene_.inputs(tile.inputs[0]));
+        const double period_s = dynamics::mesh_period_s(scene_.inputs(tile.realizations[0].inputs));
         Json json{{"row", row.row},
                   {"size", row.size},
                   {"mesh_period_s", period_s},
@@ -208,7 +207,7 @@ class Examples {
                                         {"value", std::isfinite(value) ? Json(value) : Json()}});
         }
         if (!gearbox_signals.folded.empty()) {
-            add_sensor(tile, gearbox_signals, id, period_s, levels[level_].tooth_rms, json);
+            add_sensor(tile, gearbox_signals, period_s, levels[level_].tooth_rms, json);
         }
         return json;
     }
@@ -216,15 +215,15 @@ class Examples {
     double noise_level() const { return frame_.noise_levels[level_]; }
 
   private:
-    void add_sensor(const GearboxTile& tile, const LaneSignals& gearbox_signals,
-                    const GearboxId& id, double period_s, const std::vector<double>& noisy_rms,
-                    Json& json) {
+    void add_sensor(const GearboxTile& tile, const LaneSignals& gearbox_signals, double period_s,
+                    const std::vector<double>& noisy_rms, Json& json) {
+        const Realization& realization = tile.realizations[0];
         const signals::SpanLayout layout = scene_.span();
         const int samples = scene_.samples_per_mesh();
         const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
         auto noisy = clean;
-        add_noise(sample_noise(scene_, tile.inputs[0], clean, features_.noise().sensor, id),
-                  noise_level() * tile.inputs[0].noise_m_s2, noisy);
+        add_noise(sample_noise(scene_, realization, clean, features_.noise().sensor),
+                  noise_level() * realization.inputs.noise_m_s2, noisy);
         const std::size_t turn =
             static_cast<std::size_t>(layout.planet_teeth) * static_cast<std::size_t>(samples);
         json["sensor"] = {{"clean", time_json({clean.data(), turn}, samples)},
@@ -241,7 +240,6 @@ class Examples {
     const Scene& scene_;
     const Results& frame_;
     const signals::PathGrid path_;
-    const Sampler sampler_;
     const HealthyReference healthy_;
     RealizationFeatures features_;
     const std::size_t level_;

@@ -17,7 +17,7 @@ namespace gearpod::mc {
 // ensemble.threshold_records in the threshold group.
 inline constexpr int kBatchRows = 16;
 
-// Numbers in a row: the parameters (the last is the fault size), then features x noise levels, then
+// Numbers in a row: the parameters (input_columns()), then features x noise levels, then
 // the contact loss ratio of each mesh.
 struct RowShape {
     std::size_t parameters = 0;
@@ -26,6 +26,9 @@ struct RowShape {
     std::size_t meshes = 0;  // 0 if teeth cannot lose contact
 
     std::size_t values() const { return contact_loss() + meshes; }
+    // Index of the fault size, and of the importance weight of a row that has one.
+    std::size_t fault_size() const { return parameters - 1; }
+    std::size_t noise_weight() const { return parameters - 2; }
     // Index of the first contact loss ratio.
     std::size_t contact_loss() const { return parameters + features * levels; }
     std::size_t value_of(std::size_t feature, std::size_t level) const {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dynamics/gearbox.hpp"
-#include "mc/scene/sampling.hpp"
+#include "mc/scene/instance_inputs.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

@@ -9,7 +9,7 @@
 #include "dynamics/gearbox.hpp"
 #include "gears/planetary.hpp"
 #include "gears/power_flow.hpp"
-#include "mc/scene/sampling.hpp"
+#include "mc/scene/instance_inputs.hpp"
 #include "mc/study/study.hpp"
 #include "signals/tile_signals.hpp"
 
@@ -19,7 +19,7 @@ class Drivetrain {
   public:
     virtual ~Drivetrain() = default;
 
-    // Mesh frequency, rad of mesh phase per second, for a speed of Sampler::speed_member().
+    // Mesh frequency, rad of mesh phase per second, for a speed of speed_member().
     virtual double mesh_frequency_rad_s(double speed_rad_s) const = 0;
     // Turns per mesh period of the input member, and of the frame in which x and y are defined; the
     // latter may be negative.

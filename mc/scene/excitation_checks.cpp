@@ -36,13 +36,12 @@ double highest_frequency(const Study& study, const Drivetrain& drivetrain,
 }
 
 // The same, the maximum over the nominal gearbox and a pilot sample of the ensemble.
-double highest_frequency(const Study& study, const Drivetrain& drivetrain) {
-    const Sampler sampler(study);
-    double result = highest_frequency(study, drivetrain, sampler.nominal());
+double highest_frequency(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain) {
+    double result = highest_frequency(study, drivetrain, nominal_inputs(study));
     constexpr std::uint64_t kPilot = 32;
     for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
-        result = std::max(result,
-                          highest_frequency(study, drivetrain, sampler.sample(Group::graded, i)));
+        const InstanceInputs inputs = sampler.draw({Group::graded, i}).inputs;
+        result = std::max(result, highest_frequency(study, drivetrain, inputs));
     }
     return result;
 }
@@ -81,8 +80,9 @@ void check_kernels(const Study& study, const lockstep::IntegrationPlan& plan) {
 }
 
 // A quasi-static gearbox has no time steps, only the encoders' samples.
-void check_samples(const Study& study, const Drivetrain& drivetrain, int samples) {
-    const double rate = highest_frequency(study, drivetrain);
+void check_samples(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
+                   int samples) {
+    const double rate = highest_frequency(study, sampler, drivetrain);
     if (samples < 2.0 * rate) {
         throw SceneError("sensor.encoder_sampling_Hz",
                          fmt::format("{} samples per mesh period are too few for the fastest "
@@ -94,18 +94,19 @@ void check_samples(const Study& study, const Drivetrain& drivetrain, int samples
 
 }  // namespace
 
-void check_excitation_resolved(const Study& study, const Drivetrain& drivetrain,
+void check_excitation_resolved(const Study& study, const Sampler& sampler,
+                               const Drivetrain& drivetrain,
                                const lockstep::IntegrationPlan& plan) {
     if (!has_variable_excitation(study)) {
         return;
     }
     if (study.effects.quasi_static()) {
-        check_samples(study, drivetrain, plan.grid.samples);
+        check_samples(study, sampler, drivetrain, plan.grid.samples);
         return;
     }
     check_kernels(study, plan);
     constexpr double kStepsPerPeriod = 20.0;
-    const double needed = kStepsPerPeriod * highest_frequency(study, drivetrain);
+    const double needed = kStepsPerPeriod * highest_frequency(study, sampler, drivetrain);
     const auto steps = static_cast<double>(plan.grid.steps.size());
     if (steps < needed) {
         throw SceneError(

@@ -10,9 +10,8 @@
 namespace gearpod::mc {
 namespace {
 
-Philox plain_stream(const Study& study, Group group, std::uint64_t index,
-                    std::string_view purpose) {
-    return {static_cast<std::uint64_t>(study.ensemble.seed), group, index, parameter_id(purpose)};
+Philox plain_stream(const Study& study, Group group, std::uint64_t index, StreamPurpose purpose) {
+    return {static_cast<std::uint64_t>(study.ensemble.seed), group, index, purpose};
 }
 
 std::span<const analysis::InputExchange> exchanges_of(const GearboxId& id) {
@@ -21,25 +20,24 @@ std::span<const analysis::InputExchange> exchanges_of(const GearboxId& id) {
 
 // True if the exchange replaces all random numbers of this purpose by those of the other gearbox.
 bool is_replaced(const Study& study, Group group, const analysis::InputExchange& exchange,
-                 std::string_view purpose) {
-    Philox engine =
-        plain_stream(study, group, exchange.index, std::string(purpose).append(".exchange"));
+                 StreamPurpose purpose) {
+    Philox engine = plain_stream(study, group, exchange.index, with_suffix(purpose, ".exchange"));
     return boost::random::uniform_01<double>()(engine) < exchange.share;
 }
 
-std::string record_purpose(const GearboxId& id, std::string_view purpose) {
-    return std::string(purpose).append(id.record == Record::test ? "" : ".baseline");
+StreamPurpose record_purpose(const GearboxId& id, StreamPurpose purpose) {
+    return id.record == Record::test ? purpose : with_suffix(purpose, ".baseline");
 }
 
-std::string noise_purpose(const GearboxId& id, std::string_view purpose) {
-    const std::string first(purpose);
-    return record_purpose(id,
-                          id.repeat == 0 ? first : first + ".repeat." + std::to_string(id.repeat));
+StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {
+    return record_purpose(id, id.repeat == 0
+                                  ? purpose
+                                  : with_suffix(purpose, ".repeat." + std::to_string(id.repeat)));
 }
 
 }  // namespace
 
-std::uint64_t source_index(const Study& study, const GearboxId& id, std::string_view purpose) {
+std::uint64_t source_index(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     // The last exchange that replaces them determines the gearbox.
     const std::span<const analysis::InputExchange> exchanges = exchanges_of(id);
     const auto last = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& one) {
@@ -48,19 +46,19 @@ std::uint64_t source_index(const Study& study, const GearboxId& id, std::string_
     return last == exchanges.rend() ? id.index : last->index;
 }
 
-Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
+Philox gearbox_stream(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     return plain_stream(study, id.group, source_index(study, id, purpose), purpose);
 }
 
-Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
+Philox record_stream(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     return gearbox_stream(study, id, record_purpose(id, purpose));
 }
 
-Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
+Philox noise_stream(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     return gearbox_stream(study, id, noise_purpose(id, purpose));
 }
 
-Normals::Normals(const Study& study, const GearboxId& id, std::string_view purpose)
+Normals::Normals(const Study& study, const GearboxId& id, StreamPurpose purpose)
     : engine_(plain_stream(study, id.group, id.index, purpose)) {
     for (const analysis::InputExchange& exchange : exchanges_of(id)) {
         const double own = 1.0 - exchange.share;
@@ -69,11 +67,11 @@ Normals::Normals(const Study& study, const GearboxId& id, std::string_view purpo
     }
 }
 
-Normals Normals::of_record(const Study& study, const GearboxId& id, std::string_view purpose) {
+Normals Normals::of_record(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     return {study, id, record_purpose(id, purpose)};
 }
 
-Normals Normals::of_noise(const Study& study, const GearboxId& id, std::string_view purpose) {
+Normals Normals::of_noise(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     return {study, id, noise_purpose(id, purpose)};
 }
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "analysis/detection/input_exchange.hpp"
@@ -36,25 +35,25 @@ struct GearboxId {
 
 // Index of the gearbox whose random numbers for a purpose are used, where all of them are exchanged
 // together: its own, or that of the last exchange in `exchanged` that replaced them.
-std::uint64_t source_index(const Study& study, const GearboxId& id, std::string_view purpose);
+std::uint64_t source_index(const Study& study, const GearboxId& id, StreamPurpose purpose);
 
 // Random numbers for a purpose that belong to the gearbox, the same in all its records.
-Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+Philox gearbox_stream(const Study& study, const GearboxId& id, StreamPurpose purpose);
 // Random numbers that belong to one record.
-Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+Philox record_stream(const Study& study, const GearboxId& id, StreamPurpose purpose);
 // Random numbers of a record's noise: different in every repetition; the first repetition uses
 // record_stream().
-Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+Philox noise_stream(const Study& study, const GearboxId& id, StreamPurpose purpose);
 
 // Standard normal variates for a purpose, each exchanged separately. Use an object either for
 // single variates or for blocks, not for both.
 class Normals {
   public:
     // Variates of the gearbox, as gearbox_stream().
-    Normals(const Study& study, const GearboxId& id, std::string_view purpose);
+    Normals(const Study& study, const GearboxId& id, StreamPurpose purpose);
     // Variates of a record and of its noise, as record_stream() and noise_stream().
-    static Normals of_record(const Study& study, const GearboxId& id, std::string_view purpose);
-    static Normals of_noise(const Study& study, const GearboxId& id, std::string_view purpose);
+    static Normals of_record(const Study& study, const GearboxId& id, StreamPurpose purpose);
+    static Normals of_noise(const Study& study, const GearboxId& id, StreamPurpose purpose);
 
     double operator()();
     void normals(std::span<double> values);  // signals::draw_normals()

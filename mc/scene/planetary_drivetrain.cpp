@@ -63,7 +63,7 @@ double phase_of_teeth(const Study& study, const gears::PlanetaryTrain& train,
 PlanetaryDrivetrain::PlanetaryDrivetrain(const Study& study)
     : train_(planetary_train(study)),
       flow_{fixed_member(study.operation.fixed), central_member(study.operation.input)},
-      speed_of_(central_member(Sampler(study).speed_member())),
+      speed_of_(central_member(speed_member(study))),
       torque_on_(central_member(study.operation.torque_on)),
       sense_(gears::planet_sense(speeds(1.0))),
       ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase

@@ -39,15 +39,22 @@ Planets given_planets(const Study& study) {
     return planets;
 }
 
-void add_random_planets(const Study& study, std::function<double()> normal, Planets& planets) {
+void add_random_planets(const InputValues& values, std::function<double()> normal,
+                        Planets& planets) {
+    const Study& study = values.study();
     const PlanetDifferences& drawn = study.planets;
+    const double tangential_m = values.of(drawn.pin_tangential_rms_m),
+                 radial_m = values.of(drawn.pin_radial_rms_m),
+                 stiffness = values.of(drawn.bearing_stiffness_scatter),
+                 damping = values.of(drawn.bearing_damping_scatter),
+                 mass = values.of(drawn.mass_scatter);
     for (std::size_t n = 0; n < static_cast<std::size_t>(study.gearbox.planets); ++n) {
         const double tangential = normal(), radial = normal();
-        move_pin(angle_of(study.gearbox, n), drawn.pin_tangential_rms_m * tangential,
-                 drawn.pin_radial_rms_m * radial, planets[n]);
-        planets[n].bearing_stiffness *= std::exp(drawn.bearing_stiffness_scatter * normal());
-        planets[n].bearing_damping *= std::exp(drawn.bearing_damping_scatter * normal());
-        planets[n].mass *= std::exp(drawn.mass_scatter * normal());
+        move_pin(angle_of(study.gearbox, n), tangential_m * tangential, radial_m * radial,
+                 planets[n]);
+        planets[n].bearing_stiffness *= std::exp(stiffness * normal());
+        planets[n].bearing_damping *= std::exp(damping * normal());
+        planets[n].mass *= std::exp(mass * normal());
     }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "dynamics/planetary.hpp"
+#include "mc/scene/input_values.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -20,7 +21,8 @@ using Planets = std::array<PlanetInstance, dynamics::kMaxPlanets>;
 Planets given_planets(const Study& study);
 
 // Adds the random deviations. Uses five standard normal variates per planet, whatever the study
-// contains. The study's scatters must be those of this gearbox.
-void add_random_planets(const Study& study, std::function<double()> normal, Planets& planets);
+// contains.
+void add_random_planets(const InputValues& values, std::function<double()> normal,
+                        Planets& planets);
 
 }  // namespace gearpod::mc

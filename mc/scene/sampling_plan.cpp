@@ -1,7 +1,6 @@
 #include "mc/scene/sampling_plan.hpp"
 
 #include <algorithm>
-#include <string>
 
 namespace gearpod::mc {
 namespace {
@@ -19,11 +18,11 @@ std::vector<int> dimensions(const Study& study) {
     return dimension;
 }
 
-std::vector<std::uint64_t> purposes(const Study& study, const std::vector<int>& dimension) {
-    std::vector<std::uint64_t> all;
+std::vector<StreamPurpose> purposes(const Study& study, const std::vector<int>& dimension) {
+    std::vector<StreamPurpose> all;
     for (std::size_t i = 0; i < dimension.size(); ++i) {
         if (dimension[i] >= 0) {
-            all.push_back(parameter_id("ensemble.sampling." + study.random[i].key));
+            all.push_back(with_suffix(StreamPurpose::sobol_scrambling, study.random[i].key));
         }
     }
     return all;
@@ -51,7 +50,7 @@ SamplingPlan::SequencePoint SamplingPlan::place(Group group, std::uint64_t index
 
 double SamplingPlan::variate(std::size_t input, Group group, std::uint64_t index) const {
     const auto dimension = static_cast<std::size_t>(dimension_[input]);
-    const std::uint64_t purpose = purposes_[dimension];
+    const StreamPurpose purpose = purposes_[dimension];
     const auto [sequence, number] = place(group, index);
     const std::uint32_t point =
         owen_scrambled(sobol_.coordinate(static_cast<std::uint32_t>(number), dimension),

@@ -37,7 +37,7 @@ class SamplingPlan {
     std::uint64_t seed_;
     std::uint64_t sizes_, combinations_;
     std::vector<int> dimension_;           // by input; -1: not sampled by the plan
-    std::vector<std::uint64_t> purposes_;  // by dimension
+    std::vector<StreamPurpose> purposes_;  // by dimension
     Sobol sobol_;
 };
 

@@ -28,19 +28,22 @@ bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
 }  // namespace
 
 Scene::Scene(const Study& study)
-    : Scene(study, make_drivetrain(with_gears(study)), nullptr, nullptr, kAllMeshes) {}
+    : Scene(study, std::make_shared<const Sampler>(study), make_drivetrain(with_gears(study)),
+            nullptr, nullptr, kAllMeshes) {}
 
-Scene::Scene(Study study, std::shared_ptr<const Drivetrain> drivetrain, SharedStiffness stiffness,
-             SharedPlan plan, int most_recorded)
+Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrain> drivetrain,
+             SharedStiffness stiffness, SharedPlan plan, int most_recorded)
     : study_(std::move(study)),
+      sampler_(std::move(sampler)),
       drivetrain_(std::move(drivetrain)),
       stiffness_(stiffness ? std::move(stiffness)
                            : std::make_shared<const SceneStiffness>(study_, *drivetrain_)),
       plan_(plan ? std::move(plan)
-                 : std::make_shared<const ScenePlan>(make_plan(study_, *drivetrain_, *stiffness_))),
+                 : std::make_shared<const ScenePlan>(
+                       make_plan(study_, *sampler_, *drivetrain_, *stiffness_))),
       span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(
-          drivetrain_->mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s) / (2.0 * pi)),
+          drivetrain_->mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s) / (2.0 * pi)),
       signal_meshes_(meshes_needed(study_, span_, needs_of(used_features(study_)))),
       most_recorded_(most_recorded),
       max_meshes_(study_.effects.quasi_static()
@@ -54,12 +57,16 @@ Scene Scene::with(const Numerics& numerics) const {
     const bool same_plan = differ_only_in_convergence_tolerance(own, numerics);
     Study study = study_;
     study.numerics = numerics;
-    return {std::move(study), drivetrain_, same_stiffness ? stiffness_ : nullptr,
-            same_plan ? plan_ : nullptr, most_recorded_};
+    return {std::move(study),
+            sampler_,
+            drivetrain_,
+            same_stiffness ? stiffness_ : nullptr,
+            same_plan ? plan_ : nullptr,
+            most_recorded_};
 }
 
 Scene Scene::recording_at_most(int meshes) const {
-    return {study_, drivetrain_, stiffness_, plan_, meshes};
+    return {study_, sampler_, drivetrain_, stiffness_, plan_, meshes};
 }
 
 }  // namespace gearpod::mc

@@ -35,6 +35,8 @@ class Scene {
     Scene recording_at_most(int meshes) const;
 
     const Study& study() const { return study_; }
+    // Draws the gearboxes of the study.
+    const Sampler& sampler() const { return *sampler_; }
     const Drivetrain& drivetrain() const { return *drivetrain_; }
     const std::vector<SceneMesh>& meshes() const { return stiffness_->meshes(); }
     const lockstep::PairSet& pairs() const { return stiffness_->pairs(); }
@@ -88,11 +90,13 @@ class Scene {
   private:
     using SharedStiffness = std::shared_ptr<const SceneStiffness>;
     using SharedPlan = std::shared_ptr<const ScenePlan>;
+    using SharedSampler = std::shared_ptr<const Sampler>;
     // Null stiffness and plan are computed.
-    Scene(Study study, std::shared_ptr<const Drivetrain> drivetrain, SharedStiffness stiffness,
-          SharedPlan plan, int most_recorded);
+    Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrain> drivetrain,
+          SharedStiffness stiffness, SharedPlan plan, int most_recorded);
 
     Study study_;
+    SharedSampler sampler_;
     std::shared_ptr<const Drivetrain> drivetrain_;
     SharedStiffness stiffness_;
     SharedPlan plan_;

@@ -20,12 +20,13 @@ using std::numbers::pi;
 
 class PlanBuilder {
   public:
-    PlanBuilder(const Study& study, const Drivetrain& drivetrain, const SceneStiffness& stiffness)
-        : study_(study), drivetrain_(drivetrain), stiffness_(stiffness) {}
+    PlanBuilder(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
+                const SceneStiffness& stiffness)
+        : study_(study), sampler_(sampler), drivetrain_(drivetrain), stiffness_(stiffness) {}
 
     ScenePlan make() && {
         const double mesh_frequency_rad_s =
-            drivetrain_.mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s);
+            drivetrain_.mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s);
         const Sampling sampling = choose_sampling(study_, mesh_frequency_rad_s / (2.0 * pi));
         plan_.te_samples = sampling.te_samples;
         begin_plan(sampling.samples);
@@ -33,7 +34,7 @@ class PlanBuilder {
                                        stiffness_.transitions(), [this] { return pilot(); });
         plan_.calibration = chosen.calibration;
         plan_.integration = complete_plan(std::move(chosen.grid));
-        check_excitation_resolved(study_, drivetrain_, plan_.integration);
+        check_excitation_resolved(study_, sampler_, drivetrain_, plan_.integration);
         return std::move(plan_);
     }
 
@@ -45,7 +46,7 @@ class PlanBuilder {
         // A quasi-static gearbox is computed at the samples only.
         plan_.stepping.steps = samples;
         if (!study_.effects.quasi_static()) {
-            plan_.stepping = choose_stepping(study_, drivetrain_, integration.layout,
+            plan_.stepping = choose_stepping(study_, sampler_, drivetrain_, integration.layout,
                                              stiffness_.stiffest_pairs());
             integration.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
         }
@@ -100,7 +101,6 @@ class PlanBuilder {
     // Pilot sample: the nominal gearbox and the first graded ones, all with the largest fault. The
     // same for every run of the study.
     lockstep::Pilot pilot() const {
-        const Sampler sampler(study_);
         const SceneFault& fault = stiffness_.fault();
         const std::vector<double> sizes = fault_sizes(study_);
         lockstep::Pilot pilot;
@@ -108,8 +108,9 @@ class PlanBuilder {
         pilot.faults.curve.resize(static_cast<std::size_t>(fault.curves()));
         for (int lane = 0; lane < lockstep::kPilotLanes; ++lane) {
             const InstanceInputs inputs =
-                lane == 0 ? sampler.nominal()
-                          : sampler.sample(Group::graded, static_cast<std::uint64_t>(lane - 1));
+                lane == 0
+                    ? nominal_inputs(study_)
+                    : sampler_.draw({Group::graded, static_cast<std::uint64_t>(lane - 1)}).inputs;
             pilot.inputs.push_back(gearbox_inputs(study_, drivetrain_, inputs));
             for (int curve = 0; curve < fault.curves(); ++curve) {
                 pilot.faults.curve[static_cast<std::size_t>(curve)].push_back(
@@ -126,6 +127,7 @@ class PlanBuilder {
     }
 
     const Study& study_;
+    const Sampler& sampler_;
     const Drivetrain& drivetrain_;
     const SceneStiffness& stiffness_;
     ScenePlan plan_;
@@ -133,9 +135,9 @@ class PlanBuilder {
 
 }  // namespace
 
-ScenePlan make_plan(const Study& study, const Drivetrain& drivetrain,
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
                     const SceneStiffness& stiffness) {
-    return PlanBuilder(study, drivetrain, stiffness).make();
+    return PlanBuilder(study, sampler, drivetrain, stiffness).make();
 }
 
 }  // namespace gearpod::mc

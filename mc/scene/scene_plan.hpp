@@ -22,7 +22,7 @@ struct ScenePlan {
 };
 
 // Throws SceneError.
-ScenePlan make_plan(const Study& study, const Drivetrain& drivetrain,
+ScenePlan make_plan(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
                     const SceneStiffness& stiffness);
 
 }  // namespace gearpod::mc

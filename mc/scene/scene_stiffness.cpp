@@ -24,7 +24,7 @@ double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
 }  // namespace
 
 SceneStiffness::SceneStiffness(const Study& study, const Drivetrain& drivetrain)
-    : meshes_(make_meshes(study, drivetrain.mesh_force_N(Sampler(study).nominal()))),
+    : meshes_(make_meshes(study, drivetrain.mesh_force_N(nominal_inputs(study)))),
       pairs_(make_pairs(meshes_, drivetrain)),
       fault_(study, meshes_, pairs_) {
     for (const SceneMesh& mesh : meshes_) {

@@ -52,15 +52,15 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
 // Requirements on the number of steps per mesh period.
 class StepNeeds {
   public:
-    StepNeeds(const Study& study, const Drivetrain& drivetrain,
+    StepNeeds(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
               const dynamics::GearboxLayout& layout, const std::vector<double>& stiffest_N_m)
         : study_(study),
+          sampler_(sampler),
           drivetrain_(drivetrain),
           layout_(layout),
           stiffest_(stiffest_N_m),
-          sampler_(study),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
-        gearboxes_.push_back(gearbox_inputs(study, drivetrain, sampler_.nominal()));
+        gearboxes_.push_back(gearbox_inputs(study, drivetrain, nominal_inputs(study)));
         // A pilot sample of the ensemble, the same for every run of the study, represents the other
         // gearboxes.
         constexpr std::uint64_t kPilot = 32;
@@ -112,7 +112,7 @@ class StepNeeds {
 
   private:
     dynamics::GearboxInputs graded(std::uint64_t i) const {
-        return gearbox_inputs(study_, drivetrain_, sampler_.sample(Group::graded, i));
+        return gearbox_inputs(study_, drivetrain_, sampler_.draw({Group::graded, i}).inputs);
     }
     dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
         return dynamics::assemble(layout_, gearbox, stiffest_);
@@ -133,10 +133,10 @@ class StepNeeds {
     }
 
     const Study& study_;
+    const Sampler& sampler_;
     const Drivetrain& drivetrain_;
     const dynamics::GearboxLayout& layout_;
     const std::vector<double>& stiffest_;
-    const Sampler sampler_;
     double low_pass_rad_s_;
     std::vector<dynamics::GearboxInputs> gearboxes_;  // pilot sample, the nominal one first
     double decay_meshes_ = 0.0, usual_explicit_ = 0.0;
@@ -248,10 +248,10 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     return result;
 }
 
-Stepping choose_stepping(const Study& study, const Drivetrain& drivetrain,
+Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
                          const dynamics::GearboxLayout& layout,
                          const std::vector<double>& stiffest_N_m) {
-    const StepNeeds needs(study, drivetrain, layout, stiffest_N_m);
+    const StepNeeds needs(study, sampler, drivetrain, layout, stiffest_N_m);
     const lockstep::Integrator integrator = integrator_of(study, needs);
     const int given = study.numerics.steps_per_mesh;
     Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)

@@ -5,6 +5,7 @@
 
 #include "lockstep/plan/integrator.hpp"
 #include "mc/scene/drivetrain.hpp"
+#include "mc/scene/sampling.hpp"
 
 namespace gearpod::mc {
 
@@ -36,7 +37,7 @@ struct Stepping {
 };
 // `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step. Throws
 // SceneError.
-Stepping choose_stepping(const Study& study, const Drivetrain& drivetrain,
+Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
                          const dynamics::GearboxLayout& layout,
                          const std::vector<double>& stiffest_N_m);
 

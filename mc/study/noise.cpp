@@ -12,10 +12,15 @@ bool noise_by_density(const Study& study) {
 
 double sensor_noise_m_s2(const Study& study) {
     const Sensor& s = study.sensor;
-    return s.noise_density_m_s2_per_sqrt_Hz
-               ? *s.noise_density_m_s2_per_sqrt_Hz *
-                     std::sqrt(signals::low_pass_noise_bandwidth_Hz(s.low_pass_Hz))
-               : s.noise_m_s2;
+    return sensor_noise_m_s2(study, s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2);
+}
+
+double sensor_noise_m_s2(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
+                         double rms_m_s2) {
+    return density_m_s2_per_sqrt_Hz
+               ? *density_m_s2_per_sqrt_Hz *
+                     std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz))
+               : rms_m_s2;
 }
 
 const char* noise_key(const Study& study) {

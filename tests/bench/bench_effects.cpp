@@ -68,13 +68,12 @@ class Tile {
   public:
     Tile(const std::string& study, const std::vector<std::string>& overrides)
         : scene_(bench::study_scene(study, overrides)) {
-        const std::vector<mc::GearboxId> ids{{mc::Group::graded, 0}};
-        const std::vector<mc::InstanceInputs> instances(kLanes,
-                                                        mc::Sampler(scene_->study()).nominal());
-        for (const mc::InstanceInputs& instance : instances) {
-            inputs_.push_back(scene_->inputs(instance));
+        const std::vector<mc::Realization> gearboxes(
+            kLanes, {{mc::Group::graded, 0}, mc::nominal_inputs(scene_->study())});
+        for (const mc::Realization& gearbox : gearboxes) {
+            inputs_.push_back(scene_->inputs(gearbox.inputs));
         }
-        excitation_ = mc::draw_excitation(*scene_, ids, instances);
+        excitation_ = mc::draw_excitation(*scene_, gearboxes);
         if (excitation_) {
             mesh_integrator_ =
                 lockstep::make_excited_integrator<kLanes>(scene_->plan(), *excitation_, inputs_);

@@ -61,7 +61,7 @@ int main(int count, char** arguments) {
     }
     const Study& study = *reading.study;
     const BatchPlan plan(study.ensemble);
-    const RowShape shape = row_shape(Sampler(study), study);
+    const RowShape shape = row_shape(study);
     std::unique_ptr<Checkpoint> checkpoint;
     MemoryRows none(0);
     if (ranks.leads()) {

@@ -24,14 +24,6 @@
 
 namespace test_condition_indicators {
 
-namespace test_condition_indicators {
-
-namespace test_condition_indicators {
-
-namespace test_condition_indicators {
-
-namespace test_condition_indicators {
-
 using namespace gearpod;
 using namespace gearpod::features;
 

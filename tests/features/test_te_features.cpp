@@ -11,14 +11,6 @@
 
 namespace test_te_features {
 
-namespace test_te_features {
-
-namespace test_te_features {
-
-namespace test_te_features {
-
-namespace test_te_features {
-
 using namespace gearpod;
 using namespace gearpod::features;
 

@@ -10,14 +10,6 @@
 
 namespace test_window_features {
 
-namespace test_window_features {
-
-namespace test_window_features {
-
-namespace test_window_features {
-
-namespace test_window_features {
-
 using namespace gearpod;
 using namespace gearpod::features;
 

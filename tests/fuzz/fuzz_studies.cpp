@@ -81,7 +81,10 @@ std::string nonsense(const mc::Study& study) {
     }
     const mc::Sampler sampler(study);
     for (const mc::Group group : {mc::Group::threshold, mc::Group::graded}) {
-        for (const double value : sampler.row({group, 12345})) {
+        const mc::Realization drawn = sampler.draw({group, 12345});
+        std::vector<double> values = drawn.random_values;
+        values.push_back(drawn.inputs.fault_size);
+        for (const double value : values) {
             if (!std::isfinite(value)) {
                 return "a gearbox is drawn that has a number that is not finite";
             }

@@ -17,7 +17,7 @@ inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};
     return mc::run_gearboxes(
-        scene, mc::Sampler(scene.study()), mc::path_grid(scene), std::span(&id, 1), 1,
+        scene, mc::path_grid(scene), std::span(&id, 1), 1,
         {.records =
              lockstep::RecordOptions{.motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
 }
@@ -28,7 +28,8 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
-                               mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
+                               mc::path_grid(scene), tile.realizations[0].inputs.path_exponent, 0,
+                               meshes);
 }
 
 // Amplitudes of a signal's spectral lines; line 0 is twice its mean.

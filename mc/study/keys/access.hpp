@@ -91,7 +91,12 @@ void set(Study& s, Shown value) {
 }
 
 template <auto... Named>
-constexpr NumberAccess number{get<double, Named...>, set<double, Named...>};
+const void* place(const Study& s) {
+    return &stored<Named...>(s);
+}
+
+template <auto... Named>
+constexpr NumberAccess number{{get<double, Named...>, set<double, Named...>}, place<Named...>};
 template <auto... Named>
 constexpr IntegerAccess integer{get<std::int64_t, Named...>, set<std::int64_t, Named...>};
 template <auto... Named>

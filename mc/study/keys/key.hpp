@@ -38,7 +38,9 @@ struct Access {
     Stored (*get)(const Study&);
     void (*set)(Study&, Type);
 };
-using NumberAccess = Access<double>;
+struct NumberAccess : Access<double> {
+    const void* (*place)(const Study&);  // address at which a study stores the number
+};
 using IntegerAccess = Access<std::int64_t>;
 using BooleanAccess = Access<bool>;
 struct ChoiceAccess {

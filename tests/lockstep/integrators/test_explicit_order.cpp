@@ -10,12 +10,6 @@
 
 namespace test_explicit_order {
 
-namespace test_explicit_order {
-
-namespace test_explicit_order {
-
-namespace test_explicit_order {
-
 using namespace gearpod;
 using namespace gearpod::lockstep;
 using test::integrate_meshes;

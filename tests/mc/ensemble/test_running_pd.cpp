@@ -21,11 +21,14 @@ const std::vector<std::string> kUntil{
     R"(ensemble.until={half_width=0.1, feature="window_ratio", size=4.28})"};
 
 // Healthy gearboxes have 1, graded ones 2 in every feature.
-BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& batch) {
+BatchRows rows_of(const Study& study, const Batch& batch) {
+    const Sampler sampler(study);
+    const RowShape shape = row_shape(study);
     BatchRows rows;
     for (std::size_t i = 0; i < batch.rows(); ++i) {
-        const auto parameters = sampler.row({batch.group, batch.first_index + i});
-        rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+        const Realization drawn = sampler.draw({batch.group, batch.first_index + i});
+        append_random_inputs(study, drawn, 1.0, rows.values);
+        rows.values.push_back(drawn.inputs.fault_size);
         rows.values.resize(rows.values.size() + shape.features * shape.levels,
                            batch.group == Group::threshold ? 1.0 : 2.0);
         rows.status.push_back(0);
@@ -38,8 +41,6 @@ BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& ba
 TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in any order") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
     const BatchPlan plan(48, 700);
-    const Sampler sampler(study);
-    const RowShape shape = row_shape(sampler, study);
     // All of n are detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
     const double z2 = 1.959963984540054 * 1.959963984540054;
     const auto needed = static_cast<std::size_t>(std::ceil(z2 * (1.0 / 0.2 - 1.0)));
@@ -56,7 +57,7 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in
         MemoryRows store(plan.batches());
         RunningPd watch(study, plan, "");
         for (const std::size_t batch : order) {
-            store.write(batch, rows_of(sampler, shape, plan.batch(batch)));
+            store.write(batch, rows_of(study, plan.batch(batch)));
             watch.advance(store);
         }
         REQUIRE(watch.done());
@@ -70,15 +71,13 @@ TEST_CASE(
     "The number of gearboxes until the requested interval is predicted from the rate so far") {
     const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
     const BatchPlan plan(48, 700);
-    const Sampler sampler(study);
-    const RowShape shape = row_shape(sampler, study);
     MemoryRows store(plan.batches());
     RunningPd watch(study, plan, "");
     CHECK_FALSE(watch.rows_left().has_value());
     CHECK(watch.text().empty());
     // The threshold group and 64 graded gearboxes: nine of the largest size, 16 required.
     for (std::size_t batch = 0; batch < 7; ++batch) {
-        store.write(batch, rows_of(sampler, shape, plan.batch(batch)));
+        store.write(batch, rows_of(study, plan.batch(batch)));
     }
     watch.advance(store);
     CHECK_FALSE(watch.done());

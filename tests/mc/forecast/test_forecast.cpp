@@ -158,7 +158,7 @@ TEST_CASE("Every shipped study is measured with at most one tile per thread if t
         // The analysis of thousands of gearboxes takes seconds for any study: one study suffices.
         const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
         const AnalysisTrial trial =
-            tried ? measure_analysis(study, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
+            tried ? measure_analysis(scene, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
         const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
         ++studies;
         trials += tried ? 1 : 0;
@@ -210,13 +210,12 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
     const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
     const RunCost calibration = measure_run_cost(scene, plan, 2, 0.5);
     const std::size_t rows = 1100, shown = 1;
-    const Results made = synthetic_results(study, calibration, plan, rows, {1, 2});
+    const Results made = synthetic_results(scene, calibration, plan, rows, {1, 2});
     REQUIRE(made.group.size() == rows);
     CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
     CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});
 
-    const Sampler sampler(study);
-    const RowShape shape = row_shape(sampler, study);
+    const RowShape shape = row_shape(study);
     const std::size_t feature = test::feature_index(made, "window_ratio");
     std::set<double> distinct;
     std::vector<double> means;
@@ -234,7 +233,7 @@ TEST_CASE("Synthetic results have the run's gearboxes and values similar to comp
         for (std::size_t i = 0; i < calibration.gearboxes.size(); ++i) {
             const double* values = calibration.rows.values.data() + i * shape.values();
             if (calibration.gearboxes[i].group == Group::graded &&
-                std::abs(values[shape.parameters - 1] - size_m) < 1e-9) {
+                std::abs(values[shape.fault_size()] - size_m) < 1e-9) {
                 computed += values[shape.value_of(feature, 2)];
                 ++m;
             }

@@ -32,12 +32,12 @@ class Computed {
         : scene_(study),
           levels_(study.sensor.noise_levels.size()),
           path_(path_grid(scene_)),
-          tile_(run_gearboxes(scene_, Sampler(study), path_, ids, 8)),
+          tile_(run_gearboxes(scene_, path_, ids, 8)),
           features_(scene_, &healthy_) {
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             REQUIRE(tile_.status[lane] == Status::ok);
             values_.push_back(
-                features_.compute(signals(static_cast<int>(lane)), tile_.inputs[lane], ids[lane]));
+                features_.compute(signals(static_cast<int>(lane)), tile_.realizations[lane]));
         }
     }
     double value(std::size_t feature, std::size_t level = 0, std::size_t gearbox = 0) const {
@@ -47,7 +47,7 @@ class Computed {
     LaneSignals signals(int lane) const {
         return lane_signals(scene_, path_, tile_, lane, features_.meshes());
     }
-    double noise_m_s2() const { return tile_.inputs[0].noise_m_s2; }
+    double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
     int integrated_meshes() const { return tile_.meshes; }
 
   private:
@@ -144,8 +144,8 @@ TEST_CASE("The torque of baseline records has the requested scatter on both shaf
     double sum = 0.0, squares = 0.0;
     constexpr int kGearboxes = 4000;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        const InstanceInputs now = sampler.sample({Group::graded, i});
-        const InstanceInputs then = sampler.sample({Group::graded, i, Record::baseline});
+        const InstanceInputs now = sampler.draw({Group::graded, i}).inputs;
+        const InstanceInputs then = sampler.draw({Group::graded, i, Record::baseline}).inputs;
         CHECK(then.fault_size == 0.0);
         const double share = std::log(then.torque_N_m / now.torque_N_m);
         CHECK(std::log(then.fixed_shaft.load_torque_N_m / now.fixed_shaft.load_torque_N_m) ==

@@ -24,16 +24,15 @@ Study real_teeth(const std::string& convergence_tolerance) {
 TEST_CASE("A fault changes the meshes after its passage begins, and no others") {
     const Scene scene(real_teeth("1e-8"));
     const auto path = path_grid(scene);
-    const GearboxId id{Group::graded, 3};
-    InstanceInputs inputs = Sampler(scene.study()).sample(id.group, id.index);
-    inputs.gain = 1.0;
-    inputs.fault_size = 3e-3;
-    const GearboxTile all = run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1);
+    Realization gearbox = scene.sampler().draw({Group::graded, 3});
+    gearbox.inputs.gain = 1.0;
+    gearbox.inputs.fault_size = 3e-3;
+    const GearboxTile all = run_realizations(scene, path, {gearbox}, 1);
     const LaneSignals expected = lane_signals(scene, path, all, 0, scene.span_meshes());
 
-    const HealthySolution healthy_solution(scene, path, std::span(&id, 1), {inputs}, 1);
+    const HealthySolution healthy_solution(scene, path, {gearbox}, 1);
     REQUIRE(healthy_solution.healthy().status.front() == Status::ok);
-    const HealthySolution::Signals changed = healthy_solution.with_fault(inputs.fault_size);
+    const HealthySolution::Signals changed = healthy_solution.with_fault(gearbox.inputs.fault_size);
     REQUIRE(changed.status.front() == Status::ok);
     CHECK(test::relative_difference(changed.lane.front().sensor, expected.sensor) < 1e-6);
     CHECK(test::relative_difference(changed.lane.front().te_turn, expected.te_turn) < 1e-6);
@@ -47,20 +46,19 @@ TEST_CASE("A fault changes the meshes after its passage begins, and no others") 
 TEST_CASE("Few meshes are integrated for a further size of a fault") {
     const Scene scene(real_teeth("1e-4"));
     const auto path = path_grid(scene);
-    const GearboxId id{Group::graded, 5};
-    InstanceInputs inputs = Sampler(scene.study()).sample(id.group, id.index);
-    inputs.fault_size = 0.0;
+    Realization gearbox = scene.sampler().draw({Group::graded, 5});
+    gearbox.inputs.fault_size = 0.0;
     const GearboxTile healthy =
-        run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1,
-                        {.records = lockstep::RecordOptions{.states = true}});
+        run_realizations(scene, path, {gearbox}, 1,
+                         {.records = lockstep::RecordOptions{.states = true}});
     // A fault of size zero causes no change.
     const GearboxTile none =
-        run_fault_perturbations(scene, std::span(&id, 1), {inputs}, healthy.integration.states);
+        run_fault_perturbations(scene, {gearbox}, 1, healthy.integration.states);
     CHECK(none.integration.records.size() <= static_cast<std::size_t>(scene.span_meshes()) / 5);
     CHECK(none.status.front() == Status::ok);
-    inputs.fault_size = 4e-3;
+    gearbox.inputs.fault_size = 4e-3;
     const GearboxTile deep =
-        run_fault_perturbations(scene, std::span(&id, 1), {inputs}, healthy.integration.states);
+        run_fault_perturbations(scene, {gearbox}, 1, healthy.integration.states);
     CHECK(deep.meshes < healthy.meshes / 4);
     CHECK(deep.integration.records.size() > static_cast<std::size_t>(scene.span().ring_teeth));
 }

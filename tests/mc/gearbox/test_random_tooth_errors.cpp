@@ -24,9 +24,8 @@ Study study_with(std::vector<std::string> overrides) {
 }
 
 lockstep::ToothErrors errors_of(const Scene& scene, std::uint64_t index) {
-    const std::vector<GearboxId> ids{{Group::graded, index}};
-    const std::vector<InstanceInputs> inputs{Sampler(scene.study()).sample(Group::graded, index)};
-    return *draw_tooth_errors(scene, ids, inputs);
+    const Realization gearbox = scene.sampler().draw({Group::graded, index});
+    return *draw_tooth_errors(scene, std::span(&gearbox, 1));
 }
 
 // Gaps of a pair at the phases k + 1/2 of many meshes: mean over the tooth pairs in contact, and
@@ -143,11 +142,11 @@ TEST_CASE("Tooth errors belong to the gearbox: the same in any lane, for any noi
     const auto of = [](std::vector<std::string> overrides, const std::vector<GearboxId>& ids) {
         overrides.push_back("gearbox.tooth_quality=6");
         const Scene scene(study_with(overrides));
-        std::vector<InstanceInputs> inputs;
+        std::vector<Realization> gearboxes;
         for (const GearboxId& id : ids) {
-            inputs.push_back(Sampler(scene.study()).sample(id.group, id.index));
+            gearboxes.push_back(scene.sampler().draw(id));
         }
-        return *draw_tooth_errors(scene, ids, inputs);
+        return *draw_tooth_errors(scene, gearboxes);
     };
     const auto alone = of({}, {{Group::graded, 5}});
     const auto other = of({"sensor.noise_m_s2=3"}, {{Group::graded, 4}, {Group::graded, 5}});

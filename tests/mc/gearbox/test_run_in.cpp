@@ -16,11 +16,10 @@ namespace {
 
 // The first recorded mesh of a gearbox with real teeth after so many others.
 lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
-    const GearboxId id{Group::graded, 3};
-    InstanceInputs instance = Sampler(scene.study()).sample(id.group, id.index);
-    instance.fault_size = 0.0;
-    const dynamics::GearboxInputs inputs = scene.inputs(instance);
-    const auto errors = draw_tooth_errors(scene, std::span(&id, 1), {&instance, 1});
+    Realization gearbox = scene.sampler().draw({Group::graded, 3});
+    gearbox.inputs.fault_size = 0.0;
+    const dynamics::GearboxInputs inputs = scene.inputs(gearbox.inputs);
+    const auto errors = draw_tooth_errors(scene, std::span(&gearbox, 1));
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.assign(static_cast<std::size_t>(scene.fault().curves()), {nullptr});
     const lockstep::FullSolution solution{

@@ -39,7 +39,7 @@ class Tile {
         for (std::uint64_t i = 0; i < 8; ++i) {
             ids.push_back({Group::graded, i});
         }
-        tile_ = run_gearboxes(scene_, Sampler(study), path_, ids, 8);
+        tile_ = run_gearboxes(scene_, path_, ids, 8);
     }
     const GearboxTile& operator*() const { return tile_; }
     const GearboxTile* operator->() const { return &tile_; }
@@ -114,18 +114,16 @@ namespace {
 // Eight healthy gearboxes over some mesh periods of the span, superposed where that is allowed.
 class ContactLimit {
   public:
-    explicit ContactLimit(const Study& study) : scene_(study), sampler_(study) {}
+    explicit ContactLimit(const Study& study) : scene_(study) {}
 
     lockstep::TileResult run(std::uint64_t first, bool use_superposition) const {
-        std::vector<GearboxId> ids;
-        std::vector<InstanceInputs> sampled;
+        std::vector<Realization> gearboxes;
         std::vector<dynamics::GearboxInputs> inputs;
         for (std::uint64_t i = first; i < first + 8; ++i) {
-            ids.push_back({Group::graded, i});
-            sampled.push_back(sampler_.sample(ids.back()));
-            inputs.push_back(scene_.inputs(sampled.back()));
+            gearboxes.push_back(scene_.sampler().draw({Group::graded, i}));
+            inputs.push_back(scene_.inputs(gearboxes.back().inputs));
         }
-        const auto errors = draw_tooth_errors(scene_, ids, sampled);
+        const auto errors = draw_tooth_errors(scene_, gearboxes);
         const lockstep::FaultCurves faults{&scene_.pairs(), {}, {}};
         const lockstep::Convergence convergence{1e-10, scene_.max_meshes()};
         const lockstep::RecordedSpan span{.meshes = 12, .run_in_meshes = run_in_meshes(scene_)};
@@ -138,7 +136,6 @@ class ContactLimit {
 
   private:
     const Scene scene_;
-    const Sampler sampler_;
 };
 
 double relative_rms(const lockstep::TileResult& a, const lockstep::TileResult& b,
@@ -208,9 +205,8 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
         const Study study = study_with(horizon);
         const Scene scene(study);
         const signals::PathGrid path = path_grid(scene);
-        const std::vector<GearboxId> ids{{Group::graded, 1}};
-        const HealthySolution healthy_solution(scene, path, ids, {Sampler(study).sample(ids[0])},
-                                               1);
+        const HealthySolution healthy_solution(scene, path,
+                                               {scene.sampler().draw({Group::graded, 1})}, 1);
         return healthy_solution.with_fault(2e-3).lane[0].sensor;
     };
     CHECK(relative_rms(cracked("superposed"), cracked("full")) < 1e-7);

@@ -27,21 +27,22 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
     const mc::LifeTiles tiles(scene);
     const mc::GearboxId id{mc::Group::graded, 1};
     mc::LifeCosts costs;
-    const auto life = tiles.run(std::span(&id, 1), true, costs).front();
+    const auto life = tiles.run(std::vector{tiles.draw(id)}, true, costs).front();
     REQUIRE(life.status == mc::Status::ok);
     const mc::HealthyReference none;
     mc::RealizationFeatures features(scene, &none);
     // Records without a crack, and at a depth that is integrated.
     for (const std::size_t r : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
         const mc::LifeRecord& record = life.history.records[r];
-        mc::InstanceInputs inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+        mc::Realization gearbox = scene.sampler().draw(id);
+        mc::InstanceInputs& inputs = gearbox.inputs;
         inputs.fault_size = record.depth_m;
         inputs.torque_N_m *= record.torque;
         inputs.gain *= record.gain;
         const auto path = mc::path_grid(scene);
-        const auto tile = mc::run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1);
+        const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
         const auto integrated_features =
-            features.compute(mc::lane_signals(scene, path, tile, 0, 0), inputs, id);
+            features.compute(mc::lane_signals(scene, path, tile, 0, 0), gearbox);
         for (std::size_t f = 0; f < integrated_features.size(); ++f) {
             INFO(r << " " << scene.study().features.use[f]);
             CHECK(life.values[f][r] == Approx(integrated_features[f]).epsilon(1e-6));
@@ -54,11 +55,11 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
 TEST_CASE("A tooth breaks at the time given by Paris' integral") {
     const mc::Scene scene(life_study({"life.records=400"}));
     const mc::CrackLife crack(scene);
-    const mc::GearboxId id{mc::Group::graded, 0};
-    const auto inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+    const mc::Realization gearbox = scene.sampler().draw({mc::Group::graded, 0});
+    const mc::InstanceInputs& inputs = gearbox.inputs;
     // Carrier speed 8.87 rpm, 81 ring teeth, 31 planet teeth.
     CHECK(crack.cycles_per_hour(inputs) == Approx(60.0 * 8.87 * 81.0 / 31.0));
-    const auto history = crack.history(id, inputs, true);
+    const auto history = crack.history(gearbox, true);
     REQUIRE(history.end_hours);
     // Force along the line of action for 19 sun teeth of 3.175 mm and four planets.
     const double base_radius = 0.5 * 19 * 3.175e-3 * std::cos(20.0 * std::numbers::pi / 180.0);
@@ -83,7 +84,7 @@ TEST_CASE("A tooth breaks at the time given by Paris' integral") {
     const double toughness = 1e-6 * force * crack.range_per_force(2e-3);
     const mc::Scene brittle_scene(life_study(
         {"life.records=400", "life.fracture_toughness_MPa_m05=" + std::to_string(toughness)}));
-    const auto brittle = mc::CrackLife(brittle_scene).history(id, inputs, true);
+    const auto brittle = mc::CrackLife(brittle_scene).history(gearbox, true);
     REQUIRE(brittle.end_hours);
     CHECK(*brittle.end_hours < *history.end_hours);
     CHECK(brittle.records.back().depth_m < 2e-3);

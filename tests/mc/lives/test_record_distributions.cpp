@@ -26,9 +26,8 @@ TEST_CASE("A lognormal law per record is equivalent to the scatter key") {
     const auto history = [&](const std::string& more) {
         const mc::Scene scene(life_study({more}));
         const mc::CrackLife crack(scene);
-        const auto inputs =
-            mc::Sampler(mc::study_of_gearboxes(scene.study())).sample(id.group, id.index);
-        return crack.history(id, inputs, true);
+        const mc::Sampler sampler(mc::study_of_gearboxes(scene.study()));
+        return crack.history(sampler.draw(id), true);
     };
     // For a standard deviation of 0.1 of the logarithm, cv^2 = exp(0.01) - 1.
     const std::string cv = fmt::format("{:.17g}", std::sqrt(std::expm1(0.01)));
@@ -48,11 +47,11 @@ TEST_CASE("Records follow the law given by [random], not centred on a value of t
     const mc::CrackLife crack(scene);
     const mc::Sampler sampler(mc::study_of_gearboxes(study));
     for (const std::uint64_t index : {0, 1}) {
-        const mc::GearboxId id{mc::Group::threshold, index};
-        const auto inputs = sampler.sample(id.group, id.index);
+        const mc::Realization gearbox = sampler.draw({mc::Group::threshold, index});
+        const mc::InstanceInputs& inputs = gearbox.inputs;
         CHECK(inputs.torque_N_m == study.operation.torque_N_m);
         auto torques = std::vector<double>();
-        for (const auto& record : crack.history(id, inputs, false).records) {
+        for (const auto& record : crack.history(gearbox, false).records) {
             torques.push_back(record.torque * inputs.torque_N_m);
         }
         // Kolmogorov's distance of 4,000 values from the uniform law: above 1.63 / sqrt(n) once in
@@ -66,7 +65,7 @@ TEST_CASE("Records follow the law given by [random], not centred on a value of t
         CHECK(apart < 1.63 / std::sqrt(4000.0));
     }
     // The gearbox has no column of its own for this input.
-    for (const auto& column : sampler.columns()) {
+    for (const auto& column : mc::input_columns(mc::study_of_gearboxes(study))) {
         CHECK(column.name != "torque_N_m");
     }
 }
@@ -112,8 +111,8 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
         "features.use=[\"change_window_ratio\"]", "sensor.noise_levels=[1]", kTorque,
         "random.sensor.gain={distribution=\"uniform\",low=1,high=2}"};
     const mc::Sampler sampler(shipped_study("planet-crack-ideal.toml", both));
-    const auto test_record = sampler.sample(mc::GearboxId{mc::Group::graded, 3});
-    const auto before = sampler.sample(mc::GearboxId{mc::Group::graded, 3, mc::Record::baseline});
+    const auto test_record = sampler.draw({mc::Group::graded, 3}).inputs;
+    const auto before = sampler.draw({mc::Group::graded, 3, mc::Record::baseline}).inputs;
     CHECK(test_record.torque_N_m != before.torque_N_m);
     CHECK(before.torque_N_m > 300.0);
     CHECK(before.torque_N_m < 500.0);
@@ -122,7 +121,7 @@ TEST_CASE("A snapshot's baseline record varies the inputs per record, and only t
     auto plain = both;
     plain[2].replace(plain[2].find(",per"), 13, "");
     const mc::Sampler gearbox(shipped_study("planet-crack-ideal.toml", plain));
-    CHECK(gearbox.sample(mc::Group::graded, 3).torque_N_m == test_record.torque_N_m);
+    CHECK(gearbox.draw({mc::Group::graded, 3}).inputs.torque_N_m == test_record.torque_N_m);
 }
 
 TEST_CASE("Keys of inputs per record are read, written and refused by name") {

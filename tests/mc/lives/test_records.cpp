@@ -25,7 +25,8 @@ mc::Study quiet_study(std::vector<std::string> more) {
 mc::GearboxLife healthy_life(const mc::Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
     mc::LifeCosts costs;
-    return mc::LifeTiles(scene).run(std::span(&id, 1), false, costs).front();
+    const mc::LifeTiles tiles(scene);
+    return tiles.run(std::vector{tiles.draw(id)}, false, costs).front();
 }
 
 TEST_CASE("A recording of all turns, or of twice as many, equals the whole span") {
@@ -99,7 +100,8 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
     const mc::GearboxId id{mc::Group::graded, 1};
     mc::LifeCosts costs;
     mc::InterpolationErrors errors;
-    const auto life = tiles.run(std::span(&id, 1), false, costs, std::span(&errors, 1)).front();
+    const auto life =
+        tiles.run(std::vector{tiles.draw(id)}, false, costs, std::span(&errors, 1)).front();
     CHECK(errors.load > 0.0);
     CHECK(errors.load < 0.05);
     const mc::HealthyReference none;
@@ -109,14 +111,15 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
         const mc::LifeRecord& record = life.history.records[r];
         CHECK(record.speed != 1.0);
         apart = std::max(apart, std::abs(record.speed - 1.0));
-        mc::InstanceInputs inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+        mc::Realization gearbox = scene.sampler().draw(id);
+        mc::InstanceInputs& inputs = gearbox.inputs;
         inputs.fault_size = 0.0;
         inputs.torque_N_m *= record.torque;
         inputs.speed_rad_s *= record.speed;
         const auto path = mc::path_grid(scene);
-        const auto tile = mc::run_with_inputs(scene, path, std::span(&id, 1), {inputs}, 1);
+        const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
         const auto integrated =
-            features.compute(mc::lane_signals(scene, path, tile, 0, 0), inputs, id);
+            features.compute(mc::lane_signals(scene, path, tile, 0, 0), gearbox);
         for (std::size_t f = 0; f < integrated.size(); ++f) {
             CHECK(life.values[f][r] == Approx(integrated[f]).epsilon(5.0 * errors.load));
         }
@@ -135,7 +138,7 @@ TEST_CASE("More integrated torques and speeds reduce the interpolation error") {
         const mc::GearboxId id{mc::Group::graded, 1};
         mc::LifeCosts costs;
         mc::InterpolationErrors errors;
-        tiles.run(std::span(&id, 1), false, costs, std::span(&errors, 1));
+        tiles.run(std::vector{tiles.draw(id)}, false, costs, std::span(&errors, 1));
         return errors.load;
     };
     // Interpolation is linear: a third of the distance gives a ninth of the error.
@@ -156,9 +159,8 @@ TEST_CASE("A crack follows the given curve at its gearbox's rate") {
     }
     all.insert(all.end(), curve.begin(), curve.end());
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", all));
-    const mc::GearboxId id{mc::Group::graded, 0};
-    const auto inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
-    const auto history = mc::CrackLife(scene).history(id, inputs, true);
+    const mc::Realization gearbox = scene.sampler().draw({mc::Group::graded, 0});
+    const auto history = mc::CrackLife(scene).history(gearbox, true);
     // Twice the rate: 25 h to 2 mm, 50 h to 4 mm, after six records of 5 h each.
     REQUIRE(history.end_hours);
     CHECK(*history.end_hours == Approx(30.0 + 50.0));

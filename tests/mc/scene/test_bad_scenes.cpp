@@ -9,12 +9,6 @@
 
 namespace test_bad_scenes {
 
-namespace test_bad_scenes {
-
-namespace test_bad_scenes {
-
-namespace test_bad_scenes {
-
 using gearpod::mc::format;
 using gearpod::mc::read_study_text;
 using namespace gearpod::tests;

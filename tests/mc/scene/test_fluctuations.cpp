@@ -28,8 +28,7 @@ Study study_of(const std::string& text, const std::vector<std::string>& override
 }
 
 GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {
-    const Sampler sampler(scene.study());
-    return run_gearboxes(scene, sampler, path_grid(scene), ids, lanes,
+    return run_gearboxes(scene, path_grid(scene), ids, lanes,
                          {.records = lockstep::RecordOptions{}});
 }
 

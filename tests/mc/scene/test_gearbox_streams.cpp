@@ -23,7 +23,7 @@ std::vector<double> numbers(const Study& study, std::uint64_t index,
                             Group group = Group::graded) {
     GearboxId id{group, index};
     id.exchanged = exchanged;
-    Normals normals(study, id, "gearbox.planets");
+    Normals normals(study, id, StreamPurpose::planets);
     std::vector<double> all;
     for (int i = 0; i < kNumbers; ++i) {
         all.push_back(normals());
@@ -33,13 +33,13 @@ std::vector<double> numbers(const Study& study, std::uint64_t index,
 
 std::vector<double> many_numbers(const Study& study, const GearboxId& id) {
     std::vector<double> all(kNumbers);
-    Normals::of_noise(study, id, "noise.sensor").normals(all);
+    Normals::of_noise(study, id, StreamPurpose::sensor_noise).normals(all);
     return all;
 }
 
-std::size_t column_of(const Sampler& sampler, const std::string& name) {
+std::size_t column_of(const Study& study, const std::string& name) {
     std::size_t column = 0;
-    while (sampler.columns()[column].name != name) {
+    while (input_columns(study)[column].name != name) {
         ++column;
     }
     return column;
@@ -89,7 +89,7 @@ TEST_CASE("Noise is exchanged number by number, separately for each record and r
             id.exchanged.reset();
             const std::vector<double> own = many_numbers(study, id);
             std::vector<double> plain(kNumbers);
-            Philox engine = noise_stream(study, id, "noise.sensor");
+            Philox engine = noise_stream(study, id, StreamPurpose::sensor_noise);
             signals::draw_normals(engine, std::span(plain));
             CHECK(own == plain);
             id.exchanged = exchanged;
@@ -107,7 +107,7 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
                                "weights=[1,3]}",
                                "gearbox.pin_tangential_rms_um=8"});
     const Sampler sampler(study);
-    const std::size_t column = column_of(sampler, "path_exponent");
+    const std::size_t column = column_of(study, "path_exponent");
     constexpr int kGearboxes = 2000;
     double sum = 0.0, squares = 0.0, twos = 0.0;
     for (std::uint64_t index = 0; index < kGearboxes; ++index) {
@@ -116,10 +116,12 @@ TEST_CASE("Random inputs of exchanging gearboxes keep their law and change by no
         const auto with = [&](std::span<const InputExchange> exchanged) {
             GearboxId id{Group::graded, index};
             id.exchanged = exchanged;
-            const InstanceInputs inputs = sampler.sample(id);
-            CHECK(sampler.row(id)[column] == inputs.path_exponent);
+            const auto& [own_id, inputs, random_values] = sampler.draw(id);
+            CHECK(random_values[column] == inputs.path_exponent);
             CHECK(inputs.path_exponent ==
-                  standard_normal_cdf(Normals(study, id, "sensor.path_exponent")()));
+                  standard_normal_cdf(
+                      Normals(study, id,
+                              with_suffix(StreamPurpose::random_input, "sensor.path_exponent"))()));
             return inputs;
         };
         with(none);
@@ -141,11 +143,11 @@ TEST_CASE("Inputs without an underlying normal number are exchanged as a whole")
         const std::vector<InputExchange> other{{1000 + index, 0.2}};
         GearboxId id{Group::graded, index};
         id.exchanged = other;
-        const std::uint64_t from = source_index(study, id, "sensor.tones.phase");
+        const std::uint64_t from = source_index(study, id, StreamPurpose::tone_phases);
         CHECK((from == index || from == 1000 + index));
         taken += from == 1000 + index ? 1 : 0;
-        CHECK(record_stream(study, id, "sensor.tones.phase")() ==
-              gearbox_stream(study, {Group::graded, from}, "sensor.tones.phase")());
+        CHECK(record_stream(study, id, StreamPurpose::tone_phases)() ==
+              gearbox_stream(study, {Group::graded, from}, StreamPurpose::tone_phases)());
     }
     CHECK(taken > 20);
     CHECK(taken < 60);

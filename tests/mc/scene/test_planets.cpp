@@ -28,7 +28,7 @@ TEST_CASE("Planets differ by given and by random deviations, independently in ea
         study_with({"gearbox.pin_tangential_um=[10, 0, 0, 0]", "gearbox.pin_radial_um=[0, 5, 0, 0]",
                     "gearbox.planet_bearing_stiffness_factors=[1, 1, 2, 1]",
                     "gearbox.planet_mass_factors=[1, 1, 1, 0.5]"});
-    const Planets listed = Sampler(given).nominal().planets;
+    const Planets listed = nominal_inputs(given).planets;
     // Planet 1 lies on the x axis and moves towards y, planet 2 on the y axis.
     CHECK(listed[0].pin_x_m == Approx(0.0).margin(1e-20));
     CHECK(listed[0].pin_y_m == Approx(10e-6));
@@ -44,7 +44,7 @@ TEST_CASE("Planets differ by given and by random deviations, independently in ea
     double tangential = 0.0, radial = 0.0, stiffness = 0.0, mass = 0.0;
     constexpr int kGearboxes = 2000;
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        const Planets planets = sampler.sample(Group::graded, i).planets;
+        const Planets planets = sampler.draw({Group::graded, i}).inputs.planets;
         for (int n = 0; n < 4; ++n) {
             const double psi = 0.5 * std::numbers::pi * n;
             const auto& p = planets[static_cast<std::size_t>(n)];
@@ -66,8 +66,8 @@ TEST_CASE("Planets differ by given and by random deviations, independently in ea
     auto twice = scatter;
     twice[0] = "gearbox.pin_tangential_rms_um=16";
     twice[1] = "gearbox.pin_radial_rms_um=6";
-    const Planets one = sampler.sample(Group::graded, 7).planets;
-    const Planets two = Sampler(study_with(twice)).sample(Group::graded, 7).planets;
+    const Planets one = sampler.draw({Group::graded, 7}).inputs.planets;
+    const Planets two = Sampler(study_with(twice)).draw({Group::graded, 7}).inputs.planets;
     CHECK(two[2].pin_x_m == Approx(2.0 * one[2].pin_x_m));
     CHECK(two[2].bearing_stiffness == one[2].bearing_stiffness);
 }

@@ -58,7 +58,7 @@ TEST_CASE("Philox reproduces its authors' reference values") {
 }
 
 TEST_CASE("A stream consists of the blocks of its counter in order") {
-    Philox stream(0, Group::threshold, 0, 0);
+    Philox stream(0, Group::threshold, 0, StreamPurpose{0});
     CHECK(stream() == 0x16554d9eca36314cu);
     CHECK(stream() == 0xdb20fe9d672d0fdcu);
     stream();
@@ -67,15 +67,15 @@ TEST_CASE("A stream consists of the blocks of its counter in order") {
         r123::Philox4x64{}(r123::Philox4x64::ctr_type{{1, 0, 0, 0}}, r123::Philox4x64::key_type{});
     CHECK(stream() == second[0]);
 
-    Philox other(5, Group::graded, 6, 7);
+    Philox other(5, Group::graded, 6, StreamPurpose{7});
     const auto block = r123::Philox4x64{}(r123::Philox4x64::ctr_type{{0, 6, 7, 0}},
                                           r123::Philox4x64::key_type{{5, 1}});
     CHECK(other() == block[0]);
 }
 
 TEST_CASE("Words of a stream are the same one by one and in bulk") {
-    Philox single(5, Group::graded, 6, 7);
-    Philox many(5, Group::graded, 6, 7);
+    Philox single(5, Group::graded, 6, StreamPurpose{7});
+    Philox many(5, Group::graded, 6, StreamPurpose{7});
     for (const std::size_t count : {1, 2, 9, 4, 0, 3, 16, 5}) {
         std::vector<std::uint64_t> words(count);
         many.fill(words);
@@ -94,9 +94,11 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
         return values;
     };
     const std::vector<std::vector<double>> noise{
-        normals({7, Group::graded, 3, 11}), normals({7, Group::graded, 4, 11}),
-        normals({7, Group::graded, 3, 12}), normals({7, Group::threshold, 3, 11}),
-        normals({8, Group::graded, 3, 11})};
+        normals({7, Group::graded, 3, StreamPurpose{11}}),
+        normals({7, Group::graded, 4, StreamPurpose{11}}),
+        normals({7, Group::graded, 3, StreamPurpose{12}}),
+        normals({7, Group::threshold, 3, StreamPurpose{11}}),
+        normals({8, Group::graded, 3, StreamPurpose{11}})};
     for (std::size_t a = 0; a < noise.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
             const double product =
@@ -104,13 +106,6 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
             CHECK(std::abs(product) < 4.0 * std::sqrt(static_cast<double>(kCount)));
         }
     }
-}
-
-TEST_CASE("Parameter numbers are FNV-1a with 64 bits") {
-    // Test vectors of the authors: "", "a", "foobar".
-    CHECK(parameter_id("") == 0xcbf29ce484222325u);
-    CHECK(parameter_id("a") == 0xaf63dc4c8601ec8cu);
-    CHECK(parameter_id("foobar") == 0x85944171f73967e8u);
 }
 
 TEST_CASE("Random values of each distribution follow its distribution function") {
@@ -191,8 +186,9 @@ TEST_CASE("Levels and grids alternate in the graded group and are 0 in the thres
     const Sampler sampler(study_with({}));
     const double depths_mm[] = {0, 1, 2, 3, 4.3};
     for (std::uint64_t i = 0; i < 12; ++i) {
-        CHECK(sampler.sample(Group::graded, i).fault_size == Approx(depths_mm[i % 5] * 1e-3));
-        CHECK(sampler.sample(Group::threshold, i).fault_size == 0.0);
+        CHECK(sampler.draw({Group::graded, i}).inputs.fault_size ==
+              Approx(depths_mm[i % 5] * 1e-3));
+        CHECK(sampler.draw({Group::threshold, i}).inputs.fault_size == 0.0);
     }
     const auto grid = samples_of("{distribution='grid', low=0, high=1, count=3}", 4);
     CHECK(grid == std::vector<double>{0.0, 0.5, 1.0, 0.0});
@@ -211,12 +207,12 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
     for (const Group group : {Group::graded, Group::threshold}) {
         std::set<std::tuple<double, double, double>> combinations;
         for (std::uint64_t i = 0; i < 64; ++i) {
-            const InstanceInputs x = sampler.sample(group, i);
+            const InstanceInputs x = sampler.draw({group, i}).inputs;
             combinations.insert({x.fault_size, x.bodies[Member::sun].mass_kg, x.noise_m_s2});
             if (group == Group::graded) {
                 CHECK(x.fault_size == Approx(1e-3 * static_cast<double>(i % 4)));
             }
-            const InstanceInputs y = more.sample(group, i);
+            const InstanceInputs y = more.draw({group, i}).inputs;
             CHECK(y.bodies[Member::ring].mass_kg == 3.0);
             CHECK(same(x, y));
             CHECK(x.bodies[Member::sun].mass_kg == y.bodies[Member::sun].mass_kg);
@@ -225,9 +221,9 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
         CHECK(combinations.size() == (group == Group::graded ? 64 : 16));
     }
     // The order of the schema determines the combinations: the mass varies faster than the noise.
-    CHECK(sampler.sample(Group::graded, 4).bodies[Member::sun].mass_kg == 2.0);
-    CHECK(sampler.sample(Group::graded, 4).noise_m_s2 == 0.0);
-    CHECK(sampler.sample(Group::graded, 16).noise_m_s2 == 1.0);
+    CHECK(sampler.draw({Group::graded, 4}).inputs.bodies[Member::sun].mass_kg == 2.0);
+    CHECK(sampler.draw({Group::graded, 4}).inputs.noise_m_s2 == 0.0);
+    CHECK(sampler.draw({Group::graded, 16}).inputs.noise_m_s2 == 1.0);
 
     // More combinations than there are instance numbers.
     overrides.clear();
@@ -235,7 +231,8 @@ TEST_CASE("Levels and grids of several inputs form all combinations, each equall
         overrides.push_back("random.gearbox." + std::string(key) +
                             "={distribution='grid', low=1, high=2, count=100000}");
     }
-    const InstanceInputs last = Sampler(study_with(overrides)).sample(Group::graded, 999999999);
+    const InstanceInputs last =
+        Sampler(study_with(overrides)).draw({Group::graded, 999999999}).inputs;
     CHECK(last.bodies[Member::sun].mass_kg == Approx(1 + 99999 / 99999.0));
     CHECK(last.bodies[Member::ring].mass_kg == 1.0);
     CHECK(last.bodies[Member::carrier].mass_kg == 1.0);
@@ -245,13 +242,14 @@ TEST_CASE("An instance does not depend on what was sampled before and how often"
     const Sampler forward(study_with({})), backward(study_with({}));
     std::vector<InstanceInputs> first;
     for (std::uint64_t i = 0; i < 50; ++i) {
-        first.push_back(forward.sample(Group::graded, i));
+        first.push_back(forward.draw({Group::graded, i}).inputs);
     }
     for (std::uint64_t i = 50; i-- > 0;) {
-        CHECK(same(backward.sample(Group::graded, i), first[i]));
+        CHECK(same(backward.draw({Group::graded, i}).inputs, first[i]));
     }
-    CHECK_FALSE(same(forward.sample(Group::threshold, 5), first[5]));
-    CHECK_FALSE(same(Sampler(study_with({"ensemble.seed=8"})).sample(Group::graded, 5), first[5]));
+    CHECK_FALSE(same(forward.draw({Group::threshold, 5}).inputs, first[5]));
+    CHECK_FALSE(
+        same(Sampler(study_with({"ensemble.seed=8"})).draw({Group::graded, 5}).inputs, first[5]));
 }
 
 TEST_CASE("A new random input leaves the random values of the others unchanged") {
@@ -260,8 +258,9 @@ TEST_CASE("A new random input leaves the random values of the others unchanged")
         {"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
          "random.operation.torque_N_m={distribution='lognormal', median=429, cv=0.05}"}));
     for (std::uint64_t i = 0; i < 50; ++i) {
-        CHECK(same(before.sample(Group::graded, i), after.sample(Group::graded, i)));
-        CHECK(same(before.sample(Group::threshold, i), after.sample(Group::threshold, i)));
+        CHECK(same(before.draw({Group::graded, i}).inputs, after.draw({Group::graded, i}).inputs));
+        CHECK(same(before.draw({Group::threshold, i}).inputs,
+                   after.draw({Group::threshold, i}).inputs));
     }
 }
 
@@ -271,7 +270,7 @@ TEST_CASE("Different inputs of the same distribution are independent") {
                     "random.gearbox.ring_mass_kg={distribution='uniform', low=1, high=2}"}));
     double products = 0.0;
     for (std::uint64_t i = 0; i < kSamples; ++i) {
-        const InstanceInputs inputs = sampler.sample(Group::graded, i);
+        const InstanceInputs inputs = sampler.draw({Group::graded, i}).inputs;
         products += 12 * (inputs.bodies[Member::sun].mass_kg - 1.5) *
                     (inputs.bodies[Member::ring].mass_kg - 1.5);
     }
@@ -279,16 +278,15 @@ TEST_CASE("Different inputs of the same distribution are independent") {
 }
 
 TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") {
-    const InstanceInputs disc = Sampler(study_with({})).nominal();
+    const InstanceInputs disc = nominal_inputs(study_with({}));
     const double cosine = std::cos(M_PI / 9);
     CHECK(disc.bodies[Member::sun].inertia_over_r2_kg == Approx(0.7 / (2 * cosine * cosine)));
     CHECK(disc.bodies[Member::ring].inertia_over_r2_kg == Approx(5.982 / (2 * cosine * cosine)));
     CHECK(disc.bodies[Member::carrier].inertia_over_r2_kg == Approx(5.0));
 
-    const InstanceInputs given = Sampler(study_with({"gearbox.planet_inertia_kg_m2=2e-3",
-                                                     "gearbox.carrier_inertia_kg_m2=0.1",
-                                                     "gearbox.sun_inertia_over_r2_kg=0.39"}))
-                                     .nominal();
+    const InstanceInputs given = nominal_inputs(
+        study_with({"gearbox.planet_inertia_kg_m2=2e-3", "gearbox.carrier_inertia_kg_m2=0.1",
+                    "gearbox.sun_inertia_over_r2_kg=0.39"}));
     const double base_m = 0.5 * 3.175e-3 * 31 * cosine, centre_m = 0.5 * 3.175e-3 * (19 + 31);
     CHECK(given.bodies[Member::planet].inertia_over_r2_kg == Approx(2e-3 / (base_m * base_m)));
     CHECK(given.bodies[Member::carrier].inertia_over_r2_kg == Approx(0.1 / (centre_m * centre_m)));
@@ -301,29 +299,31 @@ TEST_CASE("A fixed-shaft gearbox's inputs are sampled like any other's") {
         "cv=0.2}",
         "random.operation.load_torque_N_m={distribution='uniform', low=28, high=31}",
         "random.fault.chip_mm={distribution='levels', values=[0, 4, 8]}"};
-    const auto sampler = [&] {
+    const Study study = [&] {
         const auto reading = read_study_text(kFixedShaftStudy, "study.toml", overrides);
         INFO(format(reading.problems));
         REQUIRE(reading.study);
-        return Sampler(*reading.study);
+        return *reading.study;
     }();
-    CHECK(sampler.speed_member() == Member::pinion);
-    const auto columns = sampler.columns();
+    const Sampler sampler(study);
+    CHECK(speed_member(study) == Member::pinion);
+    const auto columns = input_columns(study);
     REQUIRE(columns.size() == 3);
     CHECK(columns[0].name == "motor_coupling_stiffness_N_m_rad");
     CHECK(columns[0].unit == "N m/rad");
     CHECK(columns[2].name == "fault_chip_m");
     std::set<double> stiffnesses;
     for (std::uint64_t i = 0; i < 6; ++i) {
-        const InstanceInputs x = sampler.sample(Group::graded, i);
+        const Realization drawn = sampler.draw({Group::graded, i});
+        const InstanceInputs& x = drawn.inputs;
         CHECK(x.fault_size == Approx(4e-3 * static_cast<double>(i % 3)));
         CHECK(x.fixed_shaft.load_torque_N_m >= 28.0);
         CHECK(x.fixed_shaft.load_torque_N_m <= 31.0);
-        CHECK(sampler.sample(Group::threshold, i).fault_size == 0.0);
+        CHECK(sampler.draw({Group::threshold, i}).inputs.fault_size == 0.0);
         stiffnesses.insert(x.fixed_shaft.motor_coupling_stiffness_N_m_rad);
-        CHECK(sampler.row({Group::graded, i}) ==
+        CHECK(drawn.random_values ==
               std::vector<double>{x.fixed_shaft.motor_coupling_stiffness_N_m_rad,
-                                  x.fixed_shaft.load_torque_N_m, x.fault_size});
+                                  x.fixed_shaft.load_torque_N_m});
     }
     CHECK(stiffnesses.size() == 6);
 }
@@ -335,16 +335,17 @@ TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears
                     "load_torque_N_m = 48.8\n", "");
     const auto reading = read_study_text(text, "study.toml");
     REQUIRE(reading.study);
-    const InstanceInputs inputs = Sampler(*reading.study).nominal();
+    const InstanceInputs inputs = nominal_inputs(*reading.study);
     CHECK(inputs.bodies[Member::pinion].inertia_kg_m2 == Approx(4.3659e-4).epsilon(5e-4));
     CHECK(inputs.bodies[Member::gear].inertia_kg_m2 == Approx(8.3602e-3).epsilon(5e-4));
     CHECK(inputs.fixed_shaft.load_torque_N_m == Approx(11.9 * 48 / 19));
 }
 
 TEST_CASE("Rows of the results hold the sampled values in SI under their names") {
-    const Sampler sampler(
-        study_with({"random.operation.carrier_speed_rpm={distribution='uniform', low=8, high=9}"}));
-    const auto columns = sampler.columns();
+    const Study study =
+        study_with({"random.operation.carrier_speed_rpm={distribution='uniform', low=8, high=9}"});
+    const Sampler sampler(study);
+    const auto columns = input_columns(study);
     REQUIRE(columns.size() == 4);
     CHECK(columns[0].name == "planet_bearing_stiffness_N_m");
     CHECK(columns[0].unit == "N/m");
@@ -353,13 +354,13 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     CHECK(columns[2].name == "path_exponent");
     CHECK(columns[2].unit == "1");
     CHECK(columns[3].name == "fault_depth_m");
-    CHECK(sampler.speed_member() == Member::carrier);
+    CHECK(speed_member(study) == Member::carrier);
     for (const Group group : {Group::graded, Group::threshold}) {
-        const auto row = sampler.row({group, 3});
-        const InstanceInputs inputs = sampler.sample(group, 3);
-        CHECK(row == std::vector<double>{inputs.bodies[Member::planet].bearing_stiffness_N_m,
-                                         inputs.speed_rad_s, inputs.path_exponent,
-                                         inputs.fault_size});
+        const Realization drawn = sampler.draw({group, 3});
+        std::vector<double> row;
+        append_random_inputs(study, drawn, 1.0, row);
+        CHECK(row == std::vector<double>{drawn.inputs.bodies[Member::planet].bearing_stiffness_N_m,
+                                         drawn.inputs.speed_rad_s, drawn.inputs.path_exponent});
     }
 }
 

@@ -34,7 +34,7 @@ Study sobol_study(std::vector<std::string> overrides = {}) {
 const std::vector<std::string> kUniform = {
     "random.sensor.path_exponent={distribution='uniform',low=0.0,high=1.0}"};
 double share_of(const Sampler& sampler, Group group, std::uint64_t index) {
-    return sampler.sample(group, index).path_exponent;
+    return sampler.draw({group, index}).inputs.path_exponent;
 }
 
 double mean(const std::vector<double>& values) {
@@ -68,7 +68,7 @@ TEST_CASE("Every dyadic interval of every coordinate has its share of scrambled 
     const Sobol sobol(20);
     for (const std::uint64_t seed : {1U, 2U}) {
         for (std::size_t d = 0; d < 20; ++d) {
-            const Philox tree(seed, Group::graded, 0, d);
+            const Philox tree(seed, Group::graded, 0, StreamPurpose{d});
             std::set<std::uint32_t> intervals;
             for (std::uint32_t n = 0; n < 256; ++n) {
                 intervals.insert(owen_scrambled(sobol.coordinate(n, d), tree) >> 24);
@@ -85,9 +85,9 @@ TEST_CASE("The first two coordinates are equidistributed over all rectangles of 
         std::set<std::uint64_t> cells;
         for (std::uint32_t n = 0; n < 256; ++n) {
             const std::uint64_t x =
-                owen_scrambled(sobol.coordinate(n, 0), {5, Group::graded, 0, 0});
+                owen_scrambled(sobol.coordinate(n, 0), {5, Group::graded, 0, StreamPurpose{0}});
             const std::uint64_t y =
-                owen_scrambled(sobol.coordinate(n, 1), {5, Group::graded, 0, 1});
+                owen_scrambled(sobol.coordinate(n, 1), {5, Group::graded, 0, StreamPurpose{1}});
             cells.insert((x >> (32 - first)) << 8 | y >> (24 + first));
         }
         CHECK(cells.size() == 256);
@@ -99,7 +99,8 @@ TEST_CASE("A scrambled point is uniform over the seeds") {
     std::vector<double> point_coordinates;
     for (std::uint64_t seed = 0; seed < 5000; ++seed) {
         point_coordinates.push_back(
-            kWhole * owen_scrambled(sobol.coordinate(5, 2), {seed, Group::threshold, 0, 3}));
+            kWhole *
+            owen_scrambled(sobol.coordinate(5, 2), {seed, Group::threshold, 0, StreamPurpose{3}}));
     }
     CHECK(kolmogorov_smirnov(point_coordinates, [](double x) { return x; }) < kKsLimit);
 }
@@ -133,7 +134,7 @@ TEST_CASE("Evenly distributed inputs keep their distributions and are mutually i
     double product = 0.0;
     std::vector<double> stiffness;
     for (std::uint64_t i = 0; i < kRounds; ++i) {
-        const InstanceInputs inputs = sampler.sample(Group::graded, kSizes * i);
+        const InstanceInputs inputs = sampler.draw({Group::graded, kSizes * i}).inputs;
         const double z = std::log(inputs.bodies[Member::planet].bearing_stiffness_N_m / 1.1e8) /
                          std::sqrt(std::log1p(0.04));
         stiffness.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
@@ -173,12 +174,17 @@ TEST_CASE("Healthy gearboxes are one sequence, regardless of the order of the si
 
 TEST_CASE(
     "A larger ensemble begins with the gearboxes of a smaller one, also if evenly distributed") {
+    const auto values_of = [](const Sampler& sampler, std::uint64_t index) {
+        Realization drawn = sampler.draw({Group::graded, index});
+        drawn.random_values.push_back(drawn.inputs.fault_size);
+        return drawn.random_values;
+    };
     const Sampler small(sobol_study()), large(sobol_study({"ensemble.instances=1000"}));
     for (std::uint64_t i = 0; i < 100; ++i) {
-        CHECK(small.row({Group::graded, i}) == large.row({Group::graded, i}));
+        CHECK(values_of(small, i) == values_of(large, i));
     }
     const Sampler other(sobol_study({"ensemble.seed=8"}));
-    CHECK(small.row({Group::graded, 3}) != other.row({Group::graded, 3}));
+    CHECK(values_of(small, 3) != values_of(other, 3));
 }
 
 TEST_CASE("Correlated inputs stay correlated in evenly distributed gearboxes") {
@@ -192,7 +198,7 @@ TEST_CASE("Correlated inputs stay correlated in evenly distributed gearboxes") {
     constexpr std::uint64_t kCount = 4096;
     int agree = 0;
     for (std::uint64_t i = 0; i < kCount; ++i) {
-        const InstanceInputs inputs = sampler.sample(Group::threshold, i);
+        const InstanceInputs inputs = sampler.draw({Group::threshold, i}).inputs;
         agree += (inputs.torque_N_m > 400) == (inputs.bodies[Member::planet].mass_kg > 2) ? 1 : 0;
     }
     CHECK(agree / static_cast<double>(kCount) ==

@@ -20,8 +20,7 @@ namespace {
 
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
-    return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
-                             std::span(&id, 1), 1,
+    return mc::run_gearboxes(scene, mc::path_grid(scene), std::span(&id, 1), 1,
                              {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }
 
@@ -87,10 +86,9 @@ TEST_CASE(
     "Central differences' default steps are stable outside the pilot, and not larger than "
     "necessary") {
     const Scene scene(test::shipped_study("planet-life.toml"));
-    const mc::Sampler sampler(scene.study());
     double most = 0.0;
     for (std::uint64_t i = 1000; i < 4000; ++i) {
-        const auto inputs = scene.inputs(sampler.sample(mc::Group::threshold, i));
+        const auto inputs = scene.inputs(scene.sampler().draw({mc::Group::threshold, i}).inputs);
         const double limit = lockstep::longest_stable_step(
             dynamics::assemble(scene.plan().layout, inputs, scene.stiffest_pairs()),
             lockstep::Integrator::central_difference);
@@ -289,7 +287,7 @@ TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from
     CHECK(scene.plan().nodes.tooth_pairs == 2);
     CHECK(scene.fault().largest_size() == 5.0);
     const auto inputs =
-        std::get<dynamics::PlanetaryInputs>(scene.inputs(mc::Sampler(scene.study()).nominal()));
+        std::get<dynamics::PlanetaryInputs>(scene.inputs(mc::nominal_inputs(scene.study())));
     CHECK(inputs.backlash_m == Approx(1e-4));
     // Every stage reduces the stiffness more than the one before it (Yang, Fig. 15).
     double last = stiffness::total_at(scene.pairs().curve(0), 0.3);

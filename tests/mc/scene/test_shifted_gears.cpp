@@ -79,7 +79,7 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets at assemb
     CHECK(layout.ring_mesh_angle() == Approx(angle_r).epsilon(1e-14));
     CHECK(angle_s > study.gearbox.pressure_angle_rad);
     CHECK(angle_r < study.gearbox.pressure_angle_rad);
-    const auto in = scene.inputs(mc::Sampler(study).nominal());
+    const auto in = scene.inputs(mc::nominal_inputs(study));
     const auto& forces = std::get<dynamics::PlanetaryInputs>(in).force_N;
     CHECK(forces[dynamics::carrier] ==
           Approx(-forces[dynamics::sun] * (std::cos(angle_s) + std::cos(angle_r))).epsilon(1e-12));

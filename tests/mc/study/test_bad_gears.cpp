@@ -9,12 +9,6 @@
 
 namespace test_bad_gears {
 
-namespace test_bad_gears {
-
-namespace test_bad_gears {
-
-namespace test_bad_gears {
-
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::read_study_text;

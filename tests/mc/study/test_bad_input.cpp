@@ -9,12 +9,6 @@
 
 namespace test_bad_input {
 
-namespace test_bad_input {
-
-namespace test_bad_input {
-
-namespace test_bad_input {
-
 using gearpod::mc::format;
 using gearpod::mc::Problem;
 using gearpod::mc::Problems;

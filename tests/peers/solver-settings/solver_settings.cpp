@@ -98,7 +98,6 @@ std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t la
 void write_problem(const mc::Study& study) {
     const mc::Scene scene(study);
     const lockstep::IntegrationPlan plan = table_plan(scene);
-    const mc::Sampler sampler(study);
     json all{{"samples", scene.samples_per_mesh()},
              {"meshes", scene.pattern().length},
              {"low_pass_rad_s", plan.low_pass_rad_s},
@@ -113,7 +112,7 @@ void write_problem(const mc::Study& study) {
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
     for (const mc::GearboxId& id : mc::pilot_gearboxes()) {
-        const mc::InstanceInputs instance = sampler.sample(id.group, id.index);
+        const mc::InstanceInputs instance = scene.sampler().draw(id).inputs;
         all["gearboxes"].push_back(matrices(plan, scene.inputs(instance)));
         for (int c = 0; c < scene.fault().curves(); ++c) {
             faults.curve[static_cast<std::size_t>(c)].push_back(

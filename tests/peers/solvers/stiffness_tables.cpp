@@ -9,9 +9,8 @@ GearboxInputs8 inputs_of_gearboxes(const mc::Scene& scene) {
     GearboxInputs8 gearboxes;
     gearboxes.faults = {&scene.pairs(), scene.pattern(), {}};
     gearboxes.faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
-    const mc::Sampler sampler(scene.study());
     for (std::uint64_t i = 0; i < kGearboxes; ++i) {
-        const mc::InstanceInputs instance = sampler.sample(mc::Group::graded, i);
+        const mc::InstanceInputs instance = scene.sampler().draw({mc::Group::graded, i}).inputs;
         gearboxes.instances.push_back(instance);
         gearboxes.inputs.push_back(scene.inputs(instance));
         for (std::size_t c = 0; c < gearboxes.faults.curve.size(); ++c) {
