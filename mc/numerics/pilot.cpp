@@ -17,6 +17,8 @@
 namespace gearpod::mc {
 namespace {
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
                                     int meshes) {
     const auto& content = tile.integration.content;
@@ -46,7 +48,7 @@ struct Sums {
     }
     double relative() const {
         return reference > 0.0 ? std::sqrt(difference / reference)
-                               : (difference > 0.0 ? kInfinity : 0.0);
+                               : (difference > 0.0 ? kUnbounded : 0.0);
     }
 };
 
@@ -60,9 +62,9 @@ void add_feature(const PilotRecord& record, const PilotRecord& reference, std::s
         if (!reference.ok[g] || !std::isfinite(reference.features[g][at])) {
             continue;
         }
-        const double here = record.ok[g] ? record.features[g][at] : kInfinity;
+        const double here = record.ok[g] ? record.features[g][at] : kUnbounded;
         const double there = reference.features[g][at];
-        const double difference = std::isfinite(here) ? std::abs(here - there) : kInfinity;
+        const double difference = std::isfinite(here) ? std::abs(here - there) : kUnbounded;
         sums.difference += difference * difference;
         sums.reference += there * there;
         largest = std::max(largest, difference);
@@ -186,7 +188,7 @@ PilotError pilot_error(const PilotRecord& record, const PilotRecord& reference) 
             continue;
         }
         if (!record.ok[g]) {
-            sensor.difference = te.difference = kInfinity;
+            sensor.difference = te.difference = kUnbounded;
             continue;
         }
         sensor.add(record.sensor[g], reference.sensor[g]);
