@@ -62,7 +62,8 @@ void solve(const Scene& scene, SolutionOf solution_of, GearboxTile& tile) {
     tile.meshes = tile.integration.integrated_meshes;
     if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
         tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
-        tile.superposition_fallbacks = static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
+        tile.superposition_fallbacks =
+            static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
     }
     tile.integration_cpu_s = thread_processor_s() - processor_start;
 }
