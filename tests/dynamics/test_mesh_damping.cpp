@@ -1,9 +1,8 @@
 // Checks the laws of mesh damping by their formulas and by the modes of a pair of gears.
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 
@@ -36,11 +35,12 @@ double modal_damping_ratio(MeshDamping law, const DampingParameters& parameters)
     const Eigen::Index n = m.mass.rows();
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     system.topRightCorner(n, n).setIdentity();
-    const Eigen::MatrixXd inverse_mass = m.mass.inverse();
+    const Eigen::MatrixXd inverse_mass = inverse(m.mass);
     system.bottomLeftCorner(n, n) = -inverse_mass * m.stiffness;
     system.bottomRightCorner(n, n) = -inverse_mass * m.damping;
     double ratio = 0.0, fastest = 0.0;
-    for (const auto& value : Eigen::EigenSolver<Eigen::MatrixXd>(system).eigenvalues()) {
+    const Eigen::VectorXcd values = eigenvalues(system);
+    for (const auto& value : values) {
         if (std::abs(value.imag()) > fastest) {
             fastest = std::abs(value.imag());
             ratio = -value.real() / std::abs(value);
