@@ -42,7 +42,9 @@ def fresh_kernel(place):
     os.environ.pop("PYTHONPATH", None)
     shutil.copytree(PACKAGE, place / "package")
     python = place / "venv" / "bin" / "python"
-    for arguments in (["pip", "install", "--no-index", "--quiet", place / "package"],
+    os.environ["GEARPOD_BUILD"] = str(PROGRAM.parent)
+    for arguments in (["pip", "install", "--no-index", "--no-build-isolation", "--no-deps", "--quiet",
+                       place / "package"],
                       ["ipykernel", "install", "--prefix", place / "venv", "--name", "fresh"]):
         subprocess.run([python, "-m", *arguments], check=True, capture_output=True)
     os.environ["JUPYTER_PATH"] = str(place / "venv" / "share" / "jupyter")
