@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDigits = 4;
 
-// What both kinds of curve have in common.
+// Facts that both kinds of curve have in common.
 struct FittedCurve {
     const std::string& refusal;
     const SizeBounds &a50, &a90;

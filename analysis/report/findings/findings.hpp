@@ -66,7 +66,7 @@ std::string unknown_text(const Findings& findings, std::size_t level);
 // The answer at the reference level, `assumptions` and `facts`, and the smallest fault by noise.
 Section headline_section(const Findings& findings, const std::string& assumptions,
                          const std::string& facts);
-// What limits the answer. `numerical`: sentence on the numerical error of the answer's feature.
+// Limits of the answer. `numerical`: sentence on the numerical error of the answer's feature.
 Section limits_section(const Findings& findings, const std::string& numerical);
 // Everything at one noise level.
 Section level_section(const Findings& findings, std::size_t level);

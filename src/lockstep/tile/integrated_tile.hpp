@@ -24,8 +24,8 @@ namespace gearpod::lockstep {
 template <int W>
 class IntegratedTile {
   public:
-    // What `tile` refers to must outlive the object, and `tooth_errors` and `excitation`, which may
-    // be null.
+    // The object refers to everything that `tile` refers to, and to `tooth_errors` and `excitation`;
+    // all must outlive it. The last two may be null.
     IntegratedTile(const TileInputs& tile, const Convergence& convergence,
                    const ToothErrors* tooth_errors, const Excitation* excitation)
         : tile_(tile),

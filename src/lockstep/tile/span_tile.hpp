@@ -10,7 +10,7 @@ namespace gearpod::lockstep {
 template <int W>
 class SpanTile : protected IntegratedTile<W> {
   protected:
-    // As IntegratedTile; `span` must outlive the object.
+    // Takes the arguments of IntegratedTile; `span` must outlive the object too.
     SpanTile(const TileInputs& tile, const Convergence& convergence, const RecordedSpan& span,
              const ToothErrors* tooth_errors, const Excitation* excitation)
         : Base(tile, convergence, tooth_errors, excitation), span_(span) {
