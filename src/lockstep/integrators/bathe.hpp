@@ -9,6 +9,7 @@
 
 #include <numbers>
 
+#include "lockstep/integrators/diagonal_stage.hpp"
 #include "lockstep/integrators/implicit_stage.hpp"
 #include "lockstep/integrators/integration_steps.hpp"
 
@@ -66,18 +67,10 @@ struct Bathe {
             span.a[l] = kDiagonal * step.length * lanes.mesh_period[l];
             span.b[l] = a[l] * a[l];
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block_at_rest(), StageSpan<W>{}, q, v, s.a, s.meshes);
-        Model::source_accelerations(lanes, q, v, s.a, s.input[0]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                const double vj = std::fma(a[l], s.a[j + l], v[j + l]);
-                s.v[j + l] = vj;
-                s.x[j + l] = std::fma(a[l], v[j + l] + vj, q[j + l]);
-            }
-        }
-        substep<Model>(plan, lanes, overrides, i, 1, span, s, s.q_middle, s.v_middle);
+        begin_trapezoid<Model>(plan, lanes, overrides, i, span, state, s.a, s.x, s.v, s.input[0],
+                               s.meshes);
+        diagonal_stage<Model>(plan, lanes, overrides, i, 1, span, s.x, s.v, s.a, s.v_middle,
+                              s.q_middle, s.input[1], s.meshes);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -87,31 +80,9 @@ struct Bathe {
                 s.x[j + l] = std::fma(a[l], vj, qj);
             }
         }
-        substep<Model>(plan, lanes, overrides, i, 2, span, s, q, v);
+        diagonal_stage<Model>(plan, lanes, overrides, i, 2, span, s.x, s.v, s.a, v, q, s.input[2],
+                              s.meshes);
         step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[1], s.input[2]);
-    }
-
-  private:
-    // Computes the substep's positions and velocities from s.x and s.v, and the sensor's input.
-    template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void substep(const IntegrationPlan& plan,
-                                       const typename Model::Lanes& lanes,
-                                       const MeshOverrides& overrides, int i, int node,
-                                       const StageSpan<W>& span, Stages<Model>& s,
-                                       double* __restrict positions,
-                                       double* __restrict velocities) {
-        const int kind = plan.grid.steps[static_cast<std::size_t>(i)].kind;
-        load_pairs<Model>(plan, lanes, overrides, i, node, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block(kind), span, s.x, s.v, s.a, s.meshes);
-        for (int j = 0; j < lanes.degrees * W; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                const double rise = span.a[l] * s.a[j + l];
-                velocities[j + l] = s.v[j + l] + rise;
-                positions[j + l] = std::fma(span.a[l], rise, s.x[j + l]);
-            }
-        }
-        Model::source_accelerations(lanes, positions, velocities, s.a, s.input[node]);
     }
 };
 

@@ -3,6 +3,7 @@
 // jumps at contact transitions.
 #pragma once
 
+#include "lockstep/integrators/diagonal_stage.hpp"
 #include "lockstep/integrators/implicit_stage.hpp"
 #include "lockstep/integrators/integration_steps.hpp"
 
@@ -35,38 +36,15 @@ struct Newmark {
                                     const MeshOverrides& overrides, int i, TileState& state,
                                     Stages<Model>& s) {
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
-        const int size = lanes.degrees * W;
-        double* __restrict q = state.q.data();
-        double* __restrict v = state.v.data();
-        const StageSpan<W> none;
         StageSpan<W> span;
-        const double* const half = span.a;
         for (int l = 0; l < W; ++l) {
             span.a[l] = 0.5 * step.length * lanes.mesh_period[l];
-            span.b[l] = half[l] * half[l];
+            span.b[l] = span.a[l] * span.a[l];
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block_at_rest(), none, q, v, s.a_start, s.meshes);
-        Model::source_accelerations(lanes, q, v, s.a_start, s.input[0]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                const double vj = std::fma(half[l], s.a_start[j + l], v[j + l]);
-                s.v[j + l] = vj;
-                s.x[j + l] = std::fma(half[l], v[j + l] + vj, q[j + l]);
-            }
-        }
-        load_pairs<Model>(plan, lanes, overrides, i, 1, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block(step.kind), span, s.x, s.v, s.a_end, s.meshes);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                const double rise = half[l] * s.a_end[j + l];
-                v[j + l] = s.v[j + l] + rise;
-                q[j + l] = std::fma(half[l], rise, s.x[j + l]);
-            }
-        }
-        Model::source_accelerations(lanes, q, v, s.a_end, s.input[1]);
+        begin_trapezoid<Model>(plan, lanes, overrides, i, span, state, s.a_start, s.x, s.v,
+                               s.input[0], s.meshes);
+        diagonal_stage<Model>(plan, lanes, overrides, i, 1, span, s.x, s.v, s.a_end, state.v.data(),
+                              state.q.data(), s.input[1], s.meshes);
         // The method has no middle node; its coefficients are 0.
         step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[0], s.input[1]);
     }

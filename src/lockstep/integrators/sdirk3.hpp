@@ -3,6 +3,7 @@
 // end. No stage lies on the step's start, so a stiffness jump there needs no special treatment.
 #pragma once
 
+#include "lockstep/integrators/diagonal_stage.hpp"
 #include "lockstep/integrators/implicit_stage.hpp"
 #include "lockstep/integrators/integration_steps.hpp"
 
@@ -77,7 +78,8 @@ struct Sdirk3 {
                 s.x[j + l] = std::fma(a[l], v[j + l], q[j + l]);
             }
         }
-        stage<Model>(plan, lanes, overrides, i, 0, span, s, s.v1, s.a1);
+        diagonal_stage<Model>(plan, lanes, overrides, i, 0, span, s.x, s.v, s.a1, s.v1, s.q_end,
+                              s.input[0], s.meshes);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -87,7 +89,8 @@ struct Sdirk3 {
                 s.x[j + l] = std::fma(a[l], vj, qj);
             }
         }
-        stage<Model>(plan, lanes, overrides, i, 1, span, s, s.v2, s.a2);
+        diagonal_stage<Model>(plan, lanes, overrides, i, 1, span, s.x, s.v, s.a2, s.v2, s.q_end,
+                              s.input[1], s.meshes);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -99,34 +102,12 @@ struct Sdirk3 {
                 s.x[j + l] = std::fma(a[l], vj, qj);
             }
         }
-        stage<Model>(plan, lanes, overrides, i, 2, span, s, s.v3, s.a3);
+        diagonal_stage<Model>(plan, lanes, overrides, i, 2, span, s.x, s.v, s.a3, s.v3, s.q_end,
+                              s.input[2], s.meshes);
         std::copy_n(s.q_end, size, q);
         std::copy_n(s.v3, size, v);
 
         step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[1], s.input[2]);
-    }
-
-  private:
-    // Computes the stage's velocity and acceleration from s.x and s.v, its positions in s.q_end,
-    // and the sensor's input.
-    template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void stage(const IntegrationPlan& plan,
-                                     const typename Model::Lanes& lanes,
-                                     const MeshOverrides& overrides, int i, int node,
-                                     const StageSpan<W>& span, Stages<Model>& s,
-                                     double* __restrict velocity, double* __restrict acceleration) {
-        const int kind = plan.grid.steps[static_cast<std::size_t>(i)].kind;
-        load_pairs<Model>(plan, lanes, overrides, i, node, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block(kind), span, s.x, s.v, acceleration, s.meshes);
-        for (int j = 0; j < lanes.degrees * W; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                const double rise = span.a[l] * acceleration[j + l];
-                velocity[j + l] = s.v[j + l] + rise;
-                s.q_end[j + l] = std::fma(span.a[l], rise, s.x[j + l]);
-            }
-        }
-        Model::source_accelerations(lanes, s.q_end, velocity, acceleration, s.input[node]);
     }
 };
 

@@ -146,9 +146,13 @@ endfunction()
 function(gearpod_kernel_library name options)
   add_library(${name} OBJECT ${ARGN})
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
-  target_precompile_headers(${name} PRIVATE <lockstep/integrators/all_integrators.hpp>
-    <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
-    <lockstep/kernels/variable_speed_kernels.hpp>)
+  if(TARGET gearpod_kernels AND NOT name STREQUAL gearpod_kernels AND options STREQUAL gearpod_kernel_options)
+    target_precompile_headers(${name} REUSE_FROM gearpod_kernels)
+  else()
+    target_precompile_headers(${name} PRIVATE <lockstep/integrators/all_integrators.hpp>
+      <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
+      <lockstep/kernels/variable_speed_kernels.hpp>)
+  endif()
   target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
   target_include_directories(${name} PRIVATE ${GEARPOD_GENERATED_DIR})
   target_compile_options(${name} PRIVATE ${options})

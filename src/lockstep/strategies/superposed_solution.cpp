@@ -89,7 +89,7 @@ class SuperposedTile : SpanTile<W> {
         for (const int teeth : part_periods(tooth_errors_)) {
             whole.parts.push_back(integrate_part(whole, teeth, periodic));
         }
-        whole.periodic_orbit.step_states = {};
+        machine::AlignedVector().swap(whole.periodic_orbit.step_states);
         whole.count_periodic_orbit_once();
     }
 
