@@ -36,8 +36,8 @@ TEST_CASE("pod reads hits and misses with units, and states the kind of bound") 
     CHECK(json["hit_miss"]["a90"]["estimate"]["size"].get<double>() == Approx(2.5928436));
     CHECK(json["hit_miss"]["a90"]["upper"]["size"].get<double>() == Approx(3.1112525));
     const Outcome text = program("pod " + table + " --specimen specimen");
-    CHECK_THAT(text.output, Catch::Contains("120 specimens and 120 repeated measurements"));
-    CHECK_THAT(text.output, Catch::Contains("robust covariance"));
+    CHECK(text.mentions("120 specimens and 120 repeated measurements"));
+    CHECK(text.mentions("robust covariance"));
     CHECK_THAT(text.output, Catch::Contains("(mm)"));
 }
 
