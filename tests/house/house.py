@@ -2,12 +2,13 @@
 
 Prints one line per problem of the sources below TREE and exits with 1 if there are any. Problems
 are includes against the order of floors.txt or in a circle, missing headers, files and folders that
-are too long, names of missing files in comments, and constants of one name in two sources of a
-library.
+are too long, names of missing files in comments, constants of one name in two sources of a
+library, and scripts that cannot be run.
 """
 
 import collections
 import fnmatch
+import os
 import pathlib
 import posixpath
 import re
@@ -218,6 +219,14 @@ def clashing_constants(tree):
                     yield f"{file}:{number} defines {match.group(1)}, which {other} defines too"
 
 
+def not_executable(tree):
+    """Yields scripts that name their interpreter but are not executable, although pages run them."""
+    for file in tree.files:
+        path = tree.root / file
+        if file.endswith(SCRIPTS) and path.read_bytes()[:2] == b"#!" and not os.access(path, os.X_OK):
+            yield f"{file} names its interpreter but is not executable: chmod +x, or drop the line"
+
+
 def complaints(root, floors):
     tree = Tree(root)
     yield from upward(tree, floors)
@@ -227,6 +236,7 @@ def complaints(root, floors):
     yield from too_long(tree)
     yield from missing_names(tree)
     yield from clashing_constants(tree)
+    yield from not_executable(tree)
 
 
 def main(arguments):

@@ -62,6 +62,11 @@ class House(unittest.TestCase):
                      "src/high/beam.cpp:1 includes beside/wall.hpp: src/high may not include "
                      "src/beside")
 
+    def test_a_script_that_cannot_be_run(self):
+        self.refused({"tests/high/draw.py": "#!/usr/bin/env python3\n"},
+                     "tests/high/draw.py names its interpreter but is not executable: chmod +x, or "
+                     "drop the line")
+
     def test_includes_over_several_floors(self):
         self.assertEqual(self.run_on({"mc/roof.hpp": '#include "low/stone.hpp"\n'})[1], 0)
 
