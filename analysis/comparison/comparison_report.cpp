@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "analysis/report/json_values.hpp"
-#include "analysis/report/text_lines.hpp"
 #include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
@@ -16,220 +14,253 @@ std::string letter(std::size_t file) {
     return file < 26 ? std::string(1, static_cast<char>('A' + file)) : fmt::format("#{}", file + 1);
 }
 
-std::string bound_text(double bound, int digits, bool fixed) {
-    return !std::isfinite(bound) ? "open"
-           : fixed               ? fmt::format("{:.{}f}", bound, digits)
-                                 : fmt::format("{:.{}g}", bound, digits);
+std::string noise_text(double level) {
+    return "noise x " + number_text(level);
 }
 
-struct Row {
-    std::string what, a, b, difference, p;
+// Writes values of one kind: rates and areas with three decimals, sizes in the displayed unit.
+struct ValueText {
+    bool fixed = true;
+    double per_unit = 1.0;
+
+    std::string operator()(double value) const {
+        if (std::isnan(value)) {
+            return "-";
+        }
+        const std::string text = fmt::format("{:.3f}", value);
+        return !fixed ? number_text(value / per_unit) : text == "-0.000" ? "0.000" : text;
+    }
+    std::string with_sign(double value) const {
+        const std::string text = (*this)(value);
+        return (value >= 0.0 && text[0] != '-' ? "+" : "") + text;
+    }
+    std::string bound(double value) const { return std::isfinite(value) ? (*this)(value) : "open"; }
+    std::string difference(double value, const Interval& bounds) const {
+        return std::isnan(value) ? "-"
+                                 : fmt::format("{} [{}, {}]", with_sign(value), bound(bounds.lower),
+                                               bound(bounds.upper));
+    }
 };
 
-void add_row(std::string& out, const std::string& feature, std::size_t width, const Row& row) {
-    const std::string line = fmt::format("{:<{}}{:<15}{:>7}{:>8}  {:<24}{:>8}", feature, width,
-                                         row.what, row.a, row.b, row.difference, row.p);
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+std::string difference_text(const NumberDifference& number, const ValueText& text) {
+    return number.refusal.empty() ? text.difference(number.difference(), number.bounds) : "-";
 }
 
-Row rate_row(const RateDifference& rate, const SizeUnit& unit) {
-    Row row{"Pd at " + (rate.size.high > 0.0 ? range_text(rate.size, unit) : "0"), "-", "-", "-",
-            ""};
-    if (!std::isnan(rate.a)) {
-        row.a = fmt::format("{:.3f}", rate.a);
-        row.b = fmt::format("{:.3f}", rate.b);
-        row.difference = fmt::format("{:+.3f} [{:.3f}, {:.3f}]", rate.b - rate.a, rate.bounds.lower,
-                                     rate.bounds.upper);
-        row.p = p_text(rate.p_value);
-    }
-    return row;
+std::string difference_text(const RateDifference& rate) {
+    return std::isnan(rate.a) ? "-" : ValueText{}.difference(rate.b - rate.a, rate.bounds);
 }
 
-Row number_row(const std::string& what, const NumberDifference& number, double per_unit,
-               bool fixed) {
-    const auto value = [&](double size, const char* sign) {
-        return std::isnan(size) ? std::string("-")
-               : fixed          ? fmt::format("{0}{1:.3f}", *sign == '+' && size >= 0.0 ? "+" : "",
-                                              size / per_unit)
-                                : fmt::format("{0}{1:.3g}", *sign == '+' && size >= 0.0 ? "+" : "",
-                                              size / per_unit);
-    };
-    Row row{what, value(number.a, ""), value(number.b, ""), "-", p_text(number.p_value)};
-    if (number.refusal.empty()) {
-        row.difference = fmt::format("{} [{}, {}]", value(number.difference(), "+"),
-                                     bound_text(number.bounds.lower / per_unit, 3, fixed),
-                                     bound_text(number.bounds.upper / per_unit, 3, fixed));
-    }
-    return row;
+std::string size_name(const RateDifference& rate, const SizeUnit& unit) {
+    return rate.size.high > 0.0 ? range_text(rate.size, unit) : "0";
 }
 
-void add_file(std::string& out, const ComparisonReport& report, std::size_t f) {
-    const ComparedFile& file = report.files[f];
-    out += '\n';
-    add_wrapped(
-        out,
-        file.unpaired.empty()
-            ? fmt::format("{} against A: on {} graded gearboxes that are the same in both",
-                          letter(f), file.pairs)
-            : fmt::format("{} against A: different gearboxes ({})", letter(f), file.unpaired),
-        2);
-    for (const std::string& line : file.differing) {
-        add_wrapped(out, "input " + line, 2);
-    }
-    for (const std::string& line : file.left_out) {
-        add_wrapped(out, "not compared: " + line, 2);
-    }
-    std::size_t width = 9;
+// Calls use(feature, index) for the features at the noise level shown.
+template <typename Use>
+void for_shown(const ComparedResults& results, const ComparedFile& file, Use&& use) {
+    std::size_t index = 0;
     for (const ComparedFeature& feature : file.features) {
-        width = std::max(width, feature.feature.size() + 2);
-    }
-    const SizeUnit& unit = report.size;
-    std::string same;
-    for (const ComparedFeature& feature : file.features) {
-        if (feature.same && feature.noise_level == report.noise_level) {
-            same += (same.empty() ? "" : ", ") + feature.feature;
+        if (feature.noise_level == results.noise_level) {
+            use(feature, index++);
         }
     }
-    if (!same.empty()) {
-        add_wrapped(out, "the same in every gearbox: " + same, 2);
+}
+
+// Index of the noise level shown among the file's own; their number if the file lacks it.
+std::size_t shown_index(const ComparedResults& results, const ComparedFile& file) {
+    std::size_t n = 0;
+    while (n < file.noise_levels.size() && file.noise_levels[n] != results.noise_level) {
+        ++n;
     }
-    add_row(out, "feature", width,
-            {"", "A", letter(f),
-             fmt::format("{} - A [{:g} %]", letter(f), 100.0 * report.confidence), "p"});
-    for (const ComparedFeature& feature : file.features) {
-        if (feature.same || feature.noise_level != report.noise_level) {
-            continue;
+    return n;
+}
+
+std::string smallest_text(const ComparedResults& results, const ComparedFile& file) {
+    const std::size_t n = shown_index(results, file);
+    if (n >= file.smallest.size()) {
+        return "-";
+    }
+    if (const auto& found = file.smallest[n]) {
+        return with_unit(found->size, results.size) + " by " + found->feature;
+    }
+    return file.without_threshold[n] ? "no threshold" : "no tested size";
+}
+
+Section headline(const ComparedResults& results) {
+    Section section{"headline", "", {}};
+    std::string found;
+    Table table{"files", "", {"", "file", "study", "gearboxes"}, {}};
+    for (std::size_t f = 0; f < results.files.size(); ++f) {
+        const ComparedFile& file = results.files[f];
+        found +=
+            fmt::format("{}{}: {}", f > 0 ? "; " : "", letter(f), smallest_text(results, file));
+        table.rows.push_back({letter(f), file.path, file.title, std::to_string(file.gearboxes)});
+        section.state(fmt::format("shortage.{}", f),
+                      file.shortage.empty() ? "" : letter(f) + ": " + file.shortage);
+    }
+    section.state("headline", fmt::format("Smallest fault found with 90 % probability at {} "
+                                          "confidence, {}: {}.",
+                                          percent_text(results.confidence),
+                                          noise_text(results.noise_level), found));
+    table.labels = 2;
+    section.add(std::move(table));
+    section.state("first_records", results.first_records
+                                       ? "The differences use thresholds set by the first record "
+                                         "of each healthy gearbox; the smallest faults use all "
+                                         "records."
+                                       : "");
+    return section;
+}
+
+// The differences of a90 or AUC in all files, for the figure of them.
+void add_differences(Section& section, const ComparedResults& results, const std::string& key,
+                     const std::string& title, NumberDifference Comparison::*number,
+                     const ValueText& text) {
+    Table table{key, title, {"feature", "file", "A", "file's", "difference", "p"}, {}, true};
+    for (std::size_t f = 1; f < results.files.size(); ++f) {
+        for_shown(results, results.files[f], [&](const ComparedFeature& feature, std::size_t) {
+            const NumberDifference& value = feature.comparison.*number;
+            table.rows.push_back({feature.feature, letter(f), text(value.a), text(value.b),
+                                  difference_text(value, text), p_text(value.p_value)});
+        });
+    }
+    section.add(std::move(table));
+}
+
+void state_facts(Section& section, const ComparedResults& results, std::size_t f) {
+    const ComparedFile& file = results.files[f];
+    const std::string key = fmt::format("about.{}.", f);
+    section.state(key + "pairs",
+                  file.unpaired.empty()
+                      ? fmt::format("On {} graded gearboxes that are the same in both; differences "
+                                    "are taken gearbox by gearbox.",
+                                    file.pairs)
+                      : fmt::format("Different gearboxes ({}), compared as independent samples.",
+                                    file.unpaired));
+    std::vector<std::string> same;
+    for_shown(results, file, [&](const ComparedFeature& feature, std::size_t) {
+        if (feature.same) {
+            same.push_back(feature.feature);
+        }
+    });
+    section.state(key + "same",
+                  same.empty() ? "" : "The same in every gearbox: " + joined(same) + ".");
+    for (std::size_t i = 0; i < file.differing.size(); ++i) {
+        section.state(fmt::format("{}input.{}", key, i), "Input " + file.differing[i] + ".");
+    }
+    for (std::size_t i = 0; i < file.left_out.size(); ++i) {
+        section.state(fmt::format("{}left_out.{}", key, i),
+                      "Not compared: " + file.left_out[i] + ".");
+    }
+}
+
+// The terminal's table: rates, a90 and AUC of every feature that differs.
+Table main_table(const ComparedResults& results, std::size_t f) {
+    const std::string other = letter(f);
+    Table table{fmt::format("differences.{}", f),
+                "",
+                {"feature", "", "A", other,
+                 fmt::format("{} - A [{}]", other, percent_text(results.confidence)), "p"},
+                {}};
+    table.labels = 2;
+    const ValueText area, size{false, results.size.per_unit()};
+    for_shown(results, results.files[f], [&](const ComparedFeature& feature, std::size_t) {
+        if (feature.same) {
+            return;
         }
         std::string name = feature.feature;
+        const auto add = [&](const std::string& what, const ValueText& text, double a, double b,
+                             const std::string& difference, double p) {
+            table.rows.push_back(
+                {std::exchange(name, ""), what, text(a), text(b), difference, p_text(p)});
+        };
         for (const RateDifference& rate : feature.comparison.rates) {
-            add_row(out, name, width, rate_row(rate, unit));
-            name.clear();
+            add("Pd at " + size_name(rate, results.size), area, rate.a, rate.b,
+                difference_text(rate), rate.p_value);
         }
-        const std::string shown = unit.shown_unit();
-        add_row(out, name, width,
-                number_row("a90" + (shown.empty() ? "" : ", " + shown), feature.comparison.a90,
-                           unit.per_unit(), false));
-        add_row(out, "", width, number_row("AUC", feature.comparison.auc, 1.0, true));
-        for (const NumberDifference* number : {&feature.comparison.a90, &feature.comparison.auc}) {
-            if (!number->refusal.empty()) {
-                add_wrapped(
-                    out,
-                    fmt::format("  no difference of {}: {}",
-                                number == &feature.comparison.a90 ? "a90" : "AUC", number->refusal),
-                    4);
-            }
+        const NumberDifference &a90 = feature.comparison.a90, &auc = feature.comparison.auc;
+        add(in_unit("a90", results.size), size, a90.a, a90.b, difference_text(a90, size),
+            a90.p_value);
+        add("AUC", area, auc.a, auc.b, difference_text(auc, area), auc.p_value);
+    });
+    return table;
+}
+
+void state_refusals(Section& section, const ComparedResults& results, std::size_t f) {
+    for_shown(results, results.files[f], [&](const ComparedFeature& feature, std::size_t index) {
+        for (const auto& [name, number] : {std::pair{"a90", &feature.comparison.a90},
+                                           std::pair{"AUC", &feature.comparison.auc}}) {
+            section.state(fmt::format("refusal.{}.{}.{}", f, index, name),
+                          number->refusal.empty() || feature.same
+                              ? ""
+                              : fmt::format("{}: no difference of {}: {}.", feature.feature, name,
+                                            number->refusal));
         }
+    });
+}
+
+void add_details(Section& section, const ComparedResults& results, std::size_t f) {
+    const std::string other = letter(f);
+    const ComparedFile& file = results.files[f];
+    for_shown(results, file, [&](const ComparedFeature& feature, std::size_t index) {
+        Table table{fmt::format("rates.{}.{}", f, index),
+                    feature.feature,
+                    {"size", "tested A", "tested " + other, "Pd A", "Pd " + other, "difference",
+                     "only A found", "only " + other + " found", "p"},
+                    {},
+                    true};
+        for (const RateDifference& rate : feature.comparison.rates) {
+            const bool paired = rate.pairs.pairs() > 0;
+            table.rows.push_back(
+                {size_name(rate, results.size), std::to_string(rate.tested_a),
+                 std::to_string(rate.tested_b), rate_text(rate.a), rate_text(rate.b),
+                 difference_text(rate), paired ? std::to_string(rate.pairs.only_a) : "-",
+                 paired ? std::to_string(rate.pairs.only_b) : "-", p_text(rate.p_value)});
+        }
+        section.add(std::move(table));
+    });
+    Table levels{fmt::format("levels.{}", f),
+                 fmt::format("All noise levels: {} minus A", other),
+                 {"feature", "noise", in_unit("a90", results.size), "AUC", "p"},
+                 {},
+                 true};
+    const ValueText area, size{false, results.size.per_unit()};
+    for (const ComparedFeature& feature : file.features) {
+        const Comparison& at = feature.comparison;
+        levels.rows.push_back({feature.feature, "x " + number_text(feature.noise_level),
+                               difference_text(at.a90, size), difference_text(at.auc, area),
+                               p_text(at.auc.p_value)});
     }
-}
-
-Json number_json(const NumberDifference& value) {
-    return {{"values", {number(value.a), number(value.b)}},
-            {"difference", number(value.refusal.empty() ? value.difference() : kNan)},
-            {"lower", number(value.bounds.lower)},
-            {"upper", number(value.bounds.upper)},
-            {"p_value", number(value.p_value)},
-            {"refusal", text_or_null(value.refusal)}};
-}
-
-Json rate_json(const RateDifference& rate) {
-    return {{"size_low", rate.size.low},
-            {"size_high", rate.size.high},
-            {"tested", {rate.tested_a, rate.tested_b}},
-            {"pd", {number(rate.a), number(rate.b)}},
-            {"difference", number(rate.b - rate.a)},
-            {"lower", number(rate.bounds.lower)},
-            {"upper", number(rate.bounds.upper)},
-            {"p_value", number(rate.p_value)},
-            {"only", rate.pairs.pairs() > 0 ? Json({rate.pairs.only_a, rate.pairs.only_b})
-                                            : Json(nullptr)}};
+    section.add(std::move(levels));
 }
 
 }  // namespace
 
-std::string comparison_text(const ComparisonReport& report) {
-    std::string out;
-    for (std::size_t f = 0; f < report.files.size(); ++f) {
-        const ComparedFile& file = report.files[f];
-        add_wrapped(out,
-                    fmt::format("{}  {}{}: {} gearboxes{}", letter(f), file.path,
-                                file.title.empty() ? "" : " (" + file.title + ")", file.gearboxes,
-                                file.shortage.empty() ? "" : ". " + file.shortage),
-                    3);
-        for (std::size_t n = 0; n < file.noise_levels.size(); ++n) {
-            if (file.noise_levels[n] == report.noise_level && n < file.smallest.size()) {
-                const auto& found = file.smallest[n];
-                out += found ? fmt::format("   smallest fault found at noise x {:g}: {} by {}\n",
-                                           report.noise_level, with_unit(found->size, report.size),
-                                           found->feature)
-                             : fmt::format("   {} at noise x {:g}\n",
-                                           file.without_threshold[n]
-                                               ? "no threshold, so detection is unknown"
-                                               : "no tested fault found",
-                                           report.noise_level);
-            }
-        }
+Report comparison_report(const ComparedResults& results) {
+    Report report;
+    report.add(headline(results));
+    const std::string at = " at " + noise_text(results.noise_level);
+    Section differences{"differences", "", {}};
+    add_differences(differences, results, "a90", "Difference of a90" + at, &Comparison::a90,
+                    {false, results.size.per_unit()});
+    add_differences(differences, results, "auc", "Difference of the area under the ROC" + at,
+                    &Comparison::auc, {});
+    report.add(std::move(differences));
+    for (std::size_t f = 1; f < results.files.size(); ++f) {
+        Section section{
+            fmt::format("against.{}", f), fmt::format("{} against A{}", letter(f), at), {}};
+        state_facts(section, results, f);
+        section.add(main_table(results, f));
+        state_refusals(section, results, f);
+        add_details(section, results, f);
+        report.add(std::move(section));
     }
-    add_wrapped(out,
-                fmt::format("\nNoise x {:g}. Pd: detection rate, p by McNemar's test on pairs; "
-                            "a90: size with POD 90 %; AUC: area under the ROC, p by DeLong's test",
-                            report.noise_level),
-                0);
-    if (report.first_records) {
-        add_wrapped(out,
-                    "These differences use thresholds set by the first record of each healthy "
-                    "gearbox; the results above use all records.",
-                    0);
-    }
-    for (std::size_t f = 1; f < report.files.size(); ++f) {
-        add_file(out, report, f);
-    }
-    return out;
-}
-
-nlohmann::json comparison_json(const ComparisonReport& report) {
-    Json files = Json::array();
-    for (const ComparedFile& file : report.files) {
-        Json smallest = Json::array(), features = Json::array();
-        for (std::size_t n = 0; n < file.smallest.size(); ++n) {
-            Json fault = nullptr;
-            if (const auto& found = file.smallest[n]) {
-                fault = {{"feature", found->feature},
-                         {"size", found->size},
-                         {"from_curve", found->from_curve}};
-            }
-            smallest.push_back({{"noise_level", file.noise_levels[n]},
-                                {"fault", fault},
-                                {"without_threshold", bool{file.without_threshold[n]}}});
-        }
-        for (const ComparedFeature& feature : file.features) {
-            Json sizes = Json::array();
-            for (const RateDifference& rate : feature.comparison.rates) {
-                sizes.push_back(rate_json(rate));
-            }
-            features.push_back({{"name", feature.feature},
-                                {"noise_level", feature.noise_level},
-                                {"same", feature.same},
-                                {"sizes", sizes},
-                                {"a90", number_json(feature.comparison.a90)},
-                                {"auc", number_json(feature.comparison.auc)}});
-        }
-        files.push_back({{"path", file.path},
-                         {"title", file.title},
-                         {"gearboxes", file.gearboxes},
-                         {"smallest_faults", smallest},
-                         {"shortage", text_or_null(file.shortage)},
-                         {"pairs", file.pairs},
-                         {"unpaired", text_or_null(file.unpaired)},
-                         {"differing_inputs", file.differing},
-                         {"left_out", file.left_out},
-                         {"features", features}});
-    }
-    return {{"kind", "comparison"},
-            {"size", {{"name", report.size.name}, {"unit", report.size.unit}}},
-            {"confidence", report.confidence},
-            {"noise_level", report.noise_level},
-            {"first_records", report.first_records},
-            {"files", files}};
+    Section notes{"notes", "", {}};
+    notes.state("terms",
+                "Pd: detection rate, p by McNemar's test on pairs; a90: size with POD "
+                "90 %; AUC: area under the ROC, p by DeLong's test. \"open\": the interval "
+                "has no bound on this side.");
+    report.add(std::move(notes));
+    return report;
 }
 
 }  // namespace gearpod::analysis

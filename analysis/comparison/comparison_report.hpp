@@ -1,5 +1,4 @@
-// Comparison of results files, as shown in the terminal, in JSON and on the page. Every file (B, C,
-// ...) is compared with the first, A.
+// Findings of a comparison of results files. Every file (B, C, ...) is compared with the first, A.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/report/report.hpp"
 #include "analysis/smallest_fault.hpp"
 
 namespace gearpod::analysis {
@@ -34,20 +34,23 @@ struct ComparedFile {
     std::vector<ComparedFeature> features;
 };
 
-struct ComparisonReport {
+struct ComparedResults {
     std::vector<ComparedFile> files;
     SizeUnit size;
     double confidence = 0.95;
-    double noise_level = 1.0;  // noise level shown in the terminal
+    double noise_level = 1.0;  // noise level shown first
     // Healthy gearboxes have several records, and the comparison uses thresholds set by the first
     // record of each.
     bool first_records = false;
 };
 
-std::string comparison_text(const ComparisonReport& report);
+// Sections: the headline with the smallest faults and the files; the differences of a90 and AUC of
+// all files; for each file its differences from A. Keys end in the file's index from 0.
+Report comparison_report(const ComparedResults& results);
 
 // JSON form:
 // {"kind": "comparison", "size", "confidence", "noise_level", "first_records",
+//  "findings": findings_json() of the report,
 //  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...},
 //    "without_threshold"}],
 //    "shortage": result of sample_shortage() or null, "pairs", "unpaired", "differing_inputs",
@@ -56,6 +59,6 @@ std::string comparison_text(const ComparisonReport& report);
 //        "upper", "p_value", "only": [A, B] of pairs}],
 //      "a90", "auc": {"values": [A, B], "difference", "lower", "upper", "p_value", "refusal"}}]}]}
 // Differences are this file minus A; an open bound is null.
-nlohmann::json comparison_json(const ComparisonReport& report);
+nlohmann::json comparison_json(const ComparedResults& results);
 
 }  // namespace gearpod::analysis

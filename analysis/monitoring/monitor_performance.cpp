@@ -81,6 +81,7 @@ MonitorPerformance monitor_performance(const Detector& detector,
         return performance;
     }
     std::vector<double> sizes, warnings;
+    double by_stated_rate = 0.0;
     for (const CrackedLife& life : cracked) {
         const auto record = detection(detector, life, threshold);
         performance.alarm_hours.push_back(record ? life.hours[*record] : kNan);
@@ -88,6 +89,10 @@ MonitorPerformance monitor_performance(const Detector& detector,
             continue;
         }
         ++performance.ended;
+        if (life.first < life.hours.size()) {
+            const double watched = *life.end_hours - life.hours[life.first];
+            by_stated_rate -= std::expm1(-1e-3 * per_1000_h * watched);
+        }
         sizes.push_back(record ? life.sizes[*record] : kNeverSeen);
         if (record) {
             ++performance.found;
@@ -97,6 +102,7 @@ MonitorPerformance monitor_performance(const Detector& detector,
     if (performance.ended > 0) {
         performance.share =
             static_cast<double>(performance.found) / static_cast<double>(performance.ended);
+        performance.share_at_stated_rate = by_stated_rate / static_cast<double>(performance.ended);
         performance.share_by_chance = share_by_chance(detector, healthy, cracked, threshold);
         performance.share_bounds =
             wilson_interval(performance.found, performance.ended, confidence);

@@ -36,6 +36,8 @@ struct MonitorPerformance {
     // Share found by chance: the share of healthy lives that alarm within as many records from the
     // same record on.
     double share_by_chance = kNan;
+    // Share found by alarms that come at random at the stated rate.
+    double share_at_stated_rate = kNan;
     LifeQuantile size_50, size_90;  // crack size at detection, over the lives that end
     // Hours from the alarm to the end over the lives found: the median, and the time exceeded by
     // nine in ten.

@@ -22,6 +22,10 @@ class Findings:
         return [typeset(block["text"]) for key, block in self.findings.items()
                 if key.startswith(start) and "text" in block]
 
+    def heading(self, key):
+        """Title of a table."""
+        return typeset(self.findings[key]["title"])
+
     def rows(self, key):
         """Column names and cells of a table."""
         given = self.findings[key]
@@ -32,7 +36,7 @@ class Findings:
         """HTML of a table; empty if the report does not have it."""
         if key not in self.findings:
             return ""
-        return blocks.table(typeset(self.findings[key]["title"]), *self.rows(key))
+        return blocks.table(self.heading(key), *self.rows(key))
 
     def tables(self, start):
         """HTML of all tables whose keys begin so."""

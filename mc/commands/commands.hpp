@@ -52,6 +52,7 @@ struct ReportOptions {
     std::string condition;  // random input; each of its values gets its own threshold; "": none
     // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     std::optional<double> alarm_cost, miss_cost, fault_share;
+    bool shows_withheld = false;  // of lives with too large an interpolation error
 };
 int report_command(const ReportOptions& options);
 
@@ -95,6 +96,7 @@ int describe_command(const DescribeOptions& options);
 struct LivesOptions {
     RunOptions run;          // without watch, signals and part
     std::string json, html;  // "": none; JSON "-": standard output
+    bool shows_withheld = false;
 };
 int lives_command(const LivesOptions& options);
 // Runs `lives` on the given MPI ranks. Every rank must call it.

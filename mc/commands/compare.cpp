@@ -282,14 +282,14 @@ double shown_level(const std::vector<Side>& sides) {
     return common.empty() ? levels[reference_level(levels)] : common[reference_level(common)];
 }
 
-analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
-    analysis::ComparisonReport report;
+analysis::ComparedResults compare_sides(const std::vector<Side>& sides) {
+    analysis::ComparedResults results;
     const Side& first = sides.front();
-    report.size = first.frame.request.size;
-    report.confidence = first.frame.request.confidence;
-    report.noise_level = shown_level(sides);
+    results.size = first.frame.request.size;
+    results.confidence = first.frame.request.confidence;
+    results.noise_level = shown_level(sides);
     for (const Side& side : sides) {
-        report.first_records = report.first_records || side.frame.request.threshold_records > 1;
+        results.first_records = results.first_records || side.frame.request.threshold_records > 1;
         analysis::ComparedFile file;
         file.path = side.path;
         file.title = side.title;
@@ -304,7 +304,7 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
             file.unpaired = rows.unpaired;
             analysis::ComparisonRequest request;
             request.false_alarm_rate = first.frame.request.false_alarm_rate;
-            request.confidence = report.confidence;
+            request.confidence = results.confidence;
             request.paired = rows.unpaired.empty();
             if (request.paired) {
                 file.pairs = static_cast<long>(rows.graded_a.size());
@@ -312,9 +312,9 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
             }
             add_features(file, first, side, rows, request);
         }
-        report.files.push_back(std::move(file));
+        results.files.push_back(std::move(file));
     }
-    return report;
+    return results;
 }
 
 // Reads all files. If some cannot be read, or cannot be compared with the first, it prints every
@@ -367,8 +367,8 @@ int compare_command(const CompareOptions& options) {
         if (sides.empty()) {
             return kBadInput;
         }
-        const analysis::ComparisonReport report = compare_sides(sides);
-        const nlohmann::json json = comparison_json(report);
+        const analysis::ComparedResults results = compare_sides(sides);
+        const nlohmann::json json = comparison_json(results);
         if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
             return kBadInput;
         }
@@ -377,7 +377,7 @@ int compare_command(const CompareOptions& options) {
             write_file(options.html, std::as_bytes(std::span(page)));
         }
         if (options.json != "-") {
-            fmt::print("{}", comparison_text(report));
+            fmt::print("{}", analysis::report_text(comparison_report(results)));
         }
         if (!options.html.empty() && options.json != "-") {
             fmt::print("\npage: {}\n", options.html);

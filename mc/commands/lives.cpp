@@ -32,18 +32,19 @@ namespace {
 
 struct LivesOutputs {
     std::string json, html, figures;  // "": none; JSON "-": standard output instead of the text
-    bool prints_text = true;
+    bool shows_withheld = false;
 };
 
-// Evaluates the rows and writes the requested outputs. Returns false after printing a problem.
-bool write_outputs(const Study& study, const Results& frame, const RowSource& rows,
-                   const LivesOutputs& outputs) {
+// Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
+// or if the results are withheld.
+int write_outputs(const Study& study, const Results& frame, const RowSource& rows,
+                  const LivesOutputs& outputs) {
     const Campaign campaign = campaign_of(study, frame, rows);
     const LifeMonitor monitor(study, campaign);
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty()) {
-        const auto json = lives_json(monitor);
+        const auto json = lives_json(monitor, outputs.shows_withheld);
         if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
-            return false;
+            return kBadInput;
         }
         if (!outputs.html.empty() || !outputs.figures.empty()) {
             const std::string page = report_page(json_text(json), outputs.figures);
@@ -52,13 +53,13 @@ bool write_outputs(const Study& study, const Results& frame, const RowSource& ro
             }
         }
     }
-    if (outputs.json != "-" && outputs.prints_text) {
-        fmt::print("{}", lives_text(monitor));
+    if (outputs.json != "-") {
+        fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld)));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
         }
     }
-    return true;
+    return outputs.shows_withheld || why_withheld(campaign).empty() ? kDone : kBadInput;
 }
 
 // Rank 0's part of the run, after the checks. Returns the exit code.
@@ -89,17 +90,17 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles, con
             const StoredRows rows(checkpoint, plan, outcome.batches);
             const std::string path = results_path(run);
             write_results(path, frame, rows);
+            int code = count_rows(rows, 1).failed() > 0 ? kSomeFailed : kDone;
             if (run.prints_results) {
-                if (!write_outputs(study, frame, rows, {options.json, options.html, "", true})) {
-                    return kBadInput;
-                }
+                const int written = write_outputs(
+                    study, frame, rows, {options.json, options.html, "", options.shows_withheld});
+                code = written == kDone ? code : written;
                 if (options.json != "-") {
                     fmt::print("\nresults: {}\n", path);
                 }
             }
-            const bool failed = count_rows(rows, 1).failed() > 0;
             checkpoint.remove();
-            return failed ? kSomeFailed : kDone;
+            return code;
         } catch (const std::exception& error) {
             trouble = exception_text(error);
         }
@@ -218,9 +219,7 @@ int report_lives(const ReportOptions& options) {
         check_lives(options.results, frame, rows);
         const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
         return write_outputs(*study, frame, rows,
-                             {options.json, options.html, options.figures, true})
-                   ? kDone
-                   : kBadInput;
+                             {options.json, options.html, options.figures, options.shows_withheld});
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
         return kBadInput;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <tuple>
 
 #include "analysis/detection/feature_alarm.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
+#include "analysis/monitoring/monitor_ranking.hpp"
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
@@ -116,14 +115,10 @@ struct LifeMonitor::NamedDeviations {
     MonitoredDeviations deviations_of;
 };
 
-bool finds_more(const analysis::MonitorPerformance& a, const analysis::MonitorPerformance& b) {
-    const auto key = [](const analysis::MonitorPerformance& one) {
-        const auto depth = [](double value) {
-            return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
-        };
-        return std::tuple(-one.found, depth(one.size_90.value), depth(one.size_50.value));
-    };
-    return key(a) < key(b);
+bool ranks_before(const MonitoredFeature& a, const MonitoredFeature& b) {
+    return a.unranked.empty() != b.unranked.empty()
+               ? a.unranked.empty()
+               : analysis::ranks_before(a.performance, b.performance);
 }
 
 LifeMonitor::LifeMonitor(const Study& study, const Campaign& campaign)
@@ -136,13 +131,31 @@ LifeMonitor::LifeMonitor(const Study& study, const Campaign& campaign)
     if (all.size() > 1 && study.monitoring.baseline_records > 0) {
         monitored_.push_back({"fused", MonitoredDeviations(study, campaign, all)});
     }
+    const double rate = study.monitoring.false_alarms_per_1000_h;
     for (const NamedDeviations& one : monitored_) {
         for (const std::string& text : study.monitoring.detectors) {
-            results_.push_back({one.name, text,
-                                one.deviations_of.by(*analysis::parse_detector(text),
-                                                     study.monitoring.false_alarms_per_1000_h)});
+            results_.push_back(
+                {one.name, text, one.deviations_of.by(*analysis::parse_detector(text), rate)});
+            results_.back().unranked = analysis::why_unranked(results_.back().performance, rate);
         }
     }
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+        const auto same_feature = [&](const MonitoredFeature& other) {
+            return other.feature == results_[i].feature;
+        };
+        const auto first = std::ranges::find_if(results_, same_feature);
+        const auto end = std::find_if_not(first, results_.end(), same_feature);
+        results_[i].best_of_feature =
+            &results_[i] == &*std::min_element(first, end, [](const auto& a, const auto& b) {
+                return ranks_before(a, b);
+            });
+        if (results_[i].unranked.empty()) {
+            ranking_.push_back(i);
+        }
+    }
+    std::ranges::stable_sort(ranking_, [&](std::size_t a, std::size_t b) {
+        return ranks_before(results_[a], results_[b]);
+    });
 }
 
 LifeMonitor::LifeMonitor(LifeMonitor&&) noexcept = default;
@@ -151,13 +164,9 @@ LifeMonitor::~LifeMonitor() = default;
 std::vector<TradeOff> LifeMonitor::trade_offs() const {
     std::vector<TradeOff> all;
     for (const NamedDeviations& one : monitored_) {
-        const MonitoredFeature* best = nullptr;
-        for (const MonitoredFeature& candidate : results_) {
-            if (candidate.feature == one.name &&
-                (best == nullptr || finds_more(candidate.performance, best->performance))) {
-                best = &candidate;
-            }
-        }
+        const auto best = std::ranges::find_if(results_, [&](const MonitoredFeature& candidate) {
+            return candidate.feature == one.name && candidate.best_of_feature;
+        });
         TradeOff trade{one.name, best->detector, {}};
         for (const double factor : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
             const double rate = factor * study_.monitoring.false_alarms_per_1000_h;

@@ -14,10 +14,12 @@ namespace gearpod::mc {
 struct MonitoredFeature {
     std::string feature, detector;
     analysis::MonitorPerformance performance;
+    std::string unranked = "";     // result of why_unranked()
+    bool best_of_feature = false;  // its detector ranks first among those of the feature
 };
 
-// True if `a` finds more cracks than `b`, or as many at smaller depths.
-bool finds_more(const analysis::MonitorPerformance& a, const analysis::MonitorPerformance& b);
+// True if `a` ranks before `b`; those without a rank come last.
+bool ranks_before(const MonitoredFeature& a, const MonitoredFeature& b);
 
 // Effect of the false-alarm rate on detection, for the detector that is best at the study's rate.
 struct TradeOff {
@@ -50,6 +52,8 @@ class LifeMonitor {
     // Results of every feature, and of all features together if there are several, with every
     // detector.
     const std::vector<MonitoredFeature>& results() const { return results_; }
+    // Indices of the results that have a rank (why_unranked()), best first.
+    const std::vector<std::size_t>& ranking() const { return ranking_; }
     std::vector<TradeOff> trade_offs() const;
     std::vector<FeatureQuantiles> feature_quantiles() const;
 
@@ -61,6 +65,7 @@ class LifeMonitor {
     const Campaign& campaign_;
     std::vector<NamedDeviations> monitored_;
     std::vector<MonitoredFeature> results_;
+    std::vector<std::size_t> ranking_;
 };
 
 }  // namespace gearpod::mc

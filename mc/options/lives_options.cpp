@@ -20,6 +20,8 @@ void add_lives(CLI::App& app, LivesOptions& options, int& code) {
                                           "write JSON to a file, or - for standard output"));
     require_file_name(
         command->add_option("--html", options.html, "write a page with figures to a file"));
+    command->add_flag("--show-withheld", options.shows_withheld,
+                      "report lives although their signals are interpolated too coarsely");
     command->add_flag("--quiet", run.quiet, "show no progress");
     command->callback([&options, &code] { code = lives_command(options); });
 }

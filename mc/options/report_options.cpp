@@ -25,6 +25,8 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
     command->add_option("--miss-cost", report.miss_cost, "cost of a missed fault");
     command->add_option("--fault-share", report.fault_share,
                         "share of records that have a fault, 0 to 1");
+    command->add_flag("--show-withheld", report.shows_withheld,
+                      "report lives although their signals are interpolated too coarsely");
     command->callback([&report, &code] { code = report_command(report); });
 }
 

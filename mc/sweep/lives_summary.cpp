@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "analysis/monitoring/monitor_ranking.hpp"
 #include "analysis/report/json_values.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/lives/life_rows.hpp"
@@ -28,15 +29,9 @@ std::string name_of(const MonitoredFeature* one) {
     return one == nullptr ? "-" : one->feature + ", " + one->detector;
 }
 
+// Null if none has a rank.
 const MonitoredFeature* best_at(const LivesPoint& point) {
-    const MonitoredFeature* best = nullptr;
-    for (const MonitoredFeature& one : point.monitored) {
-        if (!std::isnan(one.performance.threshold.value) &&
-            (best == nullptr || finds_more(one.performance, best->performance))) {
-            best = &one;
-        }
-    }
-    return best;
+    return point.ranking.empty() ? nullptr : &point.monitored[point.ranking.front()];
 }
 
 }  // namespace
@@ -54,32 +49,37 @@ LivesPoint summarise_lives(const SweepPoint& point, const std::string& results) 
     summary.failed = campaign.failed;
     summary.record = campaign.record;
     summary.interpolation = campaign.interpolation;
-    summary.monitored = LifeMonitor(summary.study, campaign).results();
+    const LifeMonitor monitor(summary.study, campaign);
+    summary.monitored = monitor.results();
+    summary.ranking = monitor.ranking();
+    if (const std::string withheld = why_withheld(campaign); !withheld.empty()) {
+        summary.ranking.clear();
+        for (MonitoredFeature& one : summary.monitored) {
+            one.unranked = withheld;
+        }
+    }
     return summary;
 }
 
 const MonitoredFeature* best_over(const std::vector<LivesPoint>& points) {
     const MonitoredFeature* best = nullptr;
-    std::tuple<long, double, double> least;
+    std::tuple<double, double, double> least;
     for (const LivesPoint& first : points) {
         for (const MonitoredFeature& one : first.monitored) {
-            long found = 0;
-            double deep_90 = 0.0, deep_50 = 0.0;
-            bool known = false;
+            double net = 0.0, deep_90 = 0.0, deep_50 = 0.0;
+            bool ranked = false;
             for (const LivesPoint& point : points) {
                 const double last = *point.study.life.last_depth_m;
                 const MonitoredFeature* here = find_life_result(point, one);
-                known =
-                    known || (here != nullptr && !std::isnan(here->performance.threshold.value));
-                found += here == nullptr ? 0 : here->performance.found;
+                const bool counts = here != nullptr && here->unranked.empty();
+                ranked = ranked || counts;
+                net += counts ? analysis::net_share(here->performance) : 0.0;
                 // std::fmin returns the number if the other argument is NaN.
-                deep_90 +=
-                    here == nullptr ? last : std::fmin(here->performance.size_90.value, last);
-                deep_50 +=
-                    here == nullptr ? last : std::fmin(here->performance.size_50.value, last);
+                deep_90 += counts ? std::fmin(here->performance.size_90.value, last) : last;
+                deep_50 += counts ? std::fmin(here->performance.size_50.value, last) : last;
             }
-            const std::tuple key(-found, deep_90, deep_50);
-            if (known && (best == nullptr || key < least)) {
+            const std::tuple key(-net, deep_90, deep_50);
+            if (ranked && (best == nullptr || key < least)) {
                 best = &one;
                 least = key;
             }
@@ -92,7 +92,8 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
                              const std::vector<LivesPoint>& points) {
     const MonitoredFeature* best = best_over(points);
     if (best == nullptr) {
-        return "no point has enough healthy lives for a threshold\n";
+        return "at no point does a detector find more cracks than chance with at most the stated "
+               "false alarms\n";
     }
     std::vector<std::vector<std::string>> lines(1);
     for (const VariedKey& key : keys) {
@@ -114,7 +115,8 @@ std::string lives_sweep_text(const std::vector<VariedKey>& keys,
         line.push_back(name_of(best_at(point)));
         lines.push_back(std::move(line));
     }
-    return fmt::format("by {}, which finds most cracks over all points\n", name_of(best)) +
+    return fmt::format("by {}, which finds most cracks net of chance over all points\n",
+                       name_of(best)) +
            aligned_columns(lines, keys.size());
 }
 
@@ -147,7 +149,8 @@ nlohmann::json lives_sweep_json(const std::string& title, const std::vector<Vari
                   {{"first", analysis::number(off.first)},
                    {"last", analysis::number(off.last)},
                    {"load", analysis::number(off.load)}}},
-                 {"monitored", Json::array()}};
+                 {"monitored", Json::array()},
+                 {"ranking", point.ranking}};
         for (std::size_t k = 0; k < keys.size(); ++k) {
             one["values"][keys[k].key] = point.point.values[k];
         }

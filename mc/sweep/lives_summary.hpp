@@ -19,13 +19,14 @@ struct LivesPoint {
     std::string record;  // description of a record
     InterpolationErrors interpolation;
     std::vector<MonitoredFeature> monitored;
+    std::vector<std::size_t> ranking;  // result of LifeMonitor::ranking(); empty if withheld
 };
 
 // Summarises a results file of `lives`. Throws std::runtime_error if it is not one, or damaged.
 LivesPoint summarise_lives(const SweepPoint& point, const std::string& results);
 
-// Returns the feature and detector that find most cracks over all points; with equal numbers, those
-// that find the smallest cracks. Returns null if no point has a threshold.
+// Returns the feature and detector that find most cracks net of chance over all points where they
+// have a rank; with equal shares, those that find the smallest cracks. Null if none has a rank.
 const MonitoredFeature* best_over(const std::vector<LivesPoint>& points);
 
 // Table with a line for each point: the results of best_over(), and the best detector at the point.

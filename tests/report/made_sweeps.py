@@ -61,6 +61,7 @@ def life_results(feature, detector, found, threshold=True):
                 "false_alarms": {"count": 0, "hours": 500, "per_1000_h": None,
                                  "bounds": [None, None], "dispersion": 1, "expected": [None, None]},
                 "ended": 0, "found": 0, "share": None, "share_bounds": [None, None],
+                "net_share": None, "unranked": "no threshold",
                 **{key: None for key in ("depth_50_m", "depth_50_bound_m", "depth_90_m",
                                          "depth_90_bound_m", "warning_50_h", "warning_90_h")}}
     share, deep = found / 30, 4e-3 - 1e-4 * found
@@ -70,6 +71,8 @@ def life_results(feature, detector, found, threshold=True):
                              "expected": [0.5, 1.8]},
             "ended": 30, "found": found, "share": share,
             "share_bounds": [max(0, share - 0.1), min(1, share + 0.1)],
+            "net_share": share - 0.05,
+            "unranked": None if found > 5 else "no more cracks found than by chance",
             "depth_50_m": deep / 2 if found > 15 else None, "depth_50_bound_m": deep / 1.8,
             "depth_90_m": deep if found > 27 else None,
             "depth_90_bound_m": 1.1 * deep if found > 28 else None,
@@ -89,6 +92,9 @@ def lives_sweep(varied, threshold=True):
             "monitored": [life_results(feature, detector, max(0, 30 - (d + 2 * k + 9 * f)), threshold)
                           for f, feature in enumerate(("change_window_ratio", "window_z", "fused"))
                           for d, detector in enumerate(("single", "cusum 0.5"))]})
+        monitored = points[-1]["monitored"]
+        points[-1]["ranking"] = sorted((i for i, one in enumerate(monitored) if one["unranked"] is None),
+                                       key=lambda i: -monitored[i]["net_share"])
     return {"kind": "lives-sweep", "title": "Lives <b> & \"sons\"",
             "varied": [{"key": name, "values": values} for name, values in varied],
             "best": {"feature": "change_window_ratio", "detector": "single"} if threshold else None,

@@ -331,7 +331,7 @@ class Program(unittest.TestCase):
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())
         shown = self.gearpod("compare", a, a).stdout
-        self.assertIn("the same in every gearbox: te_rms", shown)
+        self.assertIn("The same in every gearbox: te_rms", shown)
         self.assertLessEqual(max(map(len, shown.splitlines())), 120)
 
     def test_lives_have_a_page(self):
@@ -354,9 +354,11 @@ class Program(unittest.TestCase):
         self.assertEqual((parsed.count("figure"), parsed.count("script")), (3, 0))
         ended = sum(life["end_h"] is not None for life in data["lives"])
         self.assertGreater(ended, 0)
+        findings = {block["key"]: block.get("text") for section in data["findings"]
+                    for block in section["blocks"]}
         for words_ in ("Holds for identical teeth", "the lives of other gearboxes"):
-            self.assertIn(words_, data["assumptions"])
-        for words_ in (data["assumptions"], f"of {ended} cracks before the tooth breaks",
+            self.assertIn(words_, findings["holds"])
+        for words_ in (findings["holds"], f"of {ended} cracks before the tooth fails",
                        "Depth at detection against", "each of the 31 teeth with all 81 mating teeth"):
             self.assertIn(words_, parsed.text())
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
@@ -367,7 +369,7 @@ class Program(unittest.TestCase):
         os.remove(self.html())
 
     def test_a_tooth_that_breaks_is_drawn_as_deep_as_it_was(self):
-        lives = campaign_data.CampaignData({"lives": [], "first_depth_m": 1e-3, "last_depth_m": 4e-3,
+        lives = campaign_data.CampaignData({"findings": [], "lives": [], "first_depth_m": 1e-3, "last_depth_m": 4e-3,
                                             "baseline_records": 1, "interval_h": 5})
         life = {"hours": [0, 5], "depth_m": [0, 2e-3]}
         self.assertEqual([lives.depth_at_end({**life, "end_h": h}) for h in (7, 10)], [4, 2])

@@ -91,7 +91,7 @@ class MadeUp(unittest.TestCase):
         for row, point in zip(rows, MADE["lives_sweep_two"]["points"]):
             self.assertEqual(row[:2], list(point["values"].values()))
             self.assertTrue(row[3].startswith(f"{point['monitored'][0]['found']}/30"), row[3])
-        self.assertIn("too few for a threshold", parsed("lives_sweep_blind").text())
+        self.assertIn("does a detector find more cracks than chance", parsed("lives_sweep_blind").text())
 
     def test_text_is_never_markup(self):
         self.assertNotIn("<b>", build_page.page_html(MADE["sweep_one"]))

@@ -1,15 +1,16 @@
 """JSON of gearpod lives, with derived values used by its page."""
 
-from words import count, number, percent
+from report import Findings
+from words import number
 
 
 def millimetres(metres):
     return None if metres is None else 1e3 * metres
 
 
-class CampaignData:
+class CampaignData(Findings):
     def __init__(self, data):
-        self.data = data
+        super().__init__(data)
         self.worked = [life for life in data["lives"] if life["status"] == 0]
         self.ended = [k for k, life in enumerate(self.worked) if life["end_h"] is not None]
         # Time at which the crack starts.
@@ -19,17 +20,14 @@ class CampaignData:
     def names(self):
         return list(dict.fromkeys(one["feature"] for one in self.data["monitored"]))
 
-    def of(self, feature):
-        return [one for one in self.data["monitored"] if one["feature"] == feature]
-
     def best_of(self, feature):
-        """Detector of a feature that finds the most, then at the smallest depth."""
-        return min(self.of(feature), key=_order)
+        """Detector of a feature that ranks first."""
+        return next(one for one in self.data["monitored"]
+                    if one["feature"] == feature and one["best_of_feature"])
 
     def best(self):
-        """Best detector over all features; None where no threshold could be set."""
-        known = [one for one in self.data["monitored"] if one["threshold"] is not None]
-        return min(known, key=_order) if known else None
+        """Feature and detector that rank first; None where none has a rank."""
+        return self.data["monitored"][self.data["ranking"][0]] if self.data["ranking"] else None
 
     def warnings(self, monitored):
         """Hours from the alarm to the end for every life that ends; None without an alarm."""
@@ -53,32 +51,3 @@ class CampaignData:
 
     def depth_text(self, metres):
         return f"> {number(self.last_mm)}" if metres is None else number(1e3 * metres)
-
-    def sentence(self):
-        best, ends = self.best(), len(self.ended)
-        rate = number(self.data["false_alarms_per_1000_h"])
-        if best is None:
-            return (f"The healthy lives are too few for a threshold at {rate} false alarms per "
-                    "1000 hours.")
-        if not ends:
-            return "No tooth breaks within its records, so nothing can be found before the end."
-        low, high = best["share_bounds"]
-        text = (f"{best['feature']} by {best['detector']} finds {count(best['found'])} of "
-                f"{count(ends)} cracks before the tooth breaks ({percent(low)} to {percent(high)})")
-        if best["warning_50_h"] is not None:
-            text += (f", half of those found at least {number(best['warning_50_h'])} hours "
-                     f"before, 90\u00a0% at least {number(best['warning_90_h'])} hours")
-        alarms = best["false_alarms"]
-        if alarms["per_1000_h"] is None:
-            return text + (f", at {rate} false alarms per 1000 hours (not counted, for lack of "
-                           "healthy lives).")
-        low, high = (number(bound) for bound in alarms["bounds"])
-        return text + (f", at {number(alarms['per_1000_h'])} false alarms per 1000 hours ({low} "
-                       f"to {high}; set to {rate}).")
-
-
-def _order(monitored):
-    deep = float("inf")
-    depth = [deep if monitored[key] is None else monitored[key]
-             for key in ("depth_90_m", "depth_50_m")]
-    return (-monitored["found"], *depth)

@@ -12,7 +12,7 @@ class SweptLives(Grid):
         self.confidence = self.points[0]["confidence"]
 
     def of(self, point, feature, detector):
-        return next((one for one in point["monitored"] if one["threshold"] is not None
+        return next((one for one in point["monitored"] if one["unranked"] is None
                      and (one["feature"], one["detector"]) == (feature, detector)), None)
 
     def best(self, point):
@@ -21,17 +21,17 @@ class SweptLives(Grid):
         return best and self.of(point, best["feature"], best["detector"])
 
     def best_here(self, point):
-        known = [one for one in point["monitored"] if one["threshold"] is not None]
-        return min(known, key=_order) if known else None
+        ranking = point["ranking"]
+        return point["monitored"][ranking[0]] if ranking else None
 
     def names(self):
         """Features with the detector that is best over all points, the best feature first."""
         pairs = {}
         for point in self.points:
             for one in point["monitored"]:
-                if one["threshold"] is not None:
-                    score = pairs.setdefault((one["feature"], one["detector"]), [0, 0.0])
-                    score[0] -= one["found"]
+                if one["unranked"] is None:
+                    score = pairs.setdefault((one["feature"], one["detector"]), [0.0, 0.0])
+                    score[0] -= one["net_share"]
                     score[1] += min(one["depth_90_m"] or point["last_depth_m"],
                                     point["last_depth_m"])
         chosen = []
@@ -43,7 +43,8 @@ class SweptLives(Grid):
     def sentence(self):
         best = self.data["best"]
         if best is None:
-            return "The healthy lives are too few for a threshold at any of these points."
+            return ("At none of these points does a detector find more cracks than chance with at most the "
+                    "stated false alarms.")
         known = [(one["share"], point) for point in self.points
                  if (one := self.best(point)) and one["share"] is not None]
         begin = f"{best['feature']} by {best['detector']} "
@@ -64,12 +65,6 @@ class SweptLives(Grid):
             if high[0] > low[0]:
                 text += f", {number(high[0])} h at {self.name(high[1])}"
         return text + "."
-
-
-def _order(one):
-    deep = float("inf")
-    return (-one["found"], *(deep if one[key] is None else one[key]
-                             for key in ("depth_90_m", "depth_50_m")))
 
 
 def _depth(metres, point):
