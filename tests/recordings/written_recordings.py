@@ -244,3 +244,84 @@ def other_formats(folder):
     yield write(folder, "empty.csv", ""), [], "empty"
     yield write(folder, "t.parquet", b"PAR1" + bytes(50) + b"PAR1"), [], "Parquet"
     yield write(folder, "m.mf4", b"MDF     4.10    " + bytes(200)), [], "MDF"
+
+
+def uff58(values, per_line=4, exponent="E", unit="m/s^2", kind=12, function=1, form=4, step=1 / RATE):
+    """Dataset 58 of a universal file, as text: a time history, evenly spaced."""
+    lines = ["    -1", "    58", "gear", "NONE", "NONE", "NONE", "NONE",
+             f"{function:5d}{0:10d}{0:5d}{0:10d} {'NONE':10s}{1:10d}{3:4d} {'NONE':10s}{0:10d}{0:4d}",
+             f"{form:10d}{len(values):10d}{1:10d}{0:13.5E}{step:13.5E}{0:13.5E}",
+             f"{17:10d}{0:5d}{0:5d}{0:5d} {'Time':20s} {'s':20s}",
+             f"{kind:10d}{0:5d}{0:5d}{0:5d} {'Acceleration':20s} {unit:20s}",
+             *[f"{0:10d}{0:5d}{0:5d}{0:5d} {'NONE':20s} {'NONE':20s}"] * 2]
+    width, digits = (20, 12) if form == 4 else (13, 5)
+    texts = [f"{v:{width}.{digits - 1}E}".replace("E", exponent) for v in values]
+    lines += ["".join(texts[i:i + per_line]) for i in range(0, len(texts), per_line)]
+    return "\n".join([*lines, "    -1", ""])
+
+
+def uff164(length):
+    """Dataset 164: the unit of length is that many times smaller than the metre."""
+    return "\n".join(["    -1", "   164", f"{10:10d}{'user defined':20s}{2:10d}",
+                      f"{length:25.17E}{1:25.17E}{1:25.17E}".replace("E", "D"), f"{0:25.17E}".replace("E", "D"), "    -1", ""])
+
+
+@case
+def universal_files(folder):
+    w = lambda name, text: write(folder, name, text)
+    yield w("plain.uff", uff58(X)), [], 1.0
+    yield w("single.unv", uff58(X, 6, form=2)), [], 1.0
+    yield w("d.uff", uff58(X, exponent="D")), [], 1.0
+    yield w("lower_d.uff", uff58(X, exponent="d")), [], 1.0
+    yield w("g.uff", uff58(X / G, unit="g")), [], 1.0
+    yield w("metres.uff", uff164(1.0) + uff58(X, unit="NONE")), [], 1.0
+    yield w("millimetres.uff", uff164(1000.0) + uff58(1e3 * X, unit="NONE")), [], 1.0
+    yield w("velocity.uff", uff58(X, kind=11, unit="m/s")), [], "velocity"
+    yield w("force.uff", uff58(X, kind=9, unit="N")), [], "force"
+    frf = uff58(X, function=4)
+    yield w("frf_too.uff", frf + uff58(X)), [], 1.0
+    yield w("frf.uff", frf), [], "frequency response"
+
+
+def tdms(channels, properties, segments=2):
+    """A TDMS file: channels by path, in segments of which only the first has metadata."""
+    text = lambda s: struct.pack("<I", len(s.encode())) + s.encode()
+
+    def listed(entries):
+        out = struct.pack("<I", len(entries))
+        for name, value in entries.items():
+            out += text(name) + (struct.pack("<I", 0x20) + text(value) if isinstance(value, str)
+                                 else struct.pack("<Id", 10, value))
+        return out
+
+    groups = sorted({path.rpartition("/")[0] for path in channels})
+    count = {path: len(values) // segments for path, values in channels.items()}
+    meta = struct.pack("<I", 1 + len(groups) + len(channels)) + text("/") + struct.pack("<II", 0xFFFFFFFF, 0)
+    for group in groups:
+        meta += text(group) + struct.pack("<II", 0xFFFFFFFF, 0)
+    for path, values in channels.items():
+        kind = {"f8": 10, "f4": 9, "i2": 2, "i4": 3}[values.dtype.str[1:]]
+        meta += text(path) + struct.pack("<IIIQ", 20, kind, 1, count[path]) + listed(properties.get(path, {}))
+    out = b""
+    for k in range(segments):
+        raw = b"".join(v[k * count[p]:(k + 1) * count[p]].tobytes() for p, v in channels.items())
+        head, mask = (meta, 2 | 4 | 8) if k == 0 else (b"", 8)
+        out += b"TDSm" + struct.pack("<IIQQ", mask, 4713, len(head) + len(raw), len(head)) + head + raw
+    return out
+
+
+@case
+def tdms_files(folder):
+    sensor = "/'Vibration'/'sensor'"
+    rate = {"wf_increment": 1 / RATE, "unit_string": "m/s^2"}
+    w = lambda name, *made: write(folder, name, tdms(*made))
+    yield w("plain.tdms", {sensor: X}, {sensor: rate}), [], 1.0
+    yield w("g.tdms", {sensor: X / G}, {sensor: {**rate, "unit_string": "g"}}), [], 1.0
+    yield w("two.tdms", {"/'Vibration'/'other'": X[::-1].copy(), sensor: X}, {sensor: rate}), [], 1.0
+    yield w("path.tdms", {"/'A'/'sensor'": 0 * X, "/'B'/'sensor'": X}, {"/'B'/'sensor'": rate}), ["--sensor", "B/sensor"], 1.0
+    yield w("both.tdms", {"/'A'/'sensor'": 0 * X, "/'B'/'sensor'": X}, {"/'B'/'sensor'": rate}), [], "B/sensor"
+    yield w("float.tdms", {sensor: X.astype("f4")}, {sensor: rate}), [], 1.0
+    scale = {**rate, "NI_Scaling_Status": "unscaled", "NI_Number_Of_Scales": 1.0, "NI_Scale[0]_Scale_Type": "Linear",
+             "NI_Scale[0]_Linear_Slope": 1e-4, "NI_Scale[0]_Linear_Y_Intercept": 0.0}
+    yield w("scaled.tdms", {sensor: np.round(X * 1e4).astype("i4")}, {sensor: scale}), [], 1.0
+    yield write(folder, "cut.tdms", tdms({sensor: X}, {sensor: rate})[:1000]), [], "cut.tdms"
