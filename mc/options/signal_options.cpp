@@ -52,10 +52,11 @@ void add_columns(CLI::App& command, SignalColumns& columns) {
 void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
     auto* command = app.add_subcommand(
         "features",
-        "compute the features of measured signals (CSV, HDF5, MAT, WAV, universal file format)");
-    command->add_option(
-        "signal", features.signals,
-        "signal files (.csv, .h5, .hdf5, .mat, .wav, .uff, .unv), or name patterns with * and ?");
+        "compute the features of measured signals (CSV, HDF5, MAT, TDMS, sound, universal files)");
+    command->add_option("signal", features.signals,
+                        "signal files (.csv, .h5, .hdf5, .mat, .tdms, .uff, .wav and others), or "
+                        "name patterns with "
+                        "* and ?");
     add_study_keys(*command, features.study);
     command->add_option("--study", features.study.path, "study file (TOML)")->required();
     command->add_option("--manifest", features.manifest,
