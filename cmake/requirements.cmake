@@ -38,6 +38,14 @@ if(MATIO_INCLUDE_DIR AND MATIO_LIBRARY)
     INTERFACE_INCLUDE_DIRECTORIES ${MATIO_INCLUDE_DIR})
 endif()
 gearpod_need(matio "${MATIO_LIBRARY}")
+find_path(SNDFILE_INCLUDE_DIR sndfile.h)
+find_library(SNDFILE_LIBRARY sndfile)
+if(SNDFILE_INCLUDE_DIR AND SNDFILE_LIBRARY)
+  add_library(sndfile::sndfile UNKNOWN IMPORTED)
+  set_target_properties(sndfile::sndfile PROPERTIES IMPORTED_LOCATION ${SNDFILE_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${SNDFILE_INCLUDE_DIR})
+endif()
+gearpod_need(sndfile "${SNDFILE_LIBRARY}")
 
 # Without MPI a run is one process.
 set(GEARPOD_MPI AUTO CACHE STRING "runs of several processes over MPI: AUTO (if it is there), ON or OFF")

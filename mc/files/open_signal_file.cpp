@@ -2,10 +2,18 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mc/files/formats/file_content.hpp"
 #include "mc/files/isolated_signal.hpp"
 #include "mc/files/signal_file.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+bool is_one_of(const std::string& extension, std::initializer_list<const char*> all) {
+    return std::find(all.begin(), all.end(), extension) != all.end();
+}
+
+}  // namespace
 
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row) {
@@ -22,6 +30,7 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (row && !hdf5) {
         throw SignalError(path + ": has no rows to select from; only HDF5 files can have rows");
     }
+    check_file_content(path, kind);
     if (kind == ".csv") {
         return open_signal_csv(path);
     }
@@ -31,20 +40,19 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (kind == ".mat") {
         return isolated_signal(path, [&] { return open_signal_mat(path); });
     }
-    if (kind == ".wav") {
-        return open_signal_wav(path);
-    }
-    if (kind == ".uff" || kind == ".unv") {
-        return open_signal_uff(path);
+    if (is_one_of(kind, {".wav", ".wave", ".bwf", ".rf64", ".w64", ".flac", ".aif", ".aiff",
+                         ".aifc", ".au", ".snd", ".caf"})) {
+        return isolated_signal(path, [&] { return open_signal_sound(path); });
     }
     if (kind == ".tdms") {
-        throw SignalError(path +
-                          ": TDMS files are not supported; export it as HDF5 or CSV, in Python "
-                          "with nptdms: TdmsFile.read(FILE).as_hdf(OUT)");
+        return isolated_signal(path, [&] { return open_signal_tdms(path); });
     }
-    throw SignalError(
-        path +
-        ": unknown file type; its name must end in .csv, .h5, .hdf5, .mat, .wav, .uff or .unv");
+    if (is_one_of(kind, {".uff", ".unv", ".uf58", ".uf", ".ufb"})) {
+        return open_signal_uff(path);
+    }
+    throw SignalError(path +
+                      ": unknown file type; its name must end in .csv, .h5, .hdf5, .mat, .tdms, "
+                      ".uff, .unv, .wav, .rf64, .w64, .flac or .aiff");
 }
 
 }  // namespace gearpod::mc

@@ -3,26 +3,27 @@
 
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mc/files/formats/signal_error.hpp"
 #include "mc/files/signal_column.hpp"
 
 namespace gearpod::mc {
 
-// Problem with a signal file; the message names the file and the place.
-class SignalError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+// Choice of a column by its name.
+struct ColumnChoice {
+    std::string name;
+    std::string near = {};  // full name of the column that it belongs to; "": none
+    bool requested = true;  // false for a default name; then a column that is unusable is skipped
 };
 
 class SignalFile {
   public:
     virtual ~SignalFile() = default;
 
-    // Names of the columns.
+    // Full names of the columns.
     virtual std::vector<std::string> names() const = 0;
     // Values of a column, which must exist. Throws SignalError.
     virtual std::vector<double> read(const std::string& name) = 0;
@@ -30,9 +31,23 @@ class SignalFile {
     virtual std::string unit(const std::string&) { return ""; }
     // Sampling rate if the file states it.
     virtual std::optional<double> sampling_Hz() { return std::nullopt; }
+    // Sampling rate of one column, which has been read. Throws SignalError if statements contradict
+    // each other.
+    virtual std::optional<double> sampling_Hz_of(const std::string&) { return sampling_Hz(); }
+    // Full name of the chosen column, "" if there is none. In a file with groups the name may be a
+    // path, or the last part of one, which is looked for in the group of `near`, then in the groups
+    // around it. Throws SignalError if a requested choice is ambiguous or not a column of numbers.
+    virtual std::string find(const ColumnChoice& choice);
+    // List of the columns for messages, at most twenty.
+    virtual std::string contents();
+    // Statements of the file that are not used, and choices that were made, in reading so far.
+    virtual std::vector<std::string> notes() { return {}; }
 
     bool has(const std::string& name) const;
 };
+
+// The first twenty of the texts, "a, b, c and 5 more"; "none" if there are none.
+std::string listed_text(const std::vector<std::string>& texts);
 
 // Opens a file according to the extension of its name. HDF5 and MAT files are read in a child
 // process (isolated_signal.hpp). Throws SignalError.
@@ -46,10 +61,16 @@ class SignalFile {
 //                (links, external and virtual storage) are rejected.
 //   .mat         Real vectors (MATLAB 4 to 7.3), also as fields of structs ("s.sensor"). The
 //                sampling rate may be a variable or field sampling_Hz. Tables are rejected.
-//   .wav         The column sensor, or channel1, channel2, ...; integers are fractions of the
-//                full scale.
-//   .uff, .unv   Dataset 58, real and evenly sampled in time: the column sensor, or function1,
-//                function2, ...
+//   .wav, .rf64, .w64, .flac, .aiff, .au, .caf
+//                The column sensor, or channel1, channel2, ...; integers are fractions of the
+//                full scale. Lossy compression is rejected.
+//   .tdms        Numeric channels as "group/channel", and as "channel" if that is unique.
+//                Timestamps are seconds from the first one. Linear and polynomial scales are
+//                applied.
+//   .uff, .unv   Real time histories of dataset 58: the column sensor, or function1,
+//                function2, ..., also under unique titles; uneven ones have the column time.
+// A file whose content has another format is rejected with the format's name
+// (formats/file_content.hpp).
 // `row`, from 0: index of the record in an HDF5 file that has one record per row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row = std::nullopt);
@@ -74,7 +95,8 @@ std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
                                              std::optional<std::size_t> row);
 std::unique_ptr<SignalFile> open_signal_mat(const std::string& path);
-std::unique_ptr<SignalFile> open_signal_wav(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_sound(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_tdms(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_uff(const std::string& path);
 
 }  // namespace gearpod::mc

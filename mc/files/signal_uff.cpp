@@ -1,186 +1,275 @@
-// Reads universal files of measured functions: dataset 58 of SDRC's I-DEAS, as text or with binary
-// values (58b). Only real, evenly spaced time histories are supported.
+// Real time histories of universal files as columns.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <fstream>
 
+#include "mc/files/formats/common_sampling.hpp"
+#include "mc/files/formats/uff_file.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text_table.hpp"
+#include "mc/files/signal_units.hpp"
+#include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-struct History {
-    std::string unit;
-    double step_s = 0.0;
-    std::vector<double> values;
-};
+constexpr int kUffUnknown = 0, kUffGeneral = 1, kUffTimeResponse = 1, kUffDisplacement = 8,
+              kUffVelocity = 11, kUffAcceleration = 12, kUffTime = 17, kUffSpeed = 19;
+constexpr const char* kUffTimes = "time";
 
-class UffReader {
-  public:
-    explicit UffReader(const std::string& path) : path_(path), stream_(path, std::ios::binary) {}
+bool is_unspecific(const UffAxis& axis) {
+    return axis.type == kUffUnknown || axis.type == kUffGeneral;
+}
 
-    std::vector<History> read() {
-        std::vector<History> all;
-        std::string line;
-        while (next(line)) {
-            if (trimmed_field(line) != "-1" || !next(line)) {
-                continue;
-            }
-            const std::string kind(trimmed_field(line.substr(0, 7)));
-            if (kind == "58" || kind == "58b") {
-                all.push_back(read_function(kind == "58b" ? line : ""));
-            } else {
-                skip();
-            }
-        }
-        if (all.empty()) {
-            refuse("contains no dataset 58 (a measured function)");
-        }
-        return all;
+// Reason why a function is not a real time history; "" if it is one.
+std::string other_kind(const UffFunction& function) {
+    const bool response = function.function_type == kUffTimeResponse;
+    const bool over_time =
+        function.abscissa.type == kUffTime || (response && is_unspecific(function.abscissa) &&
+                                               unit_factor(Quantity::time, function.abscissa.unit));
+    if (!response && function.function_type != 0) {
+        return uff_function_kind(function.function_type);
     }
+    if (!over_time) {
+        return "function of " + uff_quantity(function.abscissa.type);
+    }
+    return function.complex ? "complex time response" : "";
+}
 
-  private:
-    [[noreturn]] void refuse(const std::string& why) const {
-        throw SignalError(fmt::format("{}:{}: {}", path_, line_, why));
-    }
-    bool next(std::string& line) {
-        ++line_;
-        return static_cast<bool>(std::getline(stream_, line));
-    }
-    void skip() {
-        for (std::string line; next(line) && trimmed_field(line) != "-1";) {
+// Unit of an acceleration in the file's units of length (dataset 164).
+std::string acceleration_in_lengths(double per_metre) {
+    constexpr std::pair<double, const char*> kLengths[] = {
+        {1.0, "m"},  {100.0, "cm"},        {1000.0, "mm"},
+        {1e6, "um"}, {1.0 / 0.0254, "in"}, {1.0 / 0.3048, "ft"}};
+    for (const auto& [count, name] : kLengths) {
+        if (std::abs(per_metre / count - 1.0) < 1e-4) {
+            return fmt::format("{}/s^2", name);
         }
     }
-    double field(const std::string& line, std::size_t at, std::size_t width) const {
-        const std::string text(
-            trimmed_field(at < line.size() ? line.substr(at, width) : std::string()));
-        const auto value = number_of(text, false);
-        if (!value) {
-            refuse(fmt::format("\"{}\" is not a number", text.substr(0, 40)));
-        }
-        return *value;
-    }
+    return fmt::format("1/{:g} of m/s^2, by dataset 164", per_metre);
+}
 
-    // `binary`: first line of the dataset if its values are binary, else "".
-    History read_function(const std::string& binary) {
-        std::array<std::string, 11> records;
-        for (std::string& record : records) {
-            if (!next(record)) {
-                refuse("ends within the header of a dataset 58");
-            }
-        }
-        const std::string& form = records[6];
-        const double type = field(form, 0, 10), count = field(form, 10, 10);
-        if (field(records[5], 0, 5) != 1.0 || field(form, 20, 10) != 1.0 ||
-            (type != 2.0 && type != 4.0)) {
-            refuse("is not an evenly spaced, real time history");
-        }
-        if (!(count >= 1.0 && count <= 1e9)) {
-            refuse(fmt::format("{:g} is not a valid number of values", count));
-        }
-        History history;
-        history.step_s = field(form, 43, 13);
-        if (!(history.step_s > 0.0 && std::isfinite(1.0 / history.step_s))) {
-            refuse(fmt::format("{:g} s is not a valid time step", history.step_s));
-        }
-        if (records[8].size() > 46) {
-            history.unit = std::string(trimmed_field(records[8].substr(46, 20)));
-            history.unit = history.unit == "NONE" ? "" : history.unit;
-        }
-        const auto values = static_cast<std::size_t>(count);
-        binary.empty() ? read_text(values, type == 2.0 ? 13 : 20, history)
-                       : read_bytes(values, type == 2.0 ? 4 : 8, binary, history);
-        return history;
+// Unit of the ordinate. A text that is no unit names a quantity other than an acceleration, or a
+// contradiction between the function's label and dataset 164.
+std::string ordinate_unit(const UffFunction& function) {
+    const UffAxis& ordinate = function.ordinate;
+    const std::string& label = ordinate.unit;
+    const auto lengths = function.lengths_per_metre;
+    if (function.denominator.type != kUffUnknown || !function.denominator.unit.empty()) {
+        return fmt::format("{} per {} by the function's denominator",
+                           label.empty() ? uff_quantity(ordinate.type) : label,
+                           function.denominator.unit.empty()
+                               ? uff_quantity(function.denominator.type)
+                               : function.denominator.unit);
     }
-
-    void read_text(std::size_t count, std::size_t width, History& history) {
-        for (std::string line; history.values.size() < count;) {
-            if (!next(line) || trimmed_field(line) == "-1") {
-                refuse(
-                    fmt::format("only {} of {} values are present", history.values.size(), count));
-            }
-            line.erase(line.find_last_not_of(" \r") + 1);
-            for (std::size_t at = 0; at < line.size() && history.values.size() < count;
-                 at += width) {
-                history.values.push_back(field(line, at, width));
-            }
-        }
-        skip();
+    const bool angular =
+        !label.empty() &&
+        ((ordinate.type == kUffDisplacement && unit_factor(Quantity::angle, label)) ||
+         (ordinate.type == kUffVelocity && unit_factor(Quantity::speed, label)));
+    if (angular || ordinate.type == kUffTime) {
+        return label;
     }
-
-    void read_bytes(std::size_t count, std::size_t width, const std::string& head,
-                    History& history) {
-        const bool little = field(head, 7, 6) == 1.0;
-        if (field(head, 13, 6) != 2.0) {
-            refuse("its binary values are not IEEE numbers");
-        }
-        // Reads in blocks: the count in the file may be wrong, and memory must not exceed the file
-        // size.
-        std::string bytes;
-        std::array<char, 65536> block;
-        for (std::size_t left = count * width; left > 0 && stream_;) {
-            stream_.read(block.data(), static_cast<std::streamsize>(std::min(left, block.size())));
-            bytes.append(block.data(), static_cast<std::size_t>(stream_.gcount()));
-            left -= static_cast<std::size_t>(stream_.gcount());
-        }
-        if (bytes.size() < count * width) {
-            refuse(fmt::format("only {} of {} values are present", bytes.size() / width, count));
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            std::uint64_t raw = 0;
-            for (std::size_t b = 0; b < width; ++b) {
-                const std::size_t place = little ? width - 1 - b : b;
-                raw = raw << 8 | static_cast<unsigned char>(bytes[i * width + place]);
-            }
-            history.values.push_back(width == 8
-                                         ? std::bit_cast<double>(raw)
-                                         : std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
-        }
-        skip();
+    if (ordinate.type == kUffSpeed) {
+        return label.empty() ? "rpm" : label;
     }
+    if (!is_unspecific(ordinate) && ordinate.type != kUffAcceleration) {
+        return fmt::format("{}{}, ordinate data type {}", uff_quantity(ordinate.type),
+                           label.empty() ? "" : " in " + label, ordinate.type);
+    }
+    if (label.empty()) {
+        const bool rotation = std::abs(function.response_direction) >= 4;
+        if (ordinate.type == kUffAcceleration && rotation) {
+            return "rad/s^2";
+        }
+        if (ordinate.type == kUffAcceleration && lengths) {
+            return acceleration_in_lengths(*lengths);
+        }
+        return !lengths || *lengths == 1.0
+                   ? ""
+                   : fmt::format("not stated, with {:g} units of length per metre by dataset 164",
+                                 *lengths);
+    }
+    const auto factor = unit_factor(Quantity::acceleration, label);
+    // A unit of gravity is no product of the file's units: it agrees with SI only.
+    const bool agrees = !factor || !lengths || std::abs(*factor * *lengths - 1.0) < 1e-4 ||
+                        (*lengths == 1.0 && label.find('/') == std::string::npos);
+    return agrees ? label
+                  : fmt::format("{} by the function's label, but {} by dataset 164", label,
+                                acceleration_in_lengths(*lengths));
+}
 
-    std::string path_;
-    std::ifstream stream_;
-    long line_ = 0;
-};
+// Rate of a step that was rounded in the file: the whole number of Hz that rounds to this step, if
+// there is exactly one.
+double rate_Hz(double step_s, double rounding_s) {
+    constexpr double kMargin = 1e-9;
+    const double lowest = std::ceil((1.0 - kMargin) / (step_s + rounding_s));
+    const double highest = std::floor((1.0 + kMargin) / (step_s - rounding_s));
+    return rounding_s < step_s && lowest == highest ? lowest : 1.0 / step_s;
+}
 
 class SignalUff : public SignalFile {
   public:
-    explicit SignalUff(const std::string& path) : path_(path), all_(UffReader(path).read()) {}
+    explicit SignalUff(const std::string& path) : path_(path), all_(read_uff(path)) {
+        std::string others;
+        for (std::size_t i = 0; i < all_.size(); ++i) {
+            const std::string kind = other_kind(all_[i]);
+            if (kind.empty()) {
+                histories_.push_back(i);
+            } else if (others.find(kind) == std::string::npos) {
+                others += (others.empty() ? "" : ", ") + kind;
+            }
+        }
+        if (histories_.empty()) {
+            throw SignalError(fmt::format(
+                "{}: contains no real time history; its functions are: {}", path_, others));
+        }
+        name_columns();
+    }
 
     std::vector<std::string> names() const override {
         std::vector<std::string> names;
-        for (std::size_t i = 1; i <= all_.size(); ++i) {
-            names.push_back(all_.size() == 1 ? "sensor" : fmt::format("function{}", i));
+        for (const Column& column : columns_) {
+            names.push_back(column.name);
+        }
+        if (has_times()) {
+            names.emplace_back(kUffTimes);
         }
         return names;
     }
-    std::vector<double> read(const std::string& name) override { return of(name).values; }
-    std::string unit(const std::string& name) override { return of(name).unit; }
-    std::optional<double> sampling_Hz() override {
-        for (const History& history : all_) {
-            if (history.step_s != all_.front().step_s) {
-                throw SignalError(path_ + ": its functions have different sampling rates");
+
+    // A history is found by its name, or by its title if there are several.
+    std::string find(const ColumnChoice& choice) override {
+        if (has(choice.name) || columns_.size() == 1) {
+            return has(choice.name) ? choice.name : "";
+        }
+        std::vector<std::string> found;
+        for (const Column& column : columns_) {
+            if (!choice.name.empty() && all_[column.function].title == choice.name) {
+                found.push_back(column.name);
             }
         }
-        return 1.0 / all_.front().step_s;
+        if (found.size() > 1 && choice.requested) {
+            throw SignalError(fmt::format("{}: {} is the title of several functions: {}", path_,
+                                          printable(choice.name), listed_text(found)));
+        }
+        return found.size() == 1 ? found.front() : "";
+    }
+
+    std::string contents() override {
+        std::vector<std::string> texts;
+        for (const Column& column : columns_) {
+            const std::string& title = all_[column.function].title;
+            texts.push_back(title.empty() || columns_.size() == 1
+                                ? column.name
+                                : fmt::format("{} ({})", column.name, title));
+        }
+        if (has_times()) {
+            texts.emplace_back(kUffTimes);
+        }
+        return listed_text(texts);
+    }
+
+    std::vector<std::string> notes() override { return notes_; }
+
+    std::vector<double> read(const std::string& name) override {
+        if (name == kUffTimes) {
+            return times();
+        }
+        const UffFunction& function = all_[of(name)];
+        const double second = unit_of_abscissa(name, function);
+        if (!function.unreadable.empty()) {
+            throw SignalError(fmt::format("{}: column {}: {}", path_, name, function.unreadable));
+        }
+        if (!function.even || times_) {
+            times_ = times_ ? times_ : of(name);
+            if (function.even || sampling_.rate_Hz() ||
+                all_[*times_].abscissae != function.abscissae) {
+                throw SignalError(fmt::format(
+                    "{}: column {} has other times than the first column in use", path_, name));
+            }
+            return function.values;
+        }
+        const double step_s = function.step * second;
+        if (!(step_s > 0.0 && std::isfinite(1.0 / step_s))) {
+            throw SignalError(
+                fmt::format("{}: column {}: {:g} s is not a valid time step", path_, name, step_s));
+        }
+        count_ = function.values.size();
+        const double rate = rate_Hz(step_s, function.step_rounding * second);
+        if (rate != 1.0 / step_s && !sampling_.rate_Hz()) {
+            notes_.push_back(fmt::format(
+                "the rate is {:.0f} Hz, which rounds to the time step {:g} s", rate, step_s));
+        }
+        sampling_.add(path_, name, rate, function.first * second);
+        return function.values;
+    }
+
+    std::string unit(const std::string& name) override {
+        if (name != kUffTimes) {
+            return ordinate_unit(all_[of(name)]);
+        }
+        return sampling_.rate_Hz() ? "s" : all_[times_.value_or(first_uneven())].abscissa.unit;
+    }
+
+    std::optional<double> sampling_Hz() override {
+        if (!times_ && !sampling_.rate_Hz() && all_[histories_.front()].even) {
+            read(columns_.front().name);
+        }
+        return sampling_.rate_Hz();
     }
 
   private:
-    const History& of(const std::string& name) const {
-        const auto all = names();
-        return all_[static_cast<std::size_t>(std::find(all.begin(), all.end(), name) -
-                                             all.begin())];
+    struct Column {
+        std::string name;
+        std::size_t function;  // index in all_
+    };
+
+    // One time history is "sensor". Several are "function" with the place in the file.
+    void name_columns() {
+        for (const std::size_t i : histories_) {
+            columns_.push_back(
+                {histories_.size() == 1 ? "sensor" : fmt::format("function{}", i + 1), i});
+        }
+    }
+    std::size_t of(const std::string& name) const {
+        return std::ranges::find(columns_, name, &Column::name)->function;
+    }
+    bool has_times() const {
+        return std::ranges::any_of(histories_, [&](std::size_t i) { return !all_[i].even; });
+    }
+    std::size_t first_uneven() const {
+        return *std::ranges::find_if(histories_, [&](std::size_t i) { return !all_[i].even; });
+    }
+    // Stored times of the columns in use.
+    std::vector<double> times() const {
+        const auto rate = sampling_.rate_Hz();
+        if (!rate) {
+            return all_[times_.value_or(first_uneven())].abscissae;
+        }
+        std::vector<double> even(count_);
+        for (std::size_t i = 0; i < count_; ++i) {
+            even[i] = static_cast<double>(i) / *rate;
+        }
+        return even;
+    }
+    // Seconds in a unit of the abscissa.
+    double unit_of_abscissa(const std::string& name, const UffFunction& function) const {
+        const auto factor = unit_factor(Quantity::time, function.abscissa.unit);
+        if (!factor) {
+            throw SignalError(fmt::format("{}: column {}: {} is not a known unit of its times",
+                                          path_, name, function.abscissa.unit));
+        }
+        return *factor;
     }
 
     std::string path_;
-    std::vector<History> all_;
+    std::vector<UffFunction> all_;
+    std::vector<std::size_t> histories_;  // indices of the real time histories
+    std::vector<Column> columns_;
+    CommonSampling sampling_;
+    std::vector<std::string> notes_;
+    std::size_t count_ = 0;             // samples of the evenly spaced column read last
+    std::optional<std::size_t> times_;  // function whose stored times the columns in use have
 };
 
 }  // namespace

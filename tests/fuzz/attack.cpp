@@ -24,6 +24,7 @@
 #include <thread>
 
 #include "tests/mc/recording_bytes.hpp"
+#include "tests/mc/tdms_bytes.hpp"
 #include "tests/shipped_studies.hpp"
 
 namespace {
@@ -234,6 +235,12 @@ bool arm(Arsenal& arsenal) {
         sensor[i] = 0.5 * std::sin(0.7 * static_cast<double>(i));
     }
     arsenal.wav = wav_bytes(sensor, 1, 280, WavForm::whole_16);
+    const TdmsBytes tdms;
+    arsenal.tdms = tdms.segment(kTdmsMeta | kTdmsNew | kTdmsRaw,
+                                {tdms.object("/'g'/'sensor'", tdms.index(10, 2000),
+                                             {tdms.property("wf_increment", 1.0 / 280),
+                                              tdms.property("unit_string", "g")})},
+                                tdms.reals(sensor));
     arsenal.uff = uff_bytes(sensor, 1.0 / 280, "g", UffForm::text_single);
     for (const char* table : {"inspections_hits.csv", "inspections_responses.csv"}) {
         arsenal.inspections.push_back(

@@ -21,7 +21,7 @@ struct Arsenal {
     std::string program, folder;
     std::vector<std::string> studies;                           // study texts
     std::string small_study;                                    // path
-    std::string results, checkpoint, csv, hdf5, mat, wav, uff;  // bytes of valid files
+    std::string results, checkpoint, csv, hdf5, mat, wav, uff, tdms;  // bytes of valid files
     std::vector<std::string> inspections;                       // tables of sizes and outcomes
 };
 

@@ -229,15 +229,16 @@ Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,
 
 Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
-    const std::array<std::pair<const char*, const std::string*>, 5> genuine{
+    const std::array<std::pair<const char*, const std::string*>, 6> genuine{
         {{"/x.h5", &arsenal.hdf5},
          {"/x.mat", &arsenal.mat},
          {"/x.wav", &arsenal.wav},
          {"/x.uff", &arsenal.uff},
+         {"/x.tdms", &arsenal.tdms},
          {"/x.csv", &arsenal.csv}}};
-    const std::size_t kind = dice.below(8);
-    const std::string path = folder + (kind < 5 ? genuine[kind].first : "/x.csv");
-    write(path, kind < 5 ? damaged(*genuine[kind].second, dice) : hostile_csv(dice));
+    const std::size_t kind = dice.below(9);
+    const std::string path = folder + (kind < 6 ? genuine[kind].first : "/x.csv");
+    write(path, kind < 6 ? damaged(*genuine[kind].second, dice) : hostile_csv(dice));
     Attack attack{{"features", path, "--study", arsenal.small_study}};
     if (dice.below(2) == 0) {
         attack.arguments.insert(attack.arguments.end(), {"--json", "-"});

@@ -114,8 +114,11 @@ template <class Open>
 [[maybe_unused]] void mat(const std::string& bytes) {
     signal(bytes, open_signal_mat);
 }
-[[maybe_unused]] void wav(const std::string& bytes) {
-    signal(bytes, open_signal_wav);
+[[maybe_unused]] void sound(const std::string& bytes) {
+    signal(bytes, open_signal_sound);
+}
+[[maybe_unused]] void tdms(const std::string& bytes) {
+    signal(bytes, open_signal_tdms);
 }
 [[maybe_unused]] void uff(const std::string& bytes) {
     signal(bytes, open_signal_uff);

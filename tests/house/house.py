@@ -21,7 +21,7 @@ SCRIPTS = (".py", ".sh", ".cmake", ".txt")
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]([^">]+)[">]')
 QUOTED = re.compile(r'\s*#\s*include\s*"')
 # Headers that src must not include: files and messages.
-OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|mc/|analysis/)")
+OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|sndfile|mc/|analysis/)")
 NAME = re.compile(r"[\w./*-]*[\w*]\.[ch]pp(?!\.?\w)")
 # Sources that have compiler options of their own and are never compiled together with others.
 ALONE = re.compile(r"_kernel\.cpp$")
