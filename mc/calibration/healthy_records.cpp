@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "mc/files/signal_units.hpp"
 #include "mc/files/text_table.hpp"
-#include "mc/gearbox/signal_units.hpp"
 #include "mc/input/spelling.hpp"
 
 namespace gearpod::mc {

@@ -38,6 +38,7 @@ std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
                                             Problems& problems) {
     const auto measured = measure_recordings(list, options.columns, scene, {}, nullptr,
                                              thread_count(scene.study()), [] {});
+    print_notes(list, measured);
     std::vector<HealthyRecord> records;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (!measured[i].problem.empty()) {

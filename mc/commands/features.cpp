@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t kMissingColumn = 38;  // of the reasons why features are missing
 
-void print_text(const Measurement& measured, const MeasuredSignal& signal, const Scene& scene) {
+void print_text(const Measurement& measured, const MeasuredSignal& signal,
+                const std::vector<std::string>& notes, const Scene& scene) {
     const std::vector<MeasuredFeature>& all = measured.features;
     fmt::print("{}\n", wrapped_text("mesh phase: " + signal.tracking, 2));
     fmt::print("mesh periods: {} of acceleration, {} of transmission error (full span: {})\n",
@@ -35,6 +36,9 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal, const
         fmt::print(
             "lost samples cannot be detected: that needs six similar turns of the carrier or\n"
             "wheel\n");
+    }
+    for (const std::string& note : notes) {
+        fmt::print("{}\n", wrapped_text("note: " + note, 2));
     }
     for (const MeasuredFeature& one : all) {
         if (one.missing.empty()) {
@@ -111,7 +115,7 @@ int features_command(const FeaturesOptions& options) {
             const std::string text = json_text(signal_features_json(found, request, *scene), 2);
             return write_text_to(options.json, text + "\n") ? kDone : kBadInput;
         }
-        print_text(found.measured, found.signal, *scene);
+        print_text(found.measured, found.signal, found.notes, *scene);
         if (found.against) {
             fmt::print("{}", verdict_text(*found.against, found.signal, *scene));
         }

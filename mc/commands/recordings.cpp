@@ -128,12 +128,19 @@ int recordings_command(const FeaturesOptions& options) {
         if (!options.against.empty()) {
             population = read_population(options.against, options.noise_level, scene->study());
         }
+        std::vector<std::string> notes;
         const HealthyReference healthy =
             options.healthy.empty()
                 ? HealthyReference()
                 : measured_reference({options.healthy.begin(), options.healthy.end()},
-                                     options.columns, *scene, 1);
+                                     options.columns, *scene, 1, notes);
         const auto baseline = measured_baseline(options.baseline, options.columns, *scene);
+        if (baseline) {
+            add_notes(baseline->signal, baseline->file, notes);
+        }
+        for (const std::string& note : notes) {
+            fmt::print(stderr, "{}\n", wrapped_text("note: " + note, 2));
+        }
         const MeasuredBaseline* const earlier = baseline ? &*baseline : nullptr;
         const auto features = measurable(earlier);
         const int threads = thread_count(scene->study());
@@ -143,6 +150,7 @@ int recordings_command(const FeaturesOptions& options) {
         const auto measured = measure_recordings(list, options.columns, *scene, healthy, earlier,
                                                  threads, [&] { progress.advance(1); });
         progress.finish();
+        print_notes(list, measured);
         const bool csv_good = options.csv.empty() ||
                               write_text_to(options.csv, recordings_csv(list, measured, features));
         if (!options.out.empty()) {

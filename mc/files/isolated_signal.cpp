@@ -30,7 +30,7 @@ constexpr std::size_t kFreeMemory = std::size_t{256} << 20, kMemoryPerByte = 100
 // the file.
 constexpr std::uintmax_t kTimeout_ms = 8000, kBytes_ms = 10000, kLongestTimeout_ms = 3600000;
 
-enum class Request : char { names, read, unit, sampling_Hz };
+enum class Request : char { names, read, unit, sampling_Hz, sampling_Hz_of, find, contents, notes };
 enum class Reply : char { good, refused };
 
 bool send_all(int fd, const void* data, std::size_t size) {
@@ -100,24 +100,54 @@ std::vector<double> doubles_in(const std::string& bytes) {
     return values;
 }
 
+// Texts without zero bytes, each followed by one.
+std::string bytes_of_texts(const std::vector<std::string>& texts) {
+    std::string bytes;
+    for (const std::string& text : texts) {
+        bytes += text + '\0';
+    }
+    return bytes;
+}
+
+std::vector<std::string> texts_in(const std::string& bytes) {
+    std::vector<std::string> texts;
+    for (std::size_t at = 0; at < bytes.size(); at = bytes.find('\0', at) + 1) {
+        texts.emplace_back(bytes.c_str() + at);
+    }
+    return texts;
+}
+
+std::string bytes_of_rate(std::optional<double> rate) {
+    return rate ? bytes_of_doubles(std::array{*rate}) : "";
+}
+
+std::optional<double> rate_in(const std::string& bytes) {
+    const std::vector<double> rate = doubles_in(bytes);
+    return rate.empty() ? std::nullopt : std::optional(rate.front());
+}
+
 std::string reply_to(Request request, const std::string& name, SignalFile& file) {
     switch (request) {
-        case Request::names: {
-            std::string all;
-            for (const std::string& one : file.names()) {
-                all += one + '\0';
-            }
-            return all;
-        }
+        case Request::names:
+            return bytes_of_texts(file.names());
         case Request::read:
             return bytes_of_doubles(file.read(name));
         case Request::unit:
             return file.unit(name);
         case Request::sampling_Hz:
+            return bytes_of_rate(file.sampling_Hz());
+        case Request::sampling_Hz_of:
+            return bytes_of_rate(file.sampling_Hz_of(name));
+        case Request::find: {
+            const std::vector<std::string> choice = texts_in(name);
+            return file.find({choice.at(0), choice.at(1), !choice.at(2).empty()});
+        }
+        case Request::contents:
+            return file.contents();
+        case Request::notes:
             break;
     }
-    const std::optional<double> rate = file.sampling_Hz();
-    return rate ? bytes_of_doubles(std::array{*rate}) : "";
+    return bytes_of_texts(file.notes());
 }
 
 // Limits the memory to the present use plus `more` bytes, and disables core files.
@@ -197,10 +227,7 @@ class IsolatedSignal : public SignalFile {
         }
         there.close();
         try {
-            const std::string all = receive_reply();
-            for (std::size_t at = 0; at < all.size(); at = all.find('\0', at) + 1) {
-                names_.emplace_back(all.c_str() + at);
-            }
+            names_ = texts_in(receive_reply());
         } catch (...) {
             end();
             throw;
@@ -216,9 +243,17 @@ class IsolatedSignal : public SignalFile {
     }
     std::string unit(const std::string& name) override { return send_request(Request::unit, name); }
     std::optional<double> sampling_Hz() override {
-        const std::vector<double> rate = doubles_in(send_request(Request::sampling_Hz, ""));
-        return rate.empty() ? std::nullopt : std::optional(rate.front());
+        return rate_in(send_request(Request::sampling_Hz, ""));
     }
+    std::optional<double> sampling_Hz_of(const std::string& name) override {
+        return rate_in(send_request(Request::sampling_Hz_of, name));
+    }
+    std::string find(const ColumnChoice& choice) override {
+        return send_request(Request::find, bytes_of_texts({choice.name, choice.near,
+                                                           choice.requested ? "requested" : ""}));
+    }
+    std::string contents() override { return send_request(Request::contents, ""); }
+    std::vector<std::string> notes() override { return texts_in(send_request(Request::notes, "")); }
 
   private:
     std::string send_request(Request request, const std::string& name) {

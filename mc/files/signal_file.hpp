@@ -18,11 +18,18 @@ class SignalError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// Choice of a column by its name.
+struct ColumnChoice {
+    std::string name;
+    std::string near = {};  // full name of the column that it belongs to; "": none
+    bool requested = true;  // false for a default name; then a column that is unusable is skipped
+};
+
 class SignalFile {
   public:
     virtual ~SignalFile() = default;
 
-    // Names of the columns.
+    // Full names of the columns.
     virtual std::vector<std::string> names() const = 0;
     // Values of a column, which must exist. Throws SignalError.
     virtual std::vector<double> read(const std::string& name) = 0;
@@ -30,9 +37,22 @@ class SignalFile {
     virtual std::string unit(const std::string&) { return ""; }
     // Sampling rate if the file states it.
     virtual std::optional<double> sampling_Hz() { return std::nullopt; }
+    // Sampling rate of one column. Throws SignalError if statements contradict each other.
+    virtual std::optional<double> sampling_Hz_of(const std::string&) { return sampling_Hz(); }
+    // Full name of the chosen column, "" if there is none. In a file with groups the name may be a
+    // path, or the last part of one, which is looked for in the group of `near`, then in the groups
+    // around it. Throws SignalError if a requested choice is ambiguous or not a column of numbers.
+    virtual std::string find(const ColumnChoice& choice);
+    // List of the columns for messages, at most twenty.
+    virtual std::string contents();
+    // Statements of the file that are not used, and choices that were made, in reading so far.
+    virtual std::vector<std::string> notes() { return {}; }
 
     bool has(const std::string& name) const;
 };
+
+// The first twenty of the texts, "a, b, c and 5 more"; "none" if there are none.
+std::string listed_text(const std::vector<std::string>& texts);
 
 // Opens a file according to the extension of its name. HDF5 and MAT files are read in a child
 // process (isolated_signal.hpp). Throws SignalError.

@@ -17,11 +17,11 @@ class ColumnsInMemory final : public SignalFile {
         }
         return names;
     }
-    std::vector<double> read(const std::string& name) override { return find(name).values; }
-    std::string unit(const std::string& name) override { return find(name).unit; }
+    std::vector<double> read(const std::string& name) override { return named(name).values; }
+    std::string unit(const std::string& name) override { return named(name).unit; }
 
   private:
-    const SignalColumn& find(const std::string& name) const {
+    const SignalColumn& named(const std::string& name) const {
         return *std::ranges::find(*columns_, name, &SignalColumn::name);
     }
 

@@ -268,10 +268,12 @@ std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& si
 }
 
 HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
-                                    const SignalColumns& columns, const Scene& scene, int turns) {
+                                    const SignalColumns& columns, const Scene& scene, int turns,
+                                    std::vector<std::string>& notes) {
     HealthyRecordsMean mean(1);
     for (const SignalSource& recording : recordings) {
         const MeasuredSignal signal = read_measured_signal(recording, columns, scene);
+        add_notes(signal, recording.name, notes);
         if (planet_turns(signal, scene) < std::max(1, turns)) {
             throw SignalError(fmt::format(
                 "{}: {} mesh periods of sensor signal, but a healthy record must have at least {}, "
@@ -283,6 +285,13 @@ HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
         mean.add(0, input.of(signal));
     }
     return mean.mean();
+}
+
+void add_notes(const MeasuredSignal& signal, const std::string& name,
+               std::vector<std::string>& notes) {
+    for (const std::string& note : signal.notes) {
+        notes.push_back(fmt::format("{}: {}", name, note));
+    }
 }
 
 HealthyReference simulated_reference_at(double noise_level, const Scene& scene) {

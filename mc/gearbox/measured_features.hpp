@@ -62,10 +62,15 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
 std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
                                     std::span<const features::Feature* const> requested);
 
-// Mean over recordings of healthy gearboxes; each must have at least `turns` planet turns. Throws
-// SignalError.
+// Mean over recordings of healthy gearboxes; each must have at least `turns` planet turns. Adds the
+// notes on them to `notes`. Throws SignalError.
 HealthyReference measured_reference(const std::vector<SignalSource>& recordings,
-                                    const SignalColumns& columns, const Scene& scene, int turns);
+                                    const SignalColumns& columns, const Scene& scene, int turns,
+                                    std::vector<std::string>& notes);
+
+// Adds the notes on a recording with its name.
+void add_notes(const MeasuredSignal& signal, const std::string& name,
+               std::vector<std::string>& notes);
 
 // Simulated healthy reference at a noise level; empty if the study does not have this level.
 HealthyReference simulated_reference_at(double noise_level, const Scene& scene);

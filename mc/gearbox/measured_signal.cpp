@@ -8,8 +8,9 @@
 #include <numbers>
 
 #include "features/feature.hpp"
+#include "mc/files/signal_units.hpp"
+#include "mc/gearbox/recording_rate.hpp"
 #include "mc/gearbox/sample_times.hpp"
-#include "mc/gearbox/signal_units.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "signals/spectra/mesh_speed.hpp"
@@ -53,7 +54,7 @@ class SignalReader {
             reject(
                 fmt::format("it has neither a column sensor nor a column te; its columns are {}; "
                             "choose with --sensor or --te",
-                            columns_text()));
+                            file_->contents()));
         }
         stop_at_problems();
         const std::size_t samples = std::max(sensor.size(), te.size());
@@ -61,10 +62,17 @@ class SignalReader {
         measured.has_sensor = !sensor.empty();
         measured.has_te = !te.empty();
         std::vector<double> phase = phases(samples, measured.tracking);
+        for (const std::string& text : file_->notes()) {
+            notes_.push_back(printable(text));
+        }
+        measured.notes = std::move(notes_);
         stop_at_problems();
         file_.reset();
         lock.unlock();
-        check_rate(phase, !sensor.empty(), !te.empty());
+        for (const std::string& problem :
+             rate_problems(phase, scene_, {!sensor.empty(), !te.empty()})) {
+            reject(problem);
+        }
         stop_at_problems();
         if (columns_.samples_per_mesh > 0.0) {
             extend_periodically({&sensor, &te}, phase,
@@ -115,40 +123,33 @@ class SignalReader {
             throw SignalError(problems_);
         }
     }
-    std::string columns_text() const {
-        auto names = file_->names();
-        constexpr std::size_t kShown = 20;
-        const std::size_t more = names.size() - std::min(names.size(), kShown);
-        names.resize(names.size() - more);
-        const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
-        return names.empty() ? "none" : fmt::format("{}{}", fmt::join(names, ", "), rest);
-    }
-
     void reject_missing(const std::string& name) {
-        reject(fmt::format("no column {}; its columns are {}", name, columns_text()));
+        reject(fmt::format("no column {}; its columns are {}", name, file_->contents()));
     }
 
+    // Full name of a column; "" if it does not exist. All columns belong to the first one.
+    std::string found(const std::string& name, bool requested) {
+        return file_->find({name, first_, requested});
+    }
     // Factor that converts a column to the program's units.
     double factor(const std::string& name, Quantity quantity) {
-        std::string unit = file_->unit(name);
-        if (unit.empty() && quantity == Quantity::acceleration) {
-            unit = columns_.sensor_unit;
+        const ColumnFactor factor =
+            column_factor(file_->unit(name), quantity, columns_.sensor_unit);
+        reject_column(name, factor.problem);
+        if (!factor.note.empty()) {
+            notes_.push_back(printable(fmt::format("column {}: {}", name, factor.note)));
         }
-        const auto factor = unit_factor(quantity, unit);
-        if (!factor) {
-            reject(fmt::format("column {}: unknown unit {}; known units are {}", name, unit,
-                               known_units(quantity)));
-        }
-        return factor.value_or(1.0);
+        return factor.factor;
     }
 
     // Reads a column that the user requested.
     std::vector<double> present(const std::string& name, Quantity quantity) {
-        if (!file_->has(name)) {
+        const std::string full = found(name, true);
+        if (full.empty()) {
             reject_missing(name);
             return {};
         }
-        return column(name, quantity);
+        return column(full, quantity);
     }
 
     // Reads a column and checks that it is finite and as long as the others.
@@ -169,8 +170,8 @@ class SignalReader {
 
     std::vector<double> chosen(const std::string& name, const std::string& usual,
                                Quantity quantity) {
-        const std::string& taken = name.empty() ? usual : name;
-        if (file_->has(taken)) {
+        const std::string taken = found(name.empty() ? usual : name, !name.empty());
+        if (!taken.empty()) {
             std::vector<double> values = column(taken, quantity);
             reject_column(taken, clipping(values));
             return values;
@@ -183,8 +184,9 @@ class SignalReader {
 
     // Time of every sample, s.
     std::vector<double> times(std::size_t samples) {
-        if (columns_.sampling_Hz <= 0.0 && file_->has(kTime)) {
-            std::vector<double> written = column(kTime, Quantity::time);
+        const std::string written_as = columns_.sampling_Hz > 0.0 ? "" : found(kTime, false);
+        if (!written_as.empty()) {
+            std::vector<double> written = column(written_as, Quantity::time);
             if (!problems_.empty()) {
                 return {};
             }
@@ -192,13 +194,14 @@ class SignalReader {
             reject_column(kTime, time.problem);
             return std::move(time.seconds);
         }
-        const double rate =
-            columns_.sampling_Hz > 0.0 ? columns_.sampling_Hz : file_->sampling_Hz().value_or(0.0);
+        const double rate = columns_.sampling_Hz > 0.0
+                                ? columns_.sampling_Hz
+                                : file_->sampling_Hz_of(first_).value_or(0.0);
         if (!(rate > 0.0 && std::isfinite(rate))) {
             reject(
                 fmt::format("no sampling rate: the file has neither a column {} or {} nor "
                             "sampling_Hz; its columns are {}; give --sampling-Hz",
-                            kTime, kPhase, columns_text()));
+                            kTime, kPhase, file_->contents()));
             return {};
         }
         return evenly_spaced(samples, rate);
@@ -216,21 +219,23 @@ class SignalReader {
         if (!columns_.encoder.empty()) {
             return phases_of_angle(how);
         }
-        if (file_->has(kPhase) && columns_.sampling_Hz <= 0.0) {
+        const std::string phase_name = columns_.sampling_Hz > 0.0 ? "" : found(kPhase, false);
+        if (!phase_name.empty()) {
             how = "column mesh_phase";
-            return rising(column(kPhase, Quantity::phase));
+            return rising(column(phase_name, Quantity::phase));
         }
         std::vector<double> phase = times(samples);
         if (!problems_.empty()) {
             return {};
         }
         counted_ = true;
-        if (!file_->has(kSpeed)) {
+        const std::string speed_name = found(kSpeed, false);
+        if (speed_name.empty()) {
             how = fmt::format("constant speed, {:.6g} Hz at the mesh",
                               scene_.nominal_mesh_frequency_Hz());
             return scaled(std::move(phase), scene_.nominal_mesh_frequency_Hz());
         }
-        const std::vector<double> speed_rpm = column(kSpeed, Quantity::speed);
+        const std::vector<double> speed_rpm = column(speed_name, Quantity::speed);
         reject_column(kSpeed, sign_change_text(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
@@ -240,7 +245,7 @@ class SignalReader {
 
     // Mesh phase from a tachometer. Keeps the samples between its first and last pulse.
     std::vector<double> phases_of_pulses(std::string& how) {
-        const std::vector<double> heights = present(columns_.tachometer, Quantity::phase);
+        const std::vector<double> heights = present(columns_.tachometer, Quantity::any);
         const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
         reject_column(columns_.tachometer, pulses.problem);
         if (!problems_.empty()) {
@@ -344,33 +349,6 @@ class SignalReader {
         return phase;
     }
 
-    // Checks that the study's grid is not coarser than the samples, because it would alias high
-    // frequencies.
-    void check_rate(const std::vector<double>& phase, bool sensor, bool te) {
-        const double per_mesh =
-            static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
-        const double mesh_Hz = scene_.nominal_mesh_frequency_Hz();
-        if (te && per_mesh < kFewestSamples) {
-            reject(
-                fmt::format("{:.6g} samples per mesh period do not resolve the mesh frequency of "
-                            "the transmission error; check the speed and the sampling rate",
-                            per_mesh));
-        }
-        const double low_pass = scene_.study().sensor.low_pass_Hz;
-        if (sensor && per_mesh > kRateTolerance * scene_.samples_per_mesh()) {
-            reject(
-                fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
-                            "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
-                            per_mesh, scene_.samples_per_mesh(), per_mesh * mesh_Hz));
-        }
-        if (sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
-            reject(
-                fmt::format("{:.6g} Hz ({:.6g} samples per mesh period) is too low for signals up "
-                            "to {:.6g} Hz; set sensor.low_pass_Hz to at most half of it",
-                            per_mesh * mesh_Hz, per_mesh, low_pass));
-        }
-    }
-
     // Largest number of mesh periods that any feature uses.
     int most_meshes() const {
         const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
@@ -378,14 +356,12 @@ class SignalReader {
                              planetary ? features::kCentralGears : features::SignalSet());
     }
 
-    static constexpr double kFewestSamples = 2.0;  // per mesh period
-    static constexpr double kRateTolerance = 1.02;
-
     const SignalSource& source_;
     const SignalColumns& columns_;
     const Scene& scene_;
     std::unique_ptr<SignalFile> file_;
     std::string problems_, first_;
+    std::vector<std::string> notes_;
     std::size_t samples_ = 0, first_sample_ = 0;
     bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };

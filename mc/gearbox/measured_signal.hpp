@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/files/column_factor.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/scene/scene.hpp"
 
@@ -25,7 +26,7 @@ struct SignalColumns {
     double sampling_Hz = 0.0;             // 0: from the file
     double samples_per_mesh = 0.0;        // for even sampling in mesh phase; 0: sampled in time
     std::optional<std::size_t> row = {};  // for a file with one record per row
-    std::string sensor_unit = {};         // used if the file states none; "": m/s^2
+    SensorUnit sensor_unit = {};          // without any and without a unit in the file: m/s^2
     std::string tachometer = {};  // pulses of the member whose speed the study gives; "": none
     double pulses_per_turn = 1.0;
     std::string encoder = {};  // angle of that member; "": none
@@ -41,6 +42,8 @@ struct MeasuredSignal {
     std::string tracking;                     // source of the mesh phase of the samples
     // True if lost samples would have been detected even if the times do not show them.
     bool losses_detectable = true;
+    // Statements of the file that are not used, and assumptions.
+    std::vector<std::string> notes;
 };
 
 // Reads a recording (signal_file.hpp) and resamples it unless it is on the grid already. The mesh

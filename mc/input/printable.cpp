@@ -1,5 +1,7 @@
 #include "mc/input/printable.hpp"
 
+#include "mc/input/utf8.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -17,7 +19,8 @@ std::size_t control_at(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view bytes) {
+    const std::string text = utf8_text(bytes);
     std::string shown;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t length = control_at(text, at);

@@ -6,9 +6,9 @@
 
 namespace gearpod::mc {
 
-// Replaces control characters, which can control a terminal: by a space if they are blanks, else by
-// a question mark.
-std::string printable(std::string_view text);
+// The text as valid UTF-8 (utf8.hpp) without control characters, which can control a terminal: they
+// are replaced by a space if they are blanks, else by a question mark.
+std::string printable(std::string_view bytes);
 
 bool is_printable(std::string_view text);
 

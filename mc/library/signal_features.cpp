@@ -53,6 +53,7 @@ nlohmann::ordered_json measured_json(const SignalFeatures& measured, const Scene
     nlohmann::ordered_json json;
     json["mesh_phase"] = signal.tracking;
     json["losses_noticed"] = signal.losses_detectable;
+    json["notes"] = measured.notes;
     json["sensor_meshes"] = signal.sensor_meshes;
     json["te_meshes"] = signal.te_meshes;
     json["span_meshes"] = scene.span_meshes();
@@ -104,16 +105,20 @@ nlohmann::ordered_json verdicts_json(const PopulationVerdicts& against,
 SignalFeatures signal_features(const SignalRequest& request, const Scene& scene) {
     SignalFeatures found;
     found.signal = read_measured_signal(request.signal, request.columns, scene);
+    found.notes = found.signal.notes;
     const bool long_enough =
         !found.signal.sensor.empty() && found.signal.sensor_meshes >= scene.span_meshes();
     HealthyReference healthy;
     if (!request.healthy.empty()) {
         healthy = measured_reference(request.healthy, request.columns, scene,
-                                     planet_turns(found.signal, scene));
+                                     planet_turns(found.signal, scene), found.notes);
     } else if (long_enough) {
         healthy = simulated_reference_at(request.noise_level, scene);
     }
     const auto baseline = measured_baseline(request.baseline, request.columns, scene);
+    if (baseline) {
+        add_notes(baseline->signal, baseline->file, found.notes);
+    }
     found.measured = measure(scene, found.signal, healthy, baseline ? &*baseline : nullptr);
     check_any_feature(found.measured.features, request.signal.name, scene, found.signal);
     if (!request.against.empty()) {

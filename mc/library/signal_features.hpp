@@ -32,6 +32,8 @@ struct SignalFeatures {
     MeasuredSignal signal;
     Measurement measured;
     std::optional<PopulationVerdicts> against;
+    // Statements of the recordings that are not used, and assumptions (MeasuredSignal).
+    std::vector<std::string> notes;
 };
 
 // Throws SignalError with one line per problem, or if no feature can be computed; other exceptions

@@ -5,8 +5,12 @@ namespace gearpod::mc {
 namespace {
 
 void add_signal_reading(CLI::App& command, SignalColumns& columns) {
-    command.add_option("--sensor-unit", columns.sensor_unit,
-                       "unit of the acceleration if the file gives none (default: m/s^2)");
+    command.add_option("--sensor-unit", columns.sensor_unit.unit,
+                       "unit of the acceleration, for example g; takes precedence over the file's "
+                       "(default: the file's, or m/s^2 if it gives none)");
+    command.add_option("--sensor-sensitivity", columns.sensor_unit.sensitivity,
+                       "sensitivity of the accelerometer if its values are voltages, with its "
+                       "unit: \"100 mV/g\", \"10.2 mV/(m/s^2)\"");
     command.add_option("--tachometer", columns.tachometer,
                        "column of tachometer pulses, of the member whose speed the study gives");
     command

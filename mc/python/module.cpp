@@ -199,7 +199,18 @@ void add_signal_columns(py::module_& module) {
         .def_readwrite("te", &mc::SignalColumns::te)
         .def_readwrite("sampling_Hz", &mc::SignalColumns::sampling_Hz)
         .def_readwrite("samples_per_mesh", &mc::SignalColumns::samples_per_mesh)
-        .def_readwrite("sensor_unit", &mc::SignalColumns::sensor_unit)
+        .def_property(
+            "sensor_unit",
+            [](const mc::SignalColumns& columns) { return columns.sensor_unit.unit; },
+            [](mc::SignalColumns& columns, const std::string& unit) {
+                columns.sensor_unit.unit = unit;
+            })
+        .def_property(
+            "sensor_sensitivity",
+            [](const mc::SignalColumns& columns) { return columns.sensor_unit.sensitivity; },
+            [](mc::SignalColumns& columns, const std::string& sensitivity) {
+                columns.sensor_unit.sensitivity = sensitivity;
+            })
         .def_readwrite("tachometer", &mc::SignalColumns::tachometer)
         .def_readwrite("pulses_per_turn", &mc::SignalColumns::pulses_per_turn)
         .def_readwrite("encoder", &mc::SignalColumns::encoder)

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <set>
 
 #include "analysis/detection/feature_alarm.hpp"
 #include "machine/team.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/row_source.hpp"
 
@@ -25,6 +28,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
     try {
         columns.row = recording.row;
         const MeasuredSignal signal = read_measured_signal(recording.file, columns, scene);
+        measured.notes = signal.notes;
         measured.sensor_meshes = signal.sensor_meshes;
         measured.planet_turns = planet_turns(signal, scene);
         bool any = false;
@@ -141,6 +145,26 @@ std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
     return measured;
 }
 
+void print_notes(const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
+    std::vector<std::pair<std::string, std::size_t>> notes;  // in order, with the first recording
+    std::map<std::string, int> times;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        for (const std::string& note : measured[i].notes) {
+            if (times[note]++ == 0) {
+                notes.emplace_back(note, i);
+            }
+        }
+    }
+    for (const auto& [note, first] : notes) {
+        const int more = times[note] - 1;
+        const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
+        fmt::print(stderr, "{}\n",
+                   wrapped_text(fmt::format("note: {}{}: {}",
+                                            printable(list.recordings[first].name()), rest, note),
+                                2));
+    }
+}
+
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
                            std::span<const features::Feature> features) {
@@ -169,8 +193,8 @@ std::string recordings_csv(const RecordingList& list,
             out += "," + field_text(input);
         }
         for (std::size_t f = 0; f < features.size(); ++f) {
-            out += "," + (measured[i].values.empty() ? std::string()
-                                                     : field_text(measured[i].values[f]));
+            out += "," +
+                   (measured[i].values.empty() ? std::string() : field_text(measured[i].values[f]));
         }
         out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted_field(measured[i].problem));
     }

@@ -16,6 +16,7 @@ struct MeasuredRecording {
     std::string problem;         // why there are no features, else empty
     std::vector<double> values;  // in the order of measurable(); NaN: no value
     std::vector<WorstTooth> teeth;
+    std::vector<std::string> notes;  // of MeasuredSignal
     int sensor_meshes = 0, planet_turns = 0;
 };
 
@@ -28,6 +29,9 @@ std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
                                                   const HealthyReference& healthy,
                                                   const MeasuredBaseline* baseline, int threads,
                                                   const std::function<void()>& done);
+
+// Prints the notes on the recordings to stderr, equal ones once with the first recording.
+void print_notes(const RecordingList& list, const std::vector<MeasuredRecording>& measured);
 
 // Returns a CSV table with a line for each recording: its description, its features (those of
 // measurable()) and its problem.

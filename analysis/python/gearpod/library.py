@@ -176,8 +176,9 @@ class Study:
         against      results file with healthy gearboxes to compare with
         feature      feature that decides the alarm; by default the best ranked one
         noise_level  of simulated healthy gearboxes
-        columns      sampling_Hz, samples_per_mesh, sensor, te, sensor_unit, tachometer,
-                     pulses_per_turn, encoder, row, speed: as the options of `gearpod features`
+        columns      sampling_Hz, samples_per_mesh, sensor, te, sensor_unit, sensor_sensitivity,
+                     tachometer, pulses_per_turn, encoder, row, speed: as the options of
+                     `gearpod features`
         """
         return Features(json.loads(self._open.features(
             _recording(signal), None if baseline is None else _recording(baseline),

@@ -89,9 +89,36 @@ TEST_CASE("Units are converted, and unknown ones refused with those that are kno
     check_alike(features_of(s.write("time,sensor", {s.time, times(s.sensor, 1.0 / 9.80665)}),
                             "--sensor-unit g"),
                 plain, 1e-9);
-    const Outcome outcome = features(s.write("time,sensor [V]", {s.time, s.sensor}));
+    const Outcome outcome = features(s.write("time,sensor [parsec]", {s.time, s.sensor}));
     CHECK(outcome.code == 2);
-    CHECK(outcome.mentions("unknown unit V; known units are m/s^2, mm/s^2, g, mg"));
+    CHECK(outcome.mentions("unknown unit parsec; known units are m/s^2, mm/s^2, g, mg"));
+}
+
+TEST_CASE("The options for the unit take precedence over the file, with a note") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    const std::string volts = s.write("time,sensor [V]", {s.time, times(s.sensor, 0.1 / 9.80665)});
+    const Outcome refused = features(volts);
+    CHECK(refused.code == 2);
+    CHECK(refused.mentions("column sensor: unit V is that of a voltage"));
+    CHECK(refused.mentions("give --sensor-sensitivity"));
+    check_alike(features_of(volts, "--sensor-sensitivity '100 mV/g'"), plain, 1e-9);
+    const Outcome wrong = features(volts, "--sensor-sensitivity 100");
+    CHECK(wrong.code == 2);
+    CHECK(wrong.mentions("--sensor-sensitivity 100: is not a voltage per acceleration"));
+    const std::string path = s.write("time,sensor [V]", {s.time, s.sensor});
+    const std::string note = "the file states V; taken as m/s^2 (--sensor-unit)";
+    CHECK(features(path, "--sensor-unit m/s^2").mentions("note: column sensor: " + note));
+    const Outcome json = features(path, "--sensor-unit m/s^2 --json -");
+    REQUIRE(json.code == 0);
+    const auto found = nlohmann::json::parse(json.output);
+    check_alike(found["features"], plain, 1e-9);
+    REQUIRE(found["notes"].size() == 1);
+    CHECK(found["notes"][0] == "column sensor: " + note);
+    const Outcome many = features(path + " " + path, "--sensor-unit m/s^2 --csv -");
+    CHECK(many.mentions("and 1 more: column sensor: " + note));
+    // Latin-1, as recorders under Windows write it.
+    check_alike(features_of(s.write("time,sensor [m/s\xB2]", {s.time, s.sensor})), plain, 1e-9);
 }
 
 TEST_CASE("Decimal commas are accepted if the fields are not separated by commas") {
