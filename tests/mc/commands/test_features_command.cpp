@@ -220,7 +220,8 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     refused(folder.file("rate.csv"), "no sampling rate");
     refused(folder.file("rate.csv") + " --sampling-Hz 5000",
             "set sensor.sampling_Hz to that of the recording, about 5000 Hz");
-    refused(folder.file("rate.csv") + " --sampling-Hz 100", "set sensor.low_pass_Hz to at most half of it");
+    refused(folder.file("rate.csv") + " --sampling-Hz 100",
+            "set sensor.low_pass_Hz to at most half of it");
     time[50] += 1e-3;
     write_csv(folder.file("uneven.csv"), {{"time", time}, {"sensor", good}});
     refused(folder.file("uneven.csv"), "the samples must be evenly spaced");
@@ -365,6 +366,11 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
     const Outcome column = program("features " + file + " --study " + kSmall);
     CHECK(column.code == 2);
     CHECK_FALSE(column.mentions("\x1b"));
+    const Outcome option =
+        program("features " + file + " --sensor '\x1b[31mred' --study " + kSmall);
+    CHECK(option.code == 2);
+    CHECK(option.mentions("argument 4 (?[31mred) has control characters"));
+    CHECK_FALSE(option.mentions("\x1b"));
     for (const char* line : {"title = \"\\u001b[31mred\"\n", "title = \"\\u009b31mred\"\n",
                              "title = \"two\\nlines\"\n", "\"\\u001b[31mred\" = 1\n"}) {
         write_bytes(study, std::string(line) + bytes_of(kSmall));
