@@ -94,15 +94,16 @@ class TableReading {
         for (const Feature& feature : features::record_features()) {
             const std::string name(feature.name), field = text(name);
             all.push_back(std::numeric_limits<double>::quiet_NaN());
-            if (field.empty() || !is_plain_sensor_feature(feature)) {
+            if (is_missing(field) || !is_plain_sensor_feature(feature)) {
                 continue;
             }
-            const auto number = number_of(field, table_.separator != ',');
-            const std::string unit = table_.columns[*table_.find(name)].unit;
+            const std::size_t column = *table_.find(name);
+            const auto number = table_.number(row_, column);
+            const std::string unit = table_.columns[column].unit;
             const auto factor = feature.unit == "m/s^2" ? unit_factor(Quantity::acceleration, unit)
                                                         : std::optional<double>(1.0);
             if (!number || !std::isfinite(*number)) {
-                reject(name, fmt::format("\"{}\" is not a finite number", field), "");
+                reject(name, table_.no_number_text(row_, column), "");
             } else if (!factor) {
                 reject(name, "unknown unit " + unit, known_units(Quantity::acceleration));
             } else {

@@ -13,6 +13,15 @@ bool is_one_of(const std::string& extension, std::initializer_list<const char*> 
     return std::find(all.begin(), all.end(), extension) != all.end();
 }
 
+// Extension in lower case.
+std::string extension_of(const std::filesystem::path& path) {
+    std::string kind = path.extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return kind;
+}
+
 }  // namespace
 
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
@@ -22,17 +31,25 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
         throw SignalError(path + (std::filesystem::is_directory(path, error) ? ": is a folder"
                                                                              : ": no such file"));
     }
-    std::string kind = std::filesystem::path(path).extension().string();
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
+    std::string kind = extension_of(path);
+    const bool compressed = kind == ".gz";
+    if (compressed) {
+        kind = extension_of(std::filesystem::path(path).stem());
+    }
     const bool hdf5 = kind == ".h5" || kind == ".hdf5";
     if (row && !hdf5) {
         throw SignalError(path + ": has no rows to select from; only HDF5 files can have rows");
     }
-    check_file_content(path, kind);
-    if (kind == ".csv") {
+    if (!compressed) {
+        check_file_content(path, kind);
+    }
+    if (is_one_of(kind, {".csv", ".txt", ".tsv", ".dat", ".asc"})) {
         return open_signal_csv(path);
+    }
+    if (compressed) {
+        throw SignalError(path +
+                          ": only text files are read compressed (.csv.gz, .txt.gz); decompress it "
+                          "with gunzip");
     }
     if (hdf5) {
         return isolated_signal(path, [&] { return open_signal_hdf5(path, row); });

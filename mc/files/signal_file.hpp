@@ -51,10 +51,9 @@ std::string listed_text(const std::vector<std::string>& texts);
 
 // Opens a file according to the extension of its name. HDF5 and MAT files are read in a child
 // process (isolated_signal.hpp). Throws SignalError.
-//   .csv         A header line with names and units in brackets ("sensor [m/s^2]"), then a line
-//                of numbers per sample. The separator is a comma, semicolon or tab; decimal
-//                commas are accepted if the separator is not a comma. Lines that begin with #
-//                are comments.
+//   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
+//                of numbers per sample, in any usual form (text_dialect.hpp); also compressed
+//                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.
 //   .h5, .hdf5   One-dimensional datasets in the group /signals, or else in the root; with
 //                `row`, rows of two-dimensional ones. Optional attributes: sampling_Hz of the
 //                group or the root, scale (a factor) and unit of a dataset. Data in other files

@@ -1,48 +1,35 @@
-// Reads and writes tables of text in CSV files: a header line of names, then one line of fields per
-// row.
+// Reads tables of text in CSV files: a header line of names, then one line of fields per row.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "mc/files/table_columns.hpp"
+#include "mc/files/text_fields.hpp"
 
 namespace gearpod::mc {
 
-struct TableColumn {
-    std::string name;  // without the unit
-    std::string unit;  // in brackets after the name, "[mm]" or "(mm)"; may be empty
-};
-
 struct TextTable {
     std::string path;
-    char separator = ',';
     std::vector<TableColumn> columns;
-    std::vector<std::vector<std::string>> rows;
-    std::vector<long> lines;  // line number of each row, from 1
+    std::vector<std::vector<std::string>> rows;  // UTF-8
+    std::vector<long> lines;                     // line number of each row, from 1
+    std::vector<std::string> comma_problems;     // of each column (CommaUse::problem), or none
 
-    // Index of the column with this name, if it exists.
+    // Index of the column with this name, if it exists. Throws SignalError if two have it.
     std::optional<std::size_t> find(const std::string& name) const;
     // List of the names, "a, b, c"; at most twenty.
-    std::string names() const;
+    std::string names() const { return column_names(columns); }
+    // Value of a field with a decimal point or comma; empty if it is not a number.
+    std::optional<double> number(std::size_t row, std::size_t column) const;
+    // States why a field is not a number.
+    std::string no_number_text(std::size_t row, std::size_t column) const;
 };
 
-// Reads a CSV file. The separator is the comma, semicolon or tab that the header uses. Fields may
-// be in double quotes, lines that begin with # are comments, and a byte order mark is skipped.
-// Throws SignalError (signal_file.hpp) at the first invalid line, or if there are more than a
-// million rows.
+// Reads a CSV file in any usual form (text_dialect.hpp), plain or compressed with gzip
+// (text_lines.hpp). Throws SignalError (signal_file.hpp) at the first invalid line, or if there are
+// more than a million rows.
 TextTable read_text_table(const std::string& path);
-
-// The text as a CSV field (RFC 4180): in double quotes if it contains a separator, a quote or an
-// end of line.
-std::string csv_field(const std::string& text, std::string_view separators = ",");
-
-// The field without surrounding blanks and quotes.
-std::string_view trimmed_field(std::string_view text);
-// Splits a header such as "sensor [m/s^2]" into name and unit.
-TableColumn column_of(std::string_view header);
-// Value of a field that is a number as a whole; NaN and infinity are accepted. A decimal comma is
-// accepted if `decimal_comma` is set.
-std::optional<double> number_of(std::string_view field, bool decimal_comma);
 
 }  // namespace gearpod::mc

@@ -13,6 +13,7 @@
 #include "mc/gearbox/sample_times.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "signals/rotation/shaft_motion.hpp"
 #include "signals/spectra/mesh_speed.hpp"
 #include "signals/spectra/order_tracking.hpp"
 
@@ -147,14 +148,15 @@ class SignalReader {
         const std::string full = found(name, true);
         if (full.empty()) {
             reject_missing(name);
-            return {};
         }
-        return column(full, quantity);
+        return full.empty() ? std::vector<double>() : column(full, quantity);
     }
 
     // Reads a column and checks that it is finite and as long as the others.
     std::vector<double> column(const std::string& name, Quantity quantity) {
-        std::vector<double> values = scaled(file_->read(name), factor(name, quantity));
+        // Times are converted after their rounding has been judged.
+        const double unit = quantity == Quantity::time ? 1.0 : factor(name, quantity);
+        std::vector<double> values = scaled(file_->read(name), unit);
         reject_column(name, bad_values(values));
         if (values.size() < 2) {
             reject(fmt::format("column {} has {} sample(s)", name, values.size()));
@@ -190,7 +192,7 @@ class SignalReader {
             if (!problems_.empty()) {
                 return {};
             }
-            SampleTimes time = sample_times(std::move(written));
+            SampleTimes time = sample_times(std::move(written), factor(written_as, Quantity::time));
             reject_column(kTime, time.problem);
             return std::move(time.seconds);
         }
@@ -222,7 +224,7 @@ class SignalReader {
         const std::string phase_name = columns_.sampling_Hz > 0.0 ? "" : found(kPhase, false);
         if (!phase_name.empty()) {
             how = "column mesh_phase";
-            return rising(column(phase_name, Quantity::phase));
+            return rising(column(phase_name, Quantity::phase), true);
         }
         std::vector<double> phase = times(samples);
         if (!problems_.empty()) {
@@ -246,16 +248,19 @@ class SignalReader {
     // Mesh phase from a tachometer. Keeps the samples between its first and last pulse.
     std::vector<double> phases_of_pulses(std::string& how) {
         const std::vector<double> heights = present(columns_.tachometer, Quantity::any);
-        const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
-        reject_column(columns_.tachometer, pulses.problem);
+        const double meshes = meshes_per_turn() / columns_.pulses_per_turn;
+        const signals::Pulses pulses =
+            problems_.empty() ? signals::tachometer_pulses(heights, kSmallestJump / meshes)
+                              : signals::Pulses();
+        reject_column(columns_.tachometer, pulses.problem + moment(pulses.problem_sample));
         if (!problems_.empty()) {
             return {};
         }
         how = fmt::format("{} pulses of column {}, {:g} per turn", pulses.at.size(),
                           columns_.tachometer, columns_.pulses_per_turn);
-        PulseCount counted = count_pulses(pulses.at);
+        signals::PulseCount counted = signals::count_pulses(pulses.at);
         first_sample_ = counted.first;
-        return scaled(std::move(counted.count), meshes_per_turn() / columns_.pulses_per_turn);
+        return scaled(std::move(counted.count), meshes);
     }
 
     // Mesh phase from an encoder. Removes samples before its first and after its last count.
@@ -264,11 +269,25 @@ class SignalReader {
         if (!problems_.empty()) {
             return {};
         }
-        ShaftAngle angle = shaft_angle(std::move(written));
-        reject_column(columns_.encoder, angle.problem);
+        const double meshes_per_rad = meshes_per_turn() / (2.0 * std::numbers::pi);
+        signals::ShaftAngle angle =
+            signals::shaft_angle(std::move(written), kSmallestJump / meshes_per_rad);
+        reject_column(columns_.encoder, angle.problem + moment(angle.problem_sample));
         how = fmt::format("angles of column {}", columns_.encoder);
         first_sample_ = angle.first;
-        return scaled(std::move(angle.rad), meshes_per_turn() / (2.0 * std::numbers::pi));
+        return scaled(std::move(angle.rad), meshes_per_rad);
+    }
+
+    // Time of a sample as text, " (1.5 s)"; "" if it is not known. Samples are numbered from 1.
+    std::string moment(std::size_t sample) {
+        const std::string time = columns_.sampling_Hz > 0.0 ? "" : found(kTime, false);
+        const double rate = columns_.sampling_Hz > 0.0
+                                ? columns_.sampling_Hz
+                                : file_->sampling_Hz_of(first_).value_or(0.0);
+        const double seconds = sample == 0 || time.empty() ? static_cast<double>(sample - 1) / rate
+                                                           : file_->read(time).at(sample - 1) *
+                                                                 factor(time, Quantity::time);
+        return sample > 0 && std::isfinite(seconds) ? fmt::format(" ({:.6g} s)", seconds) : "";
     }
 
     // Mesh periods per turn of the member whose speed the study gives.
@@ -339,12 +358,15 @@ class SignalReader {
         return rising(integral(time, frequency_Hz));
     }
 
-    std::vector<double> rising(std::vector<double> phase) {
+    std::vector<double> rising(std::vector<double> phase, bool measured = false) {
         for (std::size_t i = 1; i < phase.size() && problems_.empty(); ++i) {
             if (!(phase[i] > phase[i - 1])) {
                 reject(
                     fmt::format("the mesh phase does not increase from sample {} to the next", i));
             }
+        }
+        if (measured && problems_.empty()) {
+            reject_column(kPhase, signals::phase_jump_text(phase, kSmallestJump));
         }
         return phase;
     }
@@ -355,6 +377,9 @@ class SignalReader {
         return meshes_needed(scene_.study(), scene_.span(),
                              planetary ? features::kCentralGears : features::SignalSet());
     }
+
+    // Smallest jump of a measured motion that is reported, in mesh periods.
+    static constexpr double kSmallestJump = 0.05;
 
     const SignalSource& source_;
     const SignalColumns& columns_;

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "machine/upper_median.hpp"
 #include "signals/spectra/lost_samples.hpp"
@@ -14,36 +15,180 @@ namespace gearpod::mc {
 namespace {
 
 constexpr double kEven = 1e-3;  // relative to a step
+// Largest unit of rounded times, relative to a step. Steps are whole numbers of units: one or two
+// where no sample is missing, three or more over a missing sample.
+constexpr double kCoarsest = 1.0 / 1.5;
 
-// Largest power of ten, from 1 down to 1e-9, of which all values are multiples; 0 if there is none.
-double decimals_of(const std::vector<double>& values) {
-    for (int digits = 0; digits <= 9; ++digits) {
-        const double unit = std::pow(10.0, -digits);
-        const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
-            const double multiple = value / unit;
-            return std::abs(multiple - std::round(multiple)) < 1e-4;
-        });
-        if (all) {
-            return unit;
+// Rounding of written times: its unit grows with the value, except that of decimals.
+class WrittenPrecision {
+  public:
+    // Finds the coarsest precision with which all values may have been written: decimals, three to
+    // nine significant digits, or single precision. Double precision is the finest.
+    explicit WrittenPrecision(const std::vector<double>& values) {
+        for (const double value : values) {
+            largest_ = std::max(largest_, std::abs(value));
+        }
+        find_decimals(values);
+        find_digits(values);
+        find_single(values);
+    }
+
+    // Distance of neighbouring values of the format at this value.
+    double unit(double value) const {
+        const double digits = digits_ > 0 ? digit_unit(value, digits_) : 0.0;
+        return std::max({decimals_, digits, single_ * ulp(static_cast<float>(value))}) + ulp(value);
+    }
+    double largest_unit() const { return unit(largest_); }
+
+  private:
+    template <class Number>
+    static Number ulp(Number value) {
+        const Number size = std::abs(value);
+        return std::nextafter(size, std::numeric_limits<Number>::infinity()) - size;
+    }
+    // Exponent of ten of the last of `digits` significant digits.
+    static int last_digit(double value, int digits) {
+        return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12)) + 1 - digits;
+    }
+    static double digit_unit(double value, int digits) {
+        return value == 0.0 ? 0.0 : std::pow(10.0, last_digit(value, digits));
+    }
+    // True if a value is a multiple of a power of ten, to within double precision.
+    static bool is_multiple(double value, int exponent) {
+        const long double power = std::pow(10.0L, std::abs(exponent));
+        const long double multiple = exponent < 0 ? value * power : value / power;
+        const double one = std::pow(10.0, exponent), off = 8.0 * ulp(value) / one;
+        // Computed values are off by some units of double precision, written ones by one.
+        const double blur = off < 0.05 ? off : 1.01 * ulp(value) / one;
+        return blur < 0.3 && std::abs(multiple - std::round(multiple)) <= blur;
+    }
+
+    void find_decimals(const std::vector<double>& values) {
+        for (int digits = 0; digits <= 9 && decimals_ == 0.0; ++digits) {
+            if (std::ranges::all_of(values, [&](double v) { return is_multiple(v, -digits); })) {
+                decimals_ = std::pow(10.0, -digits);
+            }
         }
     }
-    return 0.0;
+    void find_digits(const std::vector<double>& values) {
+        for (int digits = 3; digits <= 9 && digits_ == 0; ++digits) {
+            if (std::ranges::all_of(values, [&](double v) {
+                    return v == 0.0 || is_multiple(v, last_digit(v, digits));
+                })) {
+                digits_ = digits;
+            }
+        }
+    }
+    // Numbers of single precision, written exactly, with enough digits, or with the fewest digits
+    // that distinguish them.
+    void find_single(const std::vector<double>& values) {
+        const auto shortest = [](double value) {
+            std::array<char, 32> text{};
+            const auto end =
+                std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value));
+            double read = 0.0;
+            std::from_chars(text.data(), end.ptr, read);
+            return read == value;
+        };
+        const auto near = [&](double value) {
+            const bool nine = is_multiple(value, last_digit(value, 9));
+            const double written =
+                std::max(decimals_, nine ? digit_unit(value, 9) : 0.0) + ulp(value);
+            return written < 0.25 * ulp(static_cast<float>(value)) &&
+                   std::abs(value - static_cast<float>(value)) <= 0.51 * written;
+        };
+        if (std::ranges::all_of(values, [&](double value) {
+                return value == static_cast<float>(value) || near(value);
+            })) {
+            single_ = 1.0;
+        } else if (std::ranges::all_of(values, shortest)) {
+            single_ = 2.0;
+        }
+    }
+
+    double largest_ = 0.0;
+    double decimals_ = 0.0;  // unit of the last decimal; 0: none
+    int digits_ = 0;         // significant digits; 0: none
+    double single_ = 0.0;    // largest rounding error of single precision, in half units; 0: none
+};
+
+// Line through the times by least squares.
+struct TimeLine {
+    double start = 0.0, step = 0.0;
+    double at(std::size_t i) const { return start + static_cast<double>(i) * step; }
+};
+
+TimeLine fitted_line(const std::vector<double>& time) {
+    const auto last = static_cast<double>(time.size() - 1);
+    // From the first time: sums of large times would be less accurate.
+    double mean = 0.0, slope = 0.0, squares = 0.0;
+    for (const double value : time) {
+        mean += (value - time.front()) / (last + 1.0);
+    }
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        const double from_middle = static_cast<double>(i) - 0.5 * last;
+        slope += from_middle * (time[i] - time.front() - mean);
+        squares += from_middle * from_middle;
+    }
+    TimeLine line;
+    line.step = slope / squares;
+    line.start = time.front() + (mean - 0.5 * last * line.step);
+    return line;
 }
 
 // Largest deviation from even spacing.
-double unevenness(const std::vector<double>& time, double start, double step) {
+double unevenness(const std::vector<double>& time, const TimeLine& line) {
     double most = 0.0;
     for (std::size_t i = 0; i < time.size(); ++i) {
-        most = std::max(most, std::abs(time[i] - start - static_cast<double>(i) * step));
+        most = std::max(most, std::abs(time[i] - line.at(i)));
     }
     return most;
 }
 
-std::string spacing_problem(const std::vector<double>& time, double unit, double average) {
+// First step, from 1, that rounding does not explain; 0 if there is none.
+std::size_t unexplained_step(const std::vector<double>& time, double step,
+                             const WrittenPrecision& precision) {
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        const double rounding = 0.5005 * (precision.unit(time[i - 1]) + precision.unit(time[i]));
+        if (std::abs(time[i] - time[i - 1] - step) > std::max(rounding, kEven * step)) {
+            return i;
+        }
+    }
+    return 0;
+}
+
+std::vector<double> steps_of(const std::vector<double>& time, double factor) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) {
-        steps.push_back(time[i] - time[i - 1]);
+        steps.push_back((time[i] - time[i - 1]) * factor);
     }
+    return steps;
+}
+
+// Reports times that are rounded so coarsely that a missing sample would not show.
+std::string coarse_problem(double unit, double step) {
+    return fmt::format(
+        "the times are rounded to {:.3g} s, too coarse for samples every {:.6g} s: a missing "
+        "sample "
+        "would not show; write more digits, or state the rate with --sampling-Hz",
+        unit, step);
+}
+
+// Mean of the steps about as long as their median.
+double usual_step(const std::vector<double>& steps, double unit) {
+    const double median = machine::upper_median(steps);
+    double sum = 0.0, count = 0.0;
+    for (const double step : steps) {
+        if (std::abs(step - median) <= std::max(0.5 * median, 1.01 * unit)) {
+            sum += step;
+            count += 1.0;
+        }
+    }
+    return sum / count;
+}
+
+// Reports steps that are too long, too short or negative; `unit` is that of the rounding, s.
+std::string spacing_problem(const std::vector<double>& steps, double unit) {
     const auto back =
         std::find_if(steps.begin(), steps.end(), [&](double step) { return step < -1.01 * unit; });
     if (back != steps.end()) {
@@ -51,187 +196,71 @@ std::string spacing_problem(const std::vector<double>& time, double unit, double
             "decreases by {:.6g} s from sample {} to the next; the samples must be evenly spaced",
             -*back, back - steps.begin() + 1);
     }
-    const double usual = machine::upper_median(steps);
-    const double allowed = std::max(0.5 * std::abs(usual), 1.01 * unit);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double usual = usual_step(steps, unit);
+    const bool coarse = unit > kCoarsest * usual;
+    const double allowed = std::max(0.5 * usual, coarse ? 0.0 : 1.001 * unit);
+    for (std::size_t i = 0; i < steps.size() && usual > unit * 0.5; ++i) {
         if (std::abs(steps[i] - usual) <= allowed) {
             continue;
         }
-        const double samples = usual > 0.0 ? std::round(steps[i] / usual) - 1.0 : 0.0;
-        return samples >= 1.0
-                   ? fmt::format(
-                         "there are {:.6g} s between sample {} and the next, and {:.6g} s between "
-                         "most samples: {:.0f} sample(s) are missing; use only the part before or "
-                         "after",
-                         steps[i], i + 1, usual, samples)
-                   : fmt::format(
-                         "there are {:.6g} s between sample {} and the next, and {:.6g} s between "
-                         "most samples; the samples must be evenly spaced",
-                         steps[i], i + 1, usual);
+        const double samples = std::round(steps[i] / usual) - 1.0;
+        return fmt::format(
+            "there are {:.6g} s between sample {} and the next, and {:.6g} s between most "
+            "samples{}{}",
+            steps[i], i + 1, usual,
+            samples >= 1.0 ? fmt::format(": {:.0f} sample(s) are missing; use only the part before "
+                                         "or after",
+                                         samples)
+                           : "; the samples must be evenly spaced",
+            coarse ? fmt::format("; or the times, which are rounded to {:.3g} s, are too coarse: "
+                                 "then state the rate with --sampling-Hz",
+                                 unit)
+                   : "");
+    }
+    if (coarse) {
+        return coarse_problem(unit, usual);
     }
     const auto worst = std::max_element(steps.begin(), steps.end(), [&](double a, double b) {
-        return std::abs(a - average) < std::abs(b - average);
+        return std::abs(a - usual) < std::abs(b - usual);
     });
     return fmt::format(
         "{:.6g} s from sample {} to the next, but {:.6g} s on average; the samples "
         "must be evenly spaced",
-        *worst, worst - steps.begin() + 1, average);
+        *worst, worst - steps.begin() + 1, usual);
 }
 
 }  // namespace
 
-SampleTimes sample_times(std::vector<double> column) {
-    const auto last = static_cast<double>(column.size() - 1);
-    double average = (column.back() - column.front()) / last;
+SampleTimes sample_times(std::vector<double> column, double factor) {
+    const auto [low, high] = std::ranges::minmax(column);
+    if (low == high) {
+        return {{}, fmt::format("is {:.17g} at all samples", low)};
+    }
+    const double average =
+        (column.back() - column.front()) / static_cast<double>(column.size() - 1);
     bool even = average > 0.0;
     for (std::size_t i = 1; i < column.size() && even; ++i) {
         even = std::abs(column[i] - column[i - 1] - average) <= kEven * average;
     }
-    if (even) {
-        return {std::move(column), ""};
+    if (!even) {
+        // A fitted line is more accurate than rounded times.
+        const WrittenPrecision precision(column);
+        const TimeLine line = fitted_line(column);
+        const double unit = precision.largest_unit();
+        const double allowed = std::max(kEven * line.step, 1.01 * unit);
+        if (!(line.step > 0.0) || unit > kCoarsest * line.step ||
+            unevenness(column, line) > allowed ||
+            unexplained_step(column, line.step, precision) > 0) {
+            return {{}, spacing_problem(steps_of(column, factor), unit * factor)};
+        }
+        for (std::size_t i = 0; i < column.size(); ++i) {
+            column[i] = line.at(i);
+        }
     }
-    // Rounded times deviate from evenly spaced ones by up to half a unit; a fitted line is more
-    // accurate.
-    const double unit = decimals_of(column);
-    double mean = 0.0, slope = 0.0, squares = 0.0;
-    for (const double value : column) {
-        mean += value / (last + 1.0);
-    }
-    for (std::size_t i = 0; i < column.size(); ++i) {
-        const double from_middle = static_cast<double>(i) - 0.5 * last;
-        slope += from_middle * (column[i] - mean);
-        squares += from_middle * from_middle;
-    }
-    const double step = slope / squares, start = mean - 0.5 * last * step;
-    if (!(step > 0.0 && unevenness(column, start, step) <= std::max(kEven * step, 1.01 * unit))) {
-        return {{}, spacing_problem(column, unit, average)};
-    }
-    for (std::size_t i = 0; i < column.size(); ++i) {
-        column[i] = start + static_cast<double>(i) * step;
+    for (double& value : column) {
+        value *= factor;
     }
     return {std::move(column), ""};
-}
-
-Pulses tachometer_pulses(std::span<const double> column) {
-    constexpr std::size_t kFewest = 3;
-    constexpr double kHysteresis = 0.2;  // relative to the height, on both sides of half the height
-    constexpr double kIrregular = 1.5;
-    const auto [low, high] = std::minmax_element(column.begin(), column.end());
-    const double height = *high - *low, half = 0.5 * (*high + *low);
-    Pulses pulses;
-    bool armed = false;
-    double crossing = 0.0;
-    for (std::size_t i = 0; i < column.size(); ++i) {
-        if (i > 0 && column[i - 1] < half && column[i] >= half) {
-            crossing = static_cast<double>(i) - (column[i] - half) / (column[i] - column[i - 1]);
-        }
-        if (column[i] < half - kHysteresis * height) {
-            armed = true;
-        } else if (armed && column[i] > half + kHysteresis * height) {
-            armed = false;
-            pulses.at.push_back(crossing);
-        }
-    }
-    if (pulses.at.size() < kFewest) {
-        pulses.problem = fmt::format("{} pulse(s), but {} are needed", pulses.at.size(), kFewest);
-        return pulses;
-    }
-    for (std::size_t i = 2; i < pulses.at.size(); ++i) {
-        const double here = pulses.at[i] - pulses.at[i - 1];
-        const double before = pulses.at[i - 1] - pulses.at[i - 2];
-        if (here > kIrregular * before || before > kIrregular * here) {
-            pulses.problem = fmt::format(
-                "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly spaced: one is "
-                "missing or superfluous",
-                pulses.at[i - 2] + 1.0, pulses.at[i - 1] + 1.0, pulses.at[i] + 1.0);
-            return pulses;
-        }
-    }
-    return pulses;
-}
-
-PulseCount count_pulses(const std::vector<double>& pulses) {
-    const std::size_t n = pulses.size();
-    // Pulses per sample at each pulse, from its neighbours.
-    std::vector<double> speed(n);
-    for (std::size_t p = 0; p < n; ++p) {
-        const std::size_t before = p == 0 ? 0 : p - 1, after = std::min(p + 1, n - 1);
-        speed[p] = static_cast<double>(after - before) / (pulses[after] - pulses[before]);
-    }
-    PulseCount out;
-    out.first = static_cast<std::size_t>(std::ceil(pulses.front()));
-    std::size_t p = 0;
-    for (auto at = static_cast<double>(out.first); at <= pulses.back(); at += 1.0) {
-        while (p + 2 < n && at > pulses[p + 1]) {
-            ++p;
-        }
-        const double length = pulses[p + 1] - pulses[p], t = (at - pulses[p]) / length;
-        // Cubic Hermite interpolation between p and p + 1.
-        out.count.push_back(static_cast<double>(p) + t * t * (3.0 - 2.0 * t) +
-                            length * t * (1.0 - t) * (speed[p] * (1.0 - t) - speed[p + 1] * t));
-    }
-    return out;
-}
-
-namespace {
-
-// Removes the jumps of 2 pi, and makes the angle rise.
-void unwrap(std::vector<double>& angle) {
-    constexpr double kTurn = 2.0 * std::numbers::pi;
-    double turns = 0.0, before = angle.front();
-    for (double& value : angle) {
-        turns -= std::round((value - before) / kTurn);
-        before = value;
-        value += turns * kTurn;
-    }
-    if (angle.back() < angle.front()) {
-        for (double& value : angle) {
-            value = -value;
-        }
-    }
-}
-
-}  // namespace
-
-ShaftAngle shaft_angle(std::vector<double> column) {
-    unwrap(column);
-    ShaftAngle angle;
-    const auto fall = std::adjacent_find(column.begin(), column.end(), std::greater<>());
-    const auto samples = [](auto from, auto to) { return static_cast<std::size_t>(to - from); };
-    if (fall != column.end()) {
-        angle.problem = fmt::format(
-            "turns back by {:.3g} rad from sample {} to the next; cut the "
-            "recording there",
-            *fall - *(fall + 1), samples(column.begin(), fall) + 1);
-        return angle;
-    }
-    if (std::adjacent_find(column.begin(), column.end()) == column.end()) {
-        angle.rad = std::move(column);
-        return angle;
-    }
-    // The count changes between two samples: the shaft angle half a sample before the new count is
-    // the mean of both counts.
-    std::vector<double> at, half_way;
-    for (std::size_t i = 1; i < column.size(); ++i) {
-        if (column[i] > column[i - 1]) {
-            at.push_back(static_cast<double>(i) - 0.5);
-            half_way.push_back(0.5 * (column[i] + column[i - 1]));
-        }
-    }
-    if (at.size() < 3) {
-        angle.problem = fmt::format("changes at only {} sample(s)", at.size());
-        return angle;
-    }
-    angle.first = static_cast<std::size_t>(std::ceil(at.front()));
-    std::size_t k = 0;
-    for (auto i = static_cast<double>(angle.first); i <= at.back(); i += 1.0) {
-        while (i > at[k + 1]) {
-            ++k;
-        }
-        angle.rad.push_back(
-            std::lerp(half_way[k], half_way[k + 1], (i - at[k]) / (at[k + 1] - at[k])));
-    }
-    return angle;
 }
 
 std::vector<double> evenly_spaced(std::size_t samples, double rate) {

@@ -1,5 +1,4 @@
-// Sampling times of a recording: time columns, tachometer pulses and encoder angles, with checks
-// for missing and clipped samples.
+// Sampling times of a recording, with checks for missing and clipped samples.
 #pragma once
 
 #include <span>
@@ -14,37 +13,12 @@ struct SampleTimes {
     std::string problem;
 };
 
-// Evenly spaced times from a column that may have been rounded. Missing samples, and times that
-// stand still or run back by more than the rounding, are reported with their position. `column`
+// Evenly spaced times, s, from a column that may have been rounded: to decimals, to significant
+// digits, or to single or double precision. `factor` converts the column to seconds. Missing
+// samples, and times that stand still or run back by more than the rounding, are reported with
+// their position; so are times rounded so coarsely that a missing sample would not show. `column`
 // must have at least two values.
-SampleTimes sample_times(std::vector<double> column);
-
-// Positions, in samples, at which the pulses of a tachometer rise through half their height.
-// `problem` reports too few, missing or additional pulses.
-struct Pulses {
-    std::vector<double> at;
-    std::string problem;
-};
-Pulses tachometer_pulses(std::span<const double> column);
-
-// Number of pulses passed, at each sample from the first to the last pulse, by cubic interpolation.
-// `first` is the first of these samples.
-struct PulseCount {
-    std::size_t first = 0;
-    std::vector<double> count;
-};
-PulseCount count_pulses(const std::vector<double>& pulses);
-
-// Rising angles of a shaft, rad, at the samples from `first` on, or a description of the problem.
-struct ShaftAngle {
-    std::size_t first = 0;
-    std::vector<double> rad;
-    std::string problem;
-};
-// Shaft angle from an encoder's angle. The column may restart after each turn and may fall
-// (backward rotation). If samples repeat a count, the angle is the mean of two counts where the
-// count changes, and linear in between.
-ShaftAngle shaft_angle(std::vector<double> column);
+SampleTimes sample_times(std::vector<double> column, double factor = 1.0);
 
 // The values 0, 1, 2, ... divided by `rate`.
 std::vector<double> evenly_spaced(std::size_t samples, double rate);

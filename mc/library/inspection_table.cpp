@@ -97,24 +97,18 @@ Columns choose_columns(const TextTable& table, const InspectionOptions& options,
     return chosen;
 }
 
-bool is_missing(const std::string& field) {
-    return field.empty() || field == "NA" || field == "-";
-}
-
 Inspections read_inspections(const TextTable& table, const Columns& chosen, Problems& problems) {
     Inspections data;
-    const bool comma = table.separator != ',';
     std::map<std::string, long> specimens;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const auto& row = table.rows[r];
         const int line = static_cast<int>(table.lines[r]);
         const auto number = [&](std::size_t c) {
-            const auto value = number_of(row[c], comma);
+            const auto value = table.number(r, c);
             if (!value || !std::isfinite(*value)) {
-                problems.push_back(
-                    {.line = line,
-                     .what = fmt::format("column {}: \"{}\" is not a finite number",
-                                         table.columns[c].name, row[c].substr(0, 40))});
+                problems.push_back({.line = line,
+                                    .what = fmt::format("column {}: {}", table.columns[c].name,
+                                                        table.no_number_text(r, c))});
             }
             return value.value_or(0.0);
         };

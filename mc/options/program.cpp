@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "analysis/report/text_lines.hpp"
 #include "lockstep/kernels/built_kernels.hpp"
@@ -28,7 +29,32 @@ void fit_terminal() {
 
 }  // namespace
 
+namespace {
+
+// Refuses arguments with control characters: messages show arguments, and a terminal would obey
+// escape sequences in them.
+bool check_arguments(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        const std::string seen = printable(argument);
+        const auto is_blank = [](char c) { return c == '\n' || c == '\t' || c == '\r'; };
+        std::string without_blanks(argument);
+        std::erase_if(without_blanks, is_blank);
+        if (!is_printable(without_blanks)) {
+            fmt::print(stderr, "gearpod: argument {} ({}) has control characters; leave them out\n",
+                       i, seen);
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 int run_safely(int argc, char** argv, int (*program)(int argc, char** argv)) {
+    if (!check_arguments(argc, argv)) {
+        return kBadInput;
+    }
     try {
         // A program that was built for another processor would end in an illegal instruction.
         lockstep::choose_instruction_set({});

@@ -54,7 +54,12 @@ class Reading {
                 list_.time = column;
             } else if (column.name == "size") {
                 list_.size = column;
-            } else if (std::find(known.begin(), known.end(), column.name) == known.end()) {
+            } else if (!column.name.empty() &&
+                       std::find(known.begin(), known.end(), column.name) == known.end()) {
+                if (std::ranges::count(list_.inputs, column.name, &TableColumn::name) > 0) {
+                    problems_.push_back({table_.path, 0, column.name, "is the name of two columns",
+                                         "give each condition a name"});
+                }
                 list_.inputs.push_back(column);
                 input_columns_.push_back(c);
             }
@@ -78,7 +83,7 @@ class Reading {
             recording.time = number("time");
         }
         for (const std::size_t c : input_columns_) {
-            recording.inputs.push_back(number(table_.columns[c].name));
+            recording.inputs.push_back(number(c));
         }
         if (field("size") != nullptr) {
             const double size = number("size");
@@ -107,19 +112,17 @@ class Reading {
         recording.condition = healthy ? Condition::healthy : Condition::faulty;
     }
 
-    // Field of the current row; null if the column does not exist or the field is empty.
+    // Field of the current row; null if the column does not exist or the field has no value.
     const std::string* field(const std::string& name) const {
         const auto column = table_.find(name);
-        return column && !table_.rows[row_][*column].empty() ? &table_.rows[row_][*column]
-                                                             : nullptr;
+        return column && !is_missing(table_.rows[row_][*column]) ? &table_.rows[row_][*column]
+                                                                 : nullptr;
     }
-    double number(const std::string& name) {
-        const std::string* text = field(name);
-        const auto value =
-            text != nullptr ? number_of(*text, table_.separator != ',') : std::optional<double>();
+    double number(const std::string& name) { return number(*table_.find(name)); }
+    double number(std::size_t column) {
+        const auto value = table_.number(row_, column);
         if (!value || !std::isfinite(*value)) {
-            reject(name, fmt::format("\"{}\" is not a finite number", text != nullptr ? *text : ""),
-                   "");
+            reject(table_.columns[column].name, table_.no_number_text(row_, column), "");
         }
         return value.value_or(0.0);
     }

@@ -9,6 +9,7 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/auc.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"
 
@@ -168,7 +169,7 @@ std::string verdict_sentence(const std::string& recording, const Population& pop
     std::string text = fmt::format(
         "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} (from {} {} at {:.3g} % false "
         "alarms), and {} than {} of {} healthy values ({:.4g} %)",
-        recording, verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
+        printable(recording), verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
         100.0 * std::abs(verdict.margin), verdict.alarm ? "beyond" : "short of", known.threshold,
         known.sample, whom, 100.0 * population.false_alarm_rate,
         known.alarm == analysis::Alarm::high ? "larger" : "smaller", verdict.less_extreme,

@@ -43,11 +43,10 @@ Value list_of(const FileColumn& source, const Position& position, std::size_t mo
     const std::size_t rows = table.rows.size();
     const std::size_t every = rows > most ? (rows + most - 1) / most : 1;
     for (std::size_t row = 0; row < rows; row += every) {
-        const std::string& field = table.rows[row][*column];
-        const auto number = number_of(field, table.separator == ';');
+        const auto number = table.number(row, *column);
         if (!number) {
-            throw SignalError(
-                fmt::format("{}:{}: \"{}\" is not a number", source.file, table.lines[row], field));
+            throw SignalError(fmt::format("{}:{}: {}", source.file, table.lines[row],
+                                          table.no_number_text(row, *column)));
         }
         Value element;
         element.kind = Value::Kind::number;

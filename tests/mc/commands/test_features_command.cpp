@@ -368,6 +368,11 @@ TEST_CASE("Control characters in file names and titles do not reach the terminal
     const Outcome column = program("features " + file + " --study " + kSmall);
     CHECK(column.code == 2);
     CHECK_FALSE(column.mentions("\x1b"));
+    const Outcome option =
+        program("features " + file + " --sensor '\x1b[31mred' --study " + kSmall);
+    CHECK(option.code == 2);
+    CHECK(option.mentions("argument 4 (?[31mred) has control characters"));
+    CHECK_FALSE(option.mentions("\x1b"));
     for (const char* line : {"title = \"\\u001b[31mred\"\n", "title = \"\\u009b31mred\"\n",
                              "title = \"two\\nlines\"\n", "\"\\u001b[31mred\" = 1\n"}) {
         write_bytes(study, std::string(line) + bytes_of(kSmall));

@@ -58,6 +58,35 @@ TEST_CASE("pod takes several columns as repeats, a byte order mark and decimal c
     CHECK(foreign["signal_response"]["a90"] == plain["signal_response"]["a90"]);
 }
 
+TEST_CASE("pod reads tables as pandas, R and spreadsheets write them") {
+    const Folder folder;
+    const std::string options = " --size \"depth, mm\" --hit y --link logit --size-scale linear";
+    std::string plain, pandas, excel;
+    for (int i = 0; i < 40; ++i) {
+        const std::string size = std::to_string(i / 4) + "." + std::to_string(25 * (i % 4));
+        const std::string hit = i % 7 == 3 ? "0" : i > 15 || i % 5 == 0 ? "1" : "0";
+        std::string comma = size;
+        std::replace(comma.begin(), comma.end(), '.', ',');
+        plain += size + "," + hit + "\n";
+        pandas += std::to_string(i) + "," + size + "," + hit + ",note " + std::to_string(i) + "\n";
+        excel += comma + ";" + hit + ";\r\n";
+    }
+    const auto expected =
+        pod_of(written(folder, "a.csv", "\"depth, mm\",y\n" + plain) + options)["hit_miss"]["a90"];
+    const std::pair<const char*, std::string> forms[] = {
+        {"pandas", ",\"depth, mm\",y,remark\n" + pandas},
+        {"missing inspections",
+         ",\"depth, mm\",y,remark\n" + pandas + "40,3,NaN,x\n41,4,,\n42,4,NA,\n"},
+        {"a spreadsheet", "sep=;\r\ndepth, mm;y;\r\n" + excel},
+        {"a unit in brackets", "\"depth, mm [mm]\",y\n" + plain}};
+    for (const auto& [form, text] : forms) {
+        INFO(form);
+        CHECK(pod_of(written(folder, "b.csv", text) +
+                     options)["hit_miss"]["a90"]["estimate"]["size"] ==
+              expected["estimate"]["size"]);
+    }
+}
+
 TEST_CASE("pod refuses unusable input by name, all at once") {
     const Folder folder;
     const auto refused = [](const std::string& arguments) {
@@ -66,11 +95,11 @@ TEST_CASE("pod refuses unusable input by name, all at once") {
         return outcome.output;
     };
     const std::string bad =
-        refused(written(folder, "bad.csv", "size,hit\n1,2\n-3,1\nx,0\n4,nan\n"));
+        refused(written(folder, "bad.csv", "size,hit\n1,2\n-3,1\nx,0\n4,inf\n"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:2: column hit: 2 is neither 1 (hit) nor 0 (miss)"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:3: column size: -3 is negative"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is not a finite number"));
-    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is not a finite number"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"inf\" is not a finite number"));
     CHECK_THAT(refused(written(folder, "names.csv", "length,seen\n1,1\n")),
                Catch::Contains("its columns are length, seen"));
     CHECK_THAT(refused(written(folder, "row.csv", "size,hit\n1\n")),

@@ -281,6 +281,42 @@ TEST_CASE("An encoder's angle gives the mesh phase: coarse, reset each turn or d
     CHECK(features(by("other", fine), "--encoder angle").mentions("no column angle"));
 }
 
+TEST_CASE("An encoder or a mesh phase that jumps ahead is refused with the time and the size") {
+    const Simulated s;
+    constexpr double kTurn = 35.0 * 8.0;  // in samples
+    for (const double jump : {0.005, 0.1, 0.49}) {
+        std::vector<double> angle, phase;
+        for (std::size_t i = 0; i < s.time.size(); ++i) {
+            angle.push_back(static_cast<double>(i) / kTurn + (i >= 700 ? jump : 0.0));
+            phase.push_back(35.0 * angle.back());
+        }
+        Outcome outcome = features(s.write("time,sensor,angle [turns]", {s.time, s.sensor, angle}),
+                                   "--encoder angle");
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(
+            outcome.mentions("column angle: jumps ahead by " + std::to_string(jump).substr(0, 3)));
+        CHECK(outcome.mentions("turn at sample 701"));
+        CHECK(outcome.mentions("(2.5 s)"));
+        outcome = features(s.write("mesh_phase,sensor", {phase, s.sensor}));
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("column mesh_phase: jumps by"));
+    }
+}
+
+TEST_CASE("Times of single precision and of six digits, and Unix times, are even") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    std::vector<double> unix_time = s.time, single = s.time;
+    for (std::size_t i = 0; i < s.time.size(); ++i) {
+        unix_time[i] += 1.7e9;
+        single[i] = static_cast<float>(s.time[i] + 64.0);
+    }
+    check_alike(features_of(s.write("time,sensor", {unix_time, s.sensor})), plain, 1e-5);
+    check_alike(features_of(s.write("time,sensor", {single, s.sensor}, 9)), plain, 1e-5);
+    check_alike(features_of(s.write("time,sensor", {s.time, s.sensor}, 6)), plain, 1e-3);
+}
+
 TEST_CASE("A recording is compared with a results file in one sentence") {
     const Folder folder;
     const std::string study = kSmall +

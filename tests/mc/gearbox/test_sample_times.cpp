@@ -1,0 +1,140 @@
+// Checks that written times are recognized as even by the precision of their format, and that a
+// missing sample is found in every format.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "mc/gearbox/sample_times.hpp"
+
+namespace test_sample_times {
+
+using namespace gearpod;
+
+namespace {
+
+constexpr double kStep = 1.0 / 5120.0;
+
+// How a format writes a time.
+struct Format {
+    const char* name;
+    std::function<double(double)> written;
+    double start = 0.0, unit;  // unit: of the rounding at the last time
+};
+
+double text(const char* format, double value) {
+    return std::stod(fmt::format(fmt::runtime(format), value));
+}
+
+const std::vector<Format>& formats() {
+    static const std::vector<Format> all{
+        {"doubles", [](double t) { return t; }, 3.0, 1e-15},
+        {"nine decimals", [](double t) { return text("{:.9f}", t); }, 0.0, 1e-9},
+        {"four decimals", [](double t) { return text("{:.4f}", t); }, 20.0, 1e-4},
+        {"six significant digits", [](double t) { return text("{:.6g}", t); }, 9.5, 1e-4},
+        {"E13.5 of a universal file", [](double t) { return text("{:.5e}", t); }, 9.5, 1e-4},
+        {"single precision", [](double t) { return double(static_cast<float>(t)); }, 64.0, 7.7e-6},
+        {"single precision, nine digits",
+         [](double t) { return text("{:.9g}", static_cast<float>(t)); }, 64.0, 7.7e-6},
+        {"single precision, shortest",
+         [](double t) { return std::stod(fmt::format("{}", static_cast<float>(t))); }, 64.0,
+         7.7e-6},
+        {"single precision, eight decimals",
+         [](double t) { return text("{:.8f}", static_cast<float>(t)); }, 300.0, 3.1e-5},
+        {"Unix time in doubles", [](double t) { return t; }, 1.7e9, 2.4e-7},
+        {"Unix time with microseconds", [](double t) { return text("{:.6f}", t); }, 1.7e9, 1.3e-6},
+        {"milliseconds", [](double t) { return text("{:.4f}", 1e3 * t); }, 0.0, 1e-7},
+    };
+    return all;
+}
+
+std::vector<double> written(const Format& format, std::size_t count, double step = kStep) {
+    std::vector<double> times;
+    for (std::size_t i = 0; i < count; ++i) {
+        times.push_back(format.written(format.start + static_cast<double>(i) * step));
+    }
+    return times;
+}
+
+double factor(const Format& format) {
+    return std::string(format.name) == "milliseconds" ? 1e-3 : 1.0;
+}
+
+TEST_CASE("even times are recognized in every format, and the rate is exact") {
+    for (const Format& format : formats()) {
+        for (const std::size_t count : {50UL, 5120UL}) {
+            INFO(format.name << " " << count);
+            const mc::SampleTimes times = mc::sample_times(written(format, count), factor(format));
+            CHECK(times.problem == "");
+            REQUIRE(times.seconds.size() == count);
+            const double n = static_cast<double>(count - 1);
+            const double step = (times.seconds.back() - times.seconds.front()) / n;
+            CHECK(std::abs(step - kStep) * n < 2.0 * format.unit);
+            for (std::size_t i = 1; i < count; ++i) {
+                CHECK(std::abs(times.seconds[i] - times.seconds[i - 1] - step) <= 2.5e-3 * kStep);
+            }
+        }
+    }
+}
+
+TEST_CASE("one missing sample is found in every format, wherever it is") {
+    for (const Format& format : formats()) {
+        for (const std::size_t lost : {3UL, 1000UL, 2500UL, 5000UL, 5116UL}) {
+            INFO(format.name << " " << lost);
+            std::vector<double> times = written(format, 5120);
+            times.erase(times.begin() + static_cast<std::ptrdiff_t>(lost));
+            const std::string problem = mc::sample_times(times, factor(format)).problem;
+            CHECK_THAT(problem, Catch::Contains("1 sample(s) are missing"));
+            CHECK_THAT(problem, Catch::Contains(fmt::format("between sample {} and", lost)));
+        }
+    }
+}
+
+TEST_CASE("several missing samples, repeated samples and steps back are found in every format") {
+    for (const Format& format : formats()) {
+        INFO(format.name);
+        std::vector<double> times = written(format, 3000);
+        times.erase(times.begin() + 700, times.begin() + 705);
+        CHECK_THAT(mc::sample_times(times, factor(format)).problem,
+                   Catch::Contains("5 sample(s) are missing"));
+        times = written(format, 3000);
+        times.insert(times.begin() + 700, times[700]);
+        CHECK_THAT(mc::sample_times(times, factor(format)).problem,
+                   Catch::Contains("evenly spaced"));
+        times = written(format, 3000);
+        std::swap(times[700], times[703]);
+        CHECK_THAT(mc::sample_times(times, factor(format)).problem,
+                   Catch::Contains("evenly spaced"));
+    }
+}
+
+TEST_CASE("times that are uneven by more than the rounding are refused") {
+    std::vector<double> jittered, drifting;
+    for (int i = 0; i < 4000; ++i) {
+        jittered.push_back(i * kStep + 0.05 * kStep * std::sin(1.7 * i * i));
+        drifting.push_back(i * kStep * (1.0 + 1e-6 * i));
+    }
+    CHECK_THAT(mc::sample_times(jittered).problem, Catch::Contains("evenly spaced"));
+    CHECK_THAT(mc::sample_times(drifting).problem, Catch::Contains("evenly spaced"));
+}
+
+TEST_CASE("times that are too coarse to show a missing sample are refused as such") {
+    const auto rounded = [](double t) { return text("{:.3f}", t); };
+    for (const double step : {1.024e-3, 1.3e-3, 0.3e-3}) {
+        INFO(step);
+        const auto times = written({"", rounded, 0.0, 1e-3}, 2000, step);
+        CHECK_THAT(mc::sample_times(times).problem, Catch::Contains("too coarse"));
+    }
+    CHECK_THAT(mc::sample_times(written({"", [](double t) { return double(static_cast<float>(t)); },
+                                         1.7e9, 128.0},
+                                        2000))
+                   .problem,
+               Catch::Contains("is 1700000000 at all samples"));
+    // Steps of exactly one unit are even.
+    CHECK(mc::sample_times(written({"", rounded, 0.0, 1e-3}, 2000, 1e-3)).problem == "");
+}
+
+}  // namespace
+
+}  // namespace test_sample_times
