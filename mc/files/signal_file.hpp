@@ -60,12 +60,15 @@ std::string listed_text(const std::vector<std::string>& texts);
 //                of numbers per sample. The separator is a comma, semicolon or tab; decimal
 //                commas are accepted if the separator is not a comma. Lines that begin with #
 //                are comments.
-//   .h5, .hdf5   One-dimensional datasets in the group /signals, or else in the root; with
-//                `row`, rows of two-dimensional ones. Optional attributes: sampling_Hz of the
-//                group or the root, scale (a factor) and unit of a dataset. Data in other files
-//                (links, external and virtual storage) are rejected.
-//   .mat         Real vectors (MATLAB 4 to 7.3), also as fields of structs ("s.sensor"). The
-//                sampling rate may be a variable or field sampling_Hz. Tables are rejected.
+//   .h5, .hdf5   Vectors of numbers, also N x 1, in any group, named by their paths; those in the
+//                group /signals by their names. "data:2" is the second column of a matrix; with
+//                `row`, rows of two-dimensional datasets. Attributes state the unit (unit, units,
+//                ...), the scale (scale, scale_factor, add_offset, ...) and the sampling rate (fs,
+//                sampling_rate, dt, wf_increment, ...). Data in other files (links, external and
+//                virtual storage) are rejected.
+//   .mat         Real vectors and matrix columns (MATLAB 4 to 7.3), also in structs ("s.sensor")
+//                and cells ("c{1}"). The last variable of a name counts. The sampling rate may be a
+//                variable or field with a usual name. Tables are rejected.
 //   .wav         The column sensor, or channel1, channel2, ...; integers are fractions of the
 //                full scale.
 //   .uff, .unv   Dataset 58, real and evenly sampled in time: the column sensor, or function1,
