@@ -173,7 +173,7 @@ void limit_memory(std::size_t more) {
     }
     limit_memory(memory);
     std::unique_ptr<SignalFile> file;
-    Request request = Request::names;  // the first reply reports whether the file can be opened
+    Request request = Request::notes;  // the first reply reports whether the file can be opened
     std::string name;
     for (char kind = 0;; request = static_cast<Request>(kind)) {
         Reply reply = Reply::good;
@@ -227,7 +227,7 @@ class IsolatedSignal : public SignalFile {
         }
         there.close();
         try {
-            names_ = texts_in(receive_reply());
+            receive_reply();
         } catch (...) {
             end();
             throw;
@@ -237,7 +237,9 @@ class IsolatedSignal : public SignalFile {
     IsolatedSignal& operator=(const IsolatedSignal&) = delete;
     ~IsolatedSignal() override { end(); }
 
-    std::vector<std::string> names() const override { return names_; }
+    std::vector<std::string> names() const override {
+        return texts_in(send_request(Request::names, ""));
+    }
     std::vector<double> read(const std::string& name) override {
         return doubles_in(send_request(Request::read, name));
     }
@@ -256,11 +258,11 @@ class IsolatedSignal : public SignalFile {
     std::vector<std::string> notes() override { return texts_in(send_request(Request::notes, "")); }
 
   private:
-    std::string send_request(Request request, const std::string& name) {
+    std::string send_request(Request request, const std::string& name) const {
         send_message(here_->get(), static_cast<char>(request), name);
         return receive_reply();
     }
-    std::string receive_reply() {
+    std::string receive_reply() const {
         char kind = 0;
         std::string text;
         if (!receive_message(here_->get(), kind, text, timeout_ms_)) {
@@ -287,7 +289,6 @@ class IsolatedSignal : public SignalFile {
     std::unique_ptr<Descriptor> here_;
     pid_t child_ = -1;
     int timeout_ms_ = 0;
-    std::vector<std::string> names_;
 };
 
 }  // namespace

@@ -49,17 +49,20 @@ class SignalFile {
 // The first twenty of the texts, "a, b, c and 5 more"; "none" if there are none.
 std::string listed_text(const std::vector<std::string>& texts);
 
-// Opens a file according to the extension of its name. HDF5 and MAT files are read in a child
+// Opens a file according to the extension of its name. HDF5, MAT, TDMS and sound files are read in a child
 // process (isolated_signal.hpp). Throws SignalError.
 //   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
 //                of numbers per sample, in any usual form (text_dialect.hpp); also compressed
 //                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.
-//   .h5, .hdf5   One-dimensional datasets in the group /signals, or else in the root; with
-//                `row`, rows of two-dimensional ones. Optional attributes: sampling_Hz of the
-//                group or the root, scale (a factor) and unit of a dataset. Data in other files
-//                (links, external and virtual storage) are rejected.
-//   .mat         Real vectors (MATLAB 4 to 7.3), also as fields of structs ("s.sensor"). The
-//                sampling rate may be a variable or field sampling_Hz. Tables are rejected.
+//   .h5, .hdf5   Vectors of numbers, also N x 1, in any group, named by their paths; those in the
+//                group /signals by their names. "data:2" is the second column of a matrix; with
+//                `row`, rows of two-dimensional datasets. Attributes state the unit (unit, units,
+//                ...), the scale (scale, scale_factor, add_offset, ...) and the sampling rate (fs,
+//                sampling_rate, dt, wf_increment, ...). Data in other files (links, external and
+//                virtual storage) are rejected.
+//   .mat         Real vectors and matrix columns (MATLAB 4 to 7.3), also in structs ("s.sensor")
+//                and cells ("c{1}"). The last variable of a name counts. The sampling rate may be a
+//                variable or field with a usual name. Tables are rejected.
 //   .wav, .rf64, .w64, .flac, .aiff, .au, .caf
 //                The column sensor, or channel1, channel2, ...; integers are fractions of the
 //                full scale. Lossy compression is rejected.

@@ -1,95 +1,26 @@
 // Reads HDF5 files of signals, as `simulate` and other programs write them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 
+#include "mc/files/column_search.hpp"
+#include "mc/files/hdf5_attributes.hpp"
 #include "mc/files/hdf5_data.hpp"
-#include "mc/files/signal_file.hpp"
+#include "mc/files/hdf5_index.hpp"
+#include "mc/files/signal_units.hpp"
+#include "mc/files/unit_expression.hpp"
 #include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// True if the values of a member are in another file. The author of the file could choose any path
-// for it.
-bool is_external(hid_t group, const std::string& name) {
-    H5L_info_t link{};
-    check(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), name);
-    if (link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) {
-        return true;
-    }
-    H5O_info_t info{};
-    if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
-        info.type != H5O_TYPE_DATASET) {
-        return false;
-    }
-    const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-    const Hdf5Handle made(H5Dget_create_plist(dataset.get()), H5Pclose, name);
-    return H5Pget_external_count(made.get()) > 0 || H5Pget_layout(made.get()) == H5D_VIRTUAL;
-}
-
-// Number of dimensions of a numeric dataset; 0 if `name` is not one.
-int dimensions_of(hid_t group, const std::string& name) {
-    H5O_info_t info{};
-    if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
-        info.type != H5O_TYPE_DATASET) {
-        return 0;
-    }
-    const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-    const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose, name);
-    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
-    const H5T_class_t kind = H5Tget_class(type.get());
-    return kind == H5T_FLOAT || kind == H5T_INTEGER ? H5Sget_simple_extent_ndims(space.get()) : 0;
-}
-
-Shape shape_of(hid_t group, const std::string& name) {
-    const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
-    Shape shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.get())));
-    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-    return shape;
-}
-
-void reject_external(const std::string& path, hid_t group, const std::string& name) {
-    if (is_external(group, name)) {
-        throw SignalError(
-            fmt::format("{}: {} is stored in another file (by a link, or external or virtual "
-                        "storage), which is not supported; copy it into this file, for example "
-                        "with h5copy or h5py's group.copy",
-                        path, printable(name)));
-    }
-}
-
-// The group /signals if it exists, else the root.
-Hdf5Handle signals_of(const std::string& path, hid_t file) {
-    if (H5Lexists(file, "signals", H5P_DEFAULT) <= 0) {
-        return open_group(file, "/");
-    }
-    reject_external(path, file, "signals");
-    return open_group(file, "signals");
-}
-
-// Names in alphabetical order, because groups of other programs do not record the order of
-// creation.
-std::vector<std::string> columns_of(const std::string& path, hid_t group, int dimensions) {
-    H5G_info_t info{};
-    check(H5Gget_info(group, &info), "names");
-    std::vector<std::string> names;
-    for (hsize_t i = 0; i < info.nlinks; ++i) {
-        const ssize_t length =
-            H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
-        check(length < 0 ? -1 : 0, "names");
-        std::string name(static_cast<std::size_t>(length) + 1, '\0');
-        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
-                           H5P_DEFAULT);
-        name.pop_back();
-        reject_external(path, group, name);
-        if (dimensions_of(group, name) == dimensions) {
-            names.push_back(name);
-        }
-    }
-    return names;
-}
+constexpr std::string_view kUnitNames =
+    "unit units unitstring physicalunit physicalunits engineeringunit engineeringunits engunits";
+constexpr std::string_view kScaleNames = "scale scalefactor scalingfactor conversion";
+constexpr std::string_view kUnusedNames =
+    "gain multiplier sensitivity calibration calibrationfactor calfactor slope intercept bias";
 
 class SignalHdf5 : public SignalFile {
   public:
@@ -97,79 +28,237 @@ class SignalHdf5 : public SignalFile {
         : path_(path),
           row_(row),
           most_(std::filesystem::file_size(path)),
-          file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path),
-          group_(signals_of(path, file_.get())),
-          names_(columns_of(path, group_.get(), row ? 2 : 1)) {}
+          index_(path, row.has_value()) {}
 
-    std::vector<std::string> names() const override { return names_; }
+    std::vector<std::string> names() const override {
+        const SilentHdf5 silent;
+        return index_.signals();
+    }
+
+    std::string contents() override {
+        const SilentHdf5 silent;
+        return index_.contents();
+    }
+
+    std::vector<std::string> notes() override { return notes_; }
+
+    std::string find(const ColumnChoice& choice) override {
+        const SilentHdf5 silent;
+        std::vector<std::string> found = index_.matching(choice);
+        const auto part = matrix_column(choice.name);
+        if (found.empty() && part) {
+            found = index_.matching({part->matrix, choice.near, choice.requested});
+            for (std::string& name : found) {
+                name += fmt::format(":{}", part->column);
+            }
+        }
+        if (found.size() != 1) {
+            if (found.size() > 1 && choice.requested) {
+                refuse(fmt::format("several columns are named {}: {}; give the whole path",
+                                   choice.name, listed_text(found)));
+            }
+            return "";
+        }
+        const std::string problem = index_.problem_of(found.front());
+        if (!problem.empty()) {
+            if (choice.requested) {
+                refuse(problem);
+            }
+            add_note(problem + "; it is not used");
+            return "";
+        }
+        if (choice.near.empty() && !choice.name.ends_with(found.front())) {
+            add_note(fmt::format("column {} is {}", choice.name, found.front()));
+        }
+        return found.front();
+    }
 
     std::vector<double> read(const std::string& name) override {
         const SilentHdf5 silent;
         try {
             // Compressed values may be much larger than the file.
             constexpr std::size_t kMostCompressed = 1000;
-            std::vector<double> values =
-                row_ ? row_of(name, kMostCompressed * most_)
-                     : read_numbers(group_.get(), name, kMostCompressed * most_).values;
-            if (H5Aexists_by_name(group_.get(), name.c_str(), "scale", H5P_DEFAULT) > 0) {
-                const double scale = read_number(group_.get(), name, "scale");
-                for (double& value : values) {
-                    value *= scale;
-                }
-            }
+            std::vector<double> values = index_.read(name, row_, kMostCompressed * most_);
+            apply_scale(name, values);
             return values;
         } catch (const Hdf5Error&) {
-            throw SignalError(fmt::format("{}: {} cannot be read", path_, name));
+            throw SignalError(fmt::format("{}: {} cannot be read", path_, printable(name)));
         }
     }
 
     std::string unit(const std::string& name) override {
         const SilentHdf5 silent;
-        if (H5Aexists_by_name(group_.get(), name.c_str(), "unit", H5P_DEFAULT) <= 0) {
-            return "";
-        }
         try {
-            return read_text(group_.get(), name, "unit");
+            std::string unit = stated_unit(name, index_.attributes(name));
+            const std::string group = group_of(name, '/');
+            if (unit.empty()) {
+                const std::string around = stated_unit(name, index_.group_attributes(group));
+                if (!around.empty() && index_.signals_in(group) == 1) {
+                    unit = around;
+                } else if (!around.empty()) {
+                    add_note(fmt::format("unit {} of the group of {} is not used", around, name));
+                }
+            }
+            return unit;
         } catch (const Hdf5Error&) {
-            throw SignalError(fmt::format("{}: the unit of {} must be text", path_, name));
+            throw SignalError(
+                fmt::format("{}: the attributes of {} cannot be read", path_, printable(name)));
         }
     }
 
-    std::optional<double> sampling_Hz() override {
+    std::optional<double> sampling_Hz() override { return sampling_Hz_of(""); }
+
+    std::optional<double> sampling_Hz_of(const std::string& name) override {
         const SilentHdf5 silent;
-        for (const hid_t object : {group_.get(), file_.get()}) {
-            if (H5Aexists_by_name(object, ".", "sampling_Hz", H5P_DEFAULT) > 0) {
-                try {
-                    return read_number(object, ".", "sampling_Hz");
-                } catch (const Hdf5Error&) {
-                    throw SignalError(path_ + ": the attribute sampling_Hz must be one number");
+        try {
+            std::vector<NumberStatement> all;
+            if (!name.empty()) {
+                add_rates(index_.attributes(name), all);
+            }
+            for (std::string group = group_of(name, '/'); all.empty();
+                 group = group_of(group, '/')) {
+                add_rates(index_.group_attributes(group), all);
+                for (const auto& [dataset, value] : index_.scalars_in(group)) {
+                    add_rates({{leaf_of(dataset, '/'), {}, {value}}}, all);
+                }
+                if (group.empty()) {
+                    break;
                 }
             }
+            if (all.empty()) {
+                add_rates(index_.root_attributes(), all);
+            }
+            return agreed_rate_Hz(all, path_);
+        } catch (const Hdf5Error&) {
+            throw SignalError(path_ + ": its attributes cannot be read");
         }
-        return std::nullopt;
     }
 
   private:
-    std::vector<double> row_of(const std::string& name, std::size_t most) {
-        const Shape shape = shape_of(group_.get(), name);
-        if (shape[1] > most) {
-            throw Hdf5Error(name);
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw SignalError(fmt::format("{}: {}", path_, printable(what)));
+    }
+    void add_note(const std::string& text) {
+        if (std::ranges::find(notes_, text) == notes_.end()) {
+            notes_.push_back(text);
         }
-        if (*row_ >= shape[0]) {
-            throw SignalError(
-                fmt::format("{}: {} has {} rows, but row {} is requested (counted from 0)", path_,
-                            name, shape[0], *row_));
+    }
+
+    // Statements of the unit; if they differ, a text that is no unit and shows them.
+    std::string stated_unit(const std::string& name, const std::vector<Hdf5Attribute>& all) const {
+        std::string unit, first;
+        for (const Hdf5Attribute& attribute : all) {
+            if (!is_among(plain_name(attribute.name), kUnitNames)) {
+                continue;
+            }
+            const std::size_t part = part_of(name, attribute.texts.size());
+            if (part >= attribute.texts.size()) {
+                refuse(
+                    fmt::format("the attribute {} of {} must be one text", attribute.name, name));
+            }
+            const std::string& text = attribute.texts[part];
+            if (text.empty() || lower_case(text) == "none") {
+                continue;
+            }
+            if (!unit.empty() && plain_unit(text) != plain_unit(unit)) {
+                return fmt::format("{} (attribute {}) but {} (attribute {})", unit, first, text,
+                                   attribute.name);
+            }
+            unit = unit.empty() ? text : unit;
+            first = first.empty() ? attribute.name : first;
         }
-        std::vector<double> values;
-        read_rows(group_.get(), name, shape, {*row_, 1}, values);
-        return values;
+        return unit;
+    }
+
+    // Index of the value for a column among those of an attribute: 0 for a scalar; that of the
+    // column if there is one for each column of a matrix; else the number of values.
+    std::size_t part_of(const std::string& name, std::size_t values) const {
+        if (values == 1) {
+            return 0;
+        }
+        const auto part = matrix_column(name);
+        return part && values == index_.columns_of(part->matrix) ? part->column - 1 : values;
+    }
+
+    std::optional<double> number_of_attribute(const std::string& name,
+                                              const Hdf5Attribute& attribute) const {
+        if (const auto number = attribute.number()) {
+            return number;
+        }
+        const std::size_t part = part_of(name, attribute.numbers.size());
+        return part < attribute.numbers.size() ? std::optional(attribute.numbers[part])
+                                               : std::nullopt;
+    }
+
+    // Applies value = raw * scale + offset (CF conventions, section 8.1; NWB conversion, offset).
+    void apply_scale(const std::string& name, std::vector<double>& values) {
+        std::optional<double> scale, offset;
+        std::string scale_name, offset_name;
+        const auto take = [&](std::optional<double>& to, std::string& of,
+                              const Hdf5Attribute& attribute) {
+            const auto number = number_of_attribute(name, attribute);
+            if (!number) {
+                refuse(
+                    fmt::format("the attribute {} of {} must be one number", attribute.name, name));
+            }
+            if (to && *to != *number) {
+                refuse(fmt::format("{} has the attributes {} = {:g} and {} = {:g}; they differ",
+                                   name, of, *to, attribute.name, *number));
+            }
+            to = number;
+            of = attribute.name;
+        };
+        for (const Hdf5Attribute& attribute : index_.attributes(name)) {
+            const std::string plain = plain_name(attribute.name);
+            if (is_among(plain, kScaleNames)) {
+                take(scale, scale_name, attribute);
+            } else if (plain == "addoffset" || plain == "offset") {
+                take(offset, offset_name, attribute);
+            } else if (plain == "fillvalue" || plain == "missingvalue") {
+                for (double& value : values) {
+                    value = std::ranges::count(attribute.numbers, value) > 0
+                                ? std::numeric_limits<double>::quiet_NaN()
+                                : value;
+                }
+            } else if (const auto number = attribute.number();
+                       number && *number != 1.0 && is_among(plain, kUnusedNames)) {
+                add_note(fmt::format("attribute {} = {:g} of {} is not used", attribute.name,
+                                     *number, name));
+            }
+        }
+        const std::string by = plain_name(scale_name);
+        if (offset.value_or(0.0) != 0.0 && scale.value_or(1.0) != 1.0 &&
+            plain_name(offset_name) == "offset" && by != "conversion") {
+            refuse(
+                fmt::format("{} has {} = {:g} and offset = {:g}, in an order that is not "
+                            "defined; name them scale_factor and add_offset",
+                            name, scale_name, *scale, *offset));
+        }
+        for (double& value : values) {
+            value = scale ? value * *scale : value;
+            value = offset ? value + *offset : value;
+        }
+    }
+
+    void add_rates(const std::vector<Hdf5Attribute>& attributes,
+                   std::vector<NumberStatement>& rates) const {
+        for (const Hdf5Attribute& attribute : attributes) {
+            if (!stated_rate_Hz({attribute.name, 1.0})) {
+                continue;
+            }
+            const auto number = attribute.number();
+            if (!number) {
+                refuse(fmt::format("the attribute {} must be one number", attribute.name));
+            }
+            rates.push_back({attribute.name, *number});
+        }
     }
 
     std::string path_;
     std::optional<std::size_t> row_;
     std::size_t most_;
-    Hdf5Handle file_, group_;
-    std::vector<std::string> names_;
+    Hdf5Index index_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace
@@ -180,7 +269,9 @@ std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
     try {
         return std::make_unique<SignalHdf5>(path, row);
     } catch (const Hdf5Error&) {
-        throw SignalError(path + ": is not an HDF5 file, or is damaged");
+        const std::string problem = hdf5_open_problem(path);
+        throw SignalError(
+            fmt::format("{}: {}", path, problem.empty() ? "is a damaged HDF5 file" : problem));
     }
 }
 

@@ -3,18 +3,17 @@
 #include <matio.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <fstream>
+#include <string_view>
 
+#include "mc/files/column_search.hpp"
 #include "mc/files/hdf5_handle.hpp"
+#include "mc/files/mat_index.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-using Matrix = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
 
 template <class Value>
 std::vector<double> values_of(const matvar_t& matrix, std::size_t count) {
@@ -49,147 +48,302 @@ std::vector<double> matrix_numbers(const matvar_t& matrix, std::size_t count) {
     return {};
 }
 
-bool is_real_vector(const matvar_t& matrix) {
-    return matrix.class_type >= MAT_C_DOUBLE && matrix.class_type <= MAT_C_UINT64 &&
-           matrix.isComplex == 0 && matrix.rank == 2 &&
-           (matrix.dims[0] == 1 || matrix.dims[1] == 1);
-}
-
-// True if a MAT file of version 5 or 7 is truncated; matio would read the missing part as zeros.
-// The file is a sequence of elements: type and length (4 bytes each), then the data. Source:
-// MathWorks, "MAT-File Level 5 File Format".
-bool is_cut(const std::string& path) {
-    constexpr std::uint64_t kHeader = 128, kTag = 8;
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, file.tellg()));
-    std::array<unsigned char, kHeader> header{};
-    const auto read = [&](std::uint64_t at, unsigned char* to, std::streamsize count) {
-        file.seekg(static_cast<std::streamoff>(at));
-        return static_cast<bool>(file.read(reinterpret_cast<char*>(to), count));
-    };
-    if (size < kHeader || !read(0, header.data(), kHeader)) {
-        return false;
+// Text of a char array; "" if it is none.
+std::string mat_text(const matvar_t& matrix) {
+    std::string text;
+    const std::size_t bytes = matrix.nbytes;
+    if (matrix.class_type != MAT_C_CHAR || matrix.data == nullptr || bytes > 1000) {
+        return "";
     }
-    const bool little = header[126] == 'I' && header[127] == 'M';
-    const bool big = header[126] == 'M' && header[127] == 'I';
-    if ((!little && !big) || header[little ? 125 : 124] != 1) {
-        return false;  // another version
-    }
-    std::array<unsigned char, kTag> tag{};
-    std::uint64_t at = kHeader;
-    while (size - at >= kTag && read(at, tag.data(), kTag)) {
-        std::uint64_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            length = 256 * length + tag[little ? 7 - i : 4 + i];
+    const auto* const data = static_cast<const unsigned char*>(matrix.data);
+    const auto width = static_cast<std::size_t>(std::max(1, matrix.data_size));
+    for (std::size_t at = 0; at + width <= bytes; at += width) {
+        const unsigned code = width == 1 ? data[at] : data[at] | data[at + 1] << 8U;
+        if (width == 1 || code < 0x80) {
+            text += static_cast<char>(code);
+        } else if (code < 0x800) {
+            text += static_cast<char>(0xc0U | code >> 6U);
+            text += static_cast<char>(0x80U | (code & 0x3fU));
+        } else {
+            text += static_cast<char>(0xe0U | code >> 12U);
+            text += static_cast<char>(0x80U | (code >> 6U & 0x3fU));
+            text += static_cast<char>(0x80U | (code & 0x3fU));
         }
-        if (length > size - at - kTag) {
-            return true;
-        }
-        at += kTag + length;
     }
-    return false;
-}
-
-// True for a single struct, false for an array of structs.
-bool is_struct(const matvar_t& matrix) {
-    return matrix.class_type == MAT_C_STRUCT && matrix.rank == 2 && matrix.dims[0] == 1 &&
-           matrix.dims[1] == 1;
+    return text;
 }
 
 class SignalMat : public SignalFile {
   public:
     explicit SignalMat(const std::string& path)
         : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
-        if (!file_) {
-            throw SignalError(path + ": is not a MAT file, or is damaged");
-        }
-        if (is_cut(path)) {
-            throw SignalError(path + ": is truncated");
-        }
-        for (;;) {
-            const Matrix matrix(Mat_VarReadNextInfo(file_.get()), Mat_VarFree);
-            if (!matrix) {
-                break;
-            }
-            if (matrix->name != nullptr) {
-                list(*matrix);
-            }
-        }
-        if (names_.empty() && !objects_.empty()) {
+        const std::string problem = mat_file_problem(path);
+        if (!file_ || !problem.empty()) {
             throw SignalError(fmt::format(
-                "{}: {} is a table, timetable or object, which is not supported; in MATLAB, save "
-                "its columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
-                path, printable(objects_)));
+                "{}: {}", path, problem.empty() ? "is not a MAT file, or is damaged" : problem));
+        }
+        arrays_ = mat_arrays(file_.get(), repeated_);
+        for (const MatArray& array : arrays_) {
+            all_.push_back(array.name);
+            if (is_vector(array)) {
+                names_.push_back(array.name);
+            }
+        }
+        const bool any = std::ranges::any_of(arrays_, &MatArray::is_number);
+        const auto object = std::ranges::find_if(arrays_, &MatArray::is_object);
+        if (!any && object != arrays_.end()) {
+            throw SignalError(path + ": " + problem_of(*object));
         }
     }
 
     std::vector<std::string> names() const override { return names_; }
+    std::vector<std::string> notes() override { return notes_; }
+
+    std::string contents() override {
+        std::vector<std::string> texts;
+        for (const MatArray& array : arrays_) {
+            texts.push_back(text_of(array));
+        }
+        return listed_text(texts);
+    }
+
+    std::string find(const ColumnChoice& choice) override {
+        std::vector<std::string> found = matching_columns(all_, choice, '.');
+        const auto part = matrix_column(choice.name);
+        if (found.empty() && part) {
+            found = matching_columns(all_, {part->matrix, choice.near, choice.requested}, '.');
+            for (std::string& name : found) {
+                name += fmt::format(":{}", part->column);
+            }
+        }
+        if (found.size() != 1) {
+            if (found.size() > 1 && choice.requested) {
+                throw SignalError(
+                    fmt::format("{}: several columns are named {}: {}; give the "
+                                "whole name",
+                                path_, printable(choice.name), printable(listed_text(found))));
+            }
+            return "";
+        }
+        const std::string problem = problem_of(found.front());
+        if (!problem.empty()) {
+            if (choice.requested) {
+                throw SignalError(path_ + ": " + problem);
+            }
+            add_note(problem + "; it is not used");
+            return "";
+        }
+        if (choice.near.empty() && found.front() != choice.name) {
+            add_note(fmt::format("column {} is {}", choice.name, found.front()));
+        }
+        const std::string variable = found.front().substr(0, found.front().find_first_of(".({:"));
+        if (std::ranges::find(repeated_, variable) != repeated_.end()) {
+            add_note(
+                fmt::format("the variable {} occurs more than once; the last one is used, as "
+                            "in MATLAB",
+                            variable));
+        }
+        return found.front();
+    }
 
     std::vector<double> read(const std::string& name) override {
         const SilentHdf5 silent;
-        Mat_Rewind(file_.get());
-        // "s.sensor" is a variable and its field; variable names contain no dots.
-        const std::size_t dot = name.find('.');
-        const Matrix whole(Mat_VarRead(file_.get(), name.substr(0, dot).c_str()), Mat_VarFree);
-        const matvar_t* matrix = whole.get();
-        if (matrix != nullptr && dot != std::string::npos) {
-            matrix = is_struct(*whole)
-                         ? Mat_VarGetStructFieldByName(whole.get(), name.substr(dot + 1).c_str(), 0)
-                         : nullptr;
-        }
+        const auto part = matrix_column(name);
+        const MatArray* const array = array_of(name);
         std::vector<double> values;
-        if (matrix != nullptr && is_real_vector(*matrix)) {
-            values = matrix_numbers(*matrix, matrix->dims[0] * matrix->dims[1]);
+        if (array != nullptr) {
+            const MatVariable whole = read_mat_variable(file_.get(), array->variable);
+            const matvar_t* const matrix = whole ? mat_array_in(*whole, array->name) : nullptr;
+            std::size_t count = 1;
+            for (const auto size : array->shape) {
+                count *= size;
+            }
+            values = matrix == nullptr ? values : matrix_numbers(*matrix, count);
         }
         if (values.empty()) {
-            throw SignalError(fmt::format("{}: {} cannot be read", path_, name));
+            throw SignalError(fmt::format("{}: {} cannot be read", path_, printable(name)));
         }
-        return values;
+        const auto form = signal_form(array->shape);
+        return form && form->columns && part
+                   ? column_of_matrix(values, *array, *form, part->column - 1)
+                   : values;
+    }
+
+    // The text NAME_unit next to the column, or `unit` next to it if it is the only signal there.
+    std::string unit(const std::string& name) override {
+        const SilentHdf5 silent;
+        const MatArray* const array = array_of(name);
+        const std::string group = group_of(array->name, '.');
+        std::string unit;
+        for (const MatArray& other : arrays_) {
+            if (other.type != MAT_C_CHAR || group_of(other.name, '.') != group) {
+                continue;
+            }
+            const std::string plain = plain_name(leaf_of(other.name, '.'));
+            const std::string own = plain_name(leaf_of(array->name, '.'));
+            const bool of_column = plain == own + "unit" || plain == own + "units";
+            if (!of_column && plain != "unit" && plain != "units") {
+                continue;
+            }
+            const MatVariable whole = read_mat_variable(file_.get(), other.variable);
+            const matvar_t* const matrix = whole ? mat_array_in(*whole, other.name) : nullptr;
+            const std::string text = matrix == nullptr ? "" : mat_text(*matrix);
+            if (of_column) {
+                return text;
+            }
+            if (signals_in(group) == 1) {
+                unit = text;
+            } else if (!text.empty()) {
+                add_note(
+                    fmt::format("{} = {} is not used, because it may belong to several columns",
+                                other.name, text));
+            }
+        }
+        return unit;
     }
 
     std::optional<double> sampling_Hz() override {
-        const auto named = std::find_if(names_.begin(), names_.end(), [](const std::string& name) {
-            return name == "sampling_Hz" || name.ends_with(".sampling_Hz");
-        });
-        if (named == names_.end()) {
-            return std::nullopt;
+        for (const MatArray& array : arrays_) {
+            if (plain_name(leaf_of(array.name, '.')) == "samplinghz") {
+                return sampling_Hz_of(array.name);
+            }
         }
-        const std::vector<double> rate = read(*named);
-        if (rate.size() != 1) {
-            throw SignalError(path_ + ": sampling_Hz must be one number");
-        }
-        return rate.front();
+        return sampling_Hz_of("");
     }
 
-  private:
-    // Adds a vector, or the vectors among the fields of a struct.
-    void list(matvar_t& matrix) {
-        if (is_object(matrix)) {
-            objects_ += (objects_.empty() ? "" : ", ") + std::string(matrix.name);
-        } else if (is_real_vector(matrix)) {
-            names_.emplace_back(matrix.name);
-        } else if (is_struct(matrix)) {
-            char* const* const fields = Mat_VarGetStructFieldnames(&matrix);
-            const unsigned count = Mat_VarGetNumberOfFields(&matrix);
-            for (unsigned f = 0; fields != nullptr && f < count; ++f) {
-                const matvar_t* field = Mat_VarGetStructFieldByIndex(&matrix, f, 0);
-                if (field != nullptr && fields[f] != nullptr && is_real_vector(*field)) {
-                    names_.push_back(fmt::format("{}.{}", matrix.name, fields[f]));
+    // The rate next to the column, or in the structs around it.
+    std::optional<double> sampling_Hz_of(const std::string& column) override {
+        for (std::string group = group_of(column, '.');; group = group_of(group, '.')) {
+            std::vector<NumberStatement> all;
+            for (const MatArray& array : arrays_) {
+                const std::string leaf = leaf_of(array.name, '.');
+                if (group_of(array.name, '.') != group || !stated_rate_Hz({leaf, 1.0}) ||
+                    !array.is_number()) {
+                    continue;
                 }
+                const std::vector<double> rate = read(array.name);
+                if (rate.size() == 1) {
+                    all.push_back({leaf, rate.front()});
+                } else if (leaf == "sampling_Hz") {
+                    throw SignalError(path_ + ": sampling_Hz must be one number");
+                }
+            }
+            if (!all.empty() || group.empty()) {
+                return agreed_rate_Hz(all, path_);
             }
         }
     }
 
-    // True for classes that matio does not know, such as tables, and for MATLAB objects.
-    static bool is_object(const matvar_t& matrix) {
-        const matio_classes type = matrix.class_type;
-        return type == MAT_C_EMPTY || type == MAT_C_OBJECT || type == MAT_C_OPAQUE;
+  private:
+    void add_note(const std::string& text) {
+        if (std::ranges::find(notes_, text) == notes_.end()) {
+            notes_.push_back(text);
+        }
+    }
+    static bool is_vector(const MatArray& array) {
+        const auto form = signal_form(array.shape);
+        return array.is_number() && form && !form->columns;
+    }
+    std::size_t signals_in(const std::string& group) const {
+        return static_cast<std::size_t>(std::ranges::count_if(arrays_, [&](const MatArray& array) {
+            return group_of(array.name, '.') == group && array.is_number() &&
+                   std::ranges::any_of(array.shape, [](auto size) { return size > 1; });
+        }));
+    }
+    // The array, or the matrix of "data:2".
+    const MatArray* array_of(const std::string& name) const {
+        const auto exact = std::ranges::find(arrays_, name, &MatArray::name);
+        if (exact != arrays_.end()) {
+            return &*exact;
+        }
+        const auto part = matrix_column(name);
+        const auto matrix =
+            part ? std::ranges::find(arrays_, part->matrix, &MatArray::name) : arrays_.end();
+        return matrix == arrays_.end() ? nullptr : &*matrix;
+    }
+    // Values of matrices are in columns (MATLAB).
+    static std::vector<double> column_of_matrix(const std::vector<double>& all,
+                                                const MatArray& array, const SignalForm& form,
+                                                std::size_t column) {
+        std::size_t time_step = 1, column_step = 1;
+        for (std::size_t d = 0; d < array.shape.size(); ++d) {
+            time_step *= d < form.time ? array.shape[d] : 1;
+            column_step *= d < *form.columns ? array.shape[d] : 1;
+        }
+        std::vector<double> values;
+        for (std::size_t i = 0; i < array.shape[form.time]; ++i) {
+            values.push_back(all[i * time_step + column * column_step]);
+        }
+        return values;
+    }
+    static std::string text_of(const MatArray& array) {
+        const std::string shape = shape_text(array.shape), name = printable(array.name);
+        if (array.is_object()) {
+            return name + " (table or object)";
+        }
+        if (array.complex) {
+            return fmt::format("{} (complex, {})", name, shape);
+        }
+        if (!array.is_number()) {
+            return fmt::format("{} ({})", name,
+                               array.type == MAT_C_CHAR     ? "text"
+                               : array.type == MAT_C_SPARSE ? "sparse"
+                                                            : "not numbers");
+        }
+        const auto form = signal_form(array.shape);
+        return form && form->columns ? fmt::format("{} ({}; {}:1 to {}:{})", name, shape, name,
+                                                   name, array.shape[*form->columns])
+                                     : fmt::format("{} ({})", name, shape);
+    }
+    // Reason why an array cannot be read as a column; "" if it can.
+    static std::string problem_of(const MatArray& array) {
+        if (array.is_object()) {
+            return fmt::format(
+                "{} is a table, timetable or object, which is not supported; in MATLAB, save its "
+                "columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
+                printable(array.name));
+        }
+        if (array.complex || array.type == MAT_C_SPARSE) {
+            return fmt::format("{} is {}; save a real, full vector", printable(array.name),
+                               array.complex ? "complex" : "a sparse matrix");
+        }
+        if (!array.is_number()) {
+            return fmt::format("{} is not a column of numbers", text_of(array));
+        }
+        return signal_form(array.shape)
+                   ? ""
+                   : fmt::format(
+                         "{} has the shape {}; a column must be a vector, or a column of a "
+                         "matrix whose longer dimension is time",
+                         printable(array.name), shape_text(array.shape));
+    }
+    std::string problem_of(const std::string& name) const {
+        const MatArray& array = *array_of(name);
+        const std::string problem = problem_of(array);
+        const auto form = signal_form(array.shape);
+        if (!problem.empty() || !form) {
+            return problem;
+        }
+        const std::size_t columns = form->columns ? array.shape[*form->columns] : 0;
+        if (array.name == name) {
+            return columns == 0
+                       ? ""
+                       : fmt::format(
+                             "{} is a matrix of {}; choose one of its columns, {}:1 to {}:{}",
+                             printable(name), shape_text(array.shape), name, name, columns);
+        }
+        const auto part = matrix_column(name);
+        const std::size_t most = std::max<std::size_t>(columns, 1);
+        return part && part->column >= 1 && part->column <= most
+                   ? ""
+                   : fmt::format("{}: {} has {} columns, counted from 1", printable(name),
+                                 printable(array.name), most);
     }
 
     std::string path_;
-    std::unique_ptr<mat_t, int (*)(mat_t*)> file_;
-    std::vector<std::string> names_;
-    std::string objects_;  // variables that are tables or objects
+    MatHandle file_;
+    std::vector<MatArray> arrays_;
+    std::vector<std::string> all_, names_, repeated_, notes_;
 };
 
 }  // namespace

@@ -35,8 +35,10 @@ void add_signal_reading(CLI::App& command, SignalColumns& columns) {
 
 // Adds options for the columns and the sampling of recordings.
 void add_columns(CLI::App& command, SignalColumns& columns) {
-    command.add_option("--sensor", columns.sensor,
-                       "column of the acceleration, m/s^2 (default: sensor)");
+    command.add_option(
+        "--sensor", columns.sensor,
+        "column of the acceleration (default: sensor); in HDF5 and MAT files a name or path, "
+        "and data:2 for the second column of a matrix");
     command
         .add_option("--sampling-Hz", columns.sampling_Hz, "sampling rate (default: from the file)")
         ->check(CLI::PositiveNumber);
