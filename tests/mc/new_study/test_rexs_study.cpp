@@ -305,17 +305,19 @@ TEST_CASE("Hostile and foreign files are refused with their reason") {
     CHECK(make(many + "</model>").refused_with("XML tags"));
 
     const Folder folder;
+    const auto refusal = [](const std::string& path) {
+        return mc::format(mc::new_from_rexs(path, {}, "new").problems);
+    };
     const std::string pipe = folder.file("pipe.rexs");
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-    CHECK(format(new_from_rexs(pipe, {}, "").problems).find("a pipe") != std::string::npos);
-    CHECK(format(new_from_rexs(folder.path(), {}, "").problems).find("is a folder") !=
+    CHECK(refusal(pipe).find("a pipe") != std::string::npos);
+    CHECK(refusal(folder.path()).find("is a folder") != std::string::npos);
+    CHECK(refusal(folder.file("none.rexs")).find("cannot be read (No such file") !=
           std::string::npos);
-    CHECK(format(new_from_rexs(folder.file("none.rexs"), {}, "").problems)
-              .find("cannot be read (No such file") != std::string::npos);
     const std::string huge = folder.file("huge.rexs");
     std::ofstream(huge) << "<model/>";
     std::filesystem::resize_file(huge, std::uintmax_t{1} << 30);
-    CHECK(format(new_from_rexs(huge, {}, "").problems).find("has 1024 MB") != std::string::npos);
+    CHECK(refusal(huge).find("has 1024 MB") != std::string::npos);
 }
 
 TEST_CASE("Stages that are not simulated are listed with the reason") {
