@@ -9,6 +9,7 @@
 #include "mc/gearbox/measured_signal.hpp"
 #include "mc/library/inspection_table.hpp"
 #include "mc/new_study/planetary_datasheet.hpp"
+#include "mc/new_study/rexs_choices.hpp"
 #include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
@@ -16,9 +17,11 @@ namespace gearpod::mc {
 class Ranks;
 
 struct NewOptions {
-    std::string kind;     // gearbox kind
+    std::string kind;     // gearbox kind; empty for a stage of a REXS model
     std::string command;  // command line, quoted in the study's first comment
     PlanetaryDatasheet planetary;
+    std::string rexs;  // model file; empty: the datasheet's values are options
+    RexsChoices rexs_choices;
     std::string out = "-";  // "-": standard output
     bool force = false;     // overwrite a file
 };

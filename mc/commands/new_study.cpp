@@ -5,6 +5,7 @@
 
 #include "mc/commands/commands.hpp"
 #include "mc/new_study/planetary.hpp"
+#include "mc/new_study/rexs_study.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 
@@ -25,15 +26,17 @@ int new_command(const NewOptions& options) {
         fmt::print(stderr, "--out {}: exists already; choose another file, or give --force\n",
                    options.out);
     }
-    const bool writable = can_write({"--out", options.out}, {}) && (!exists || options.force);
-    const NewStudy made = new_planetary(options.planetary, options.command);
-    if (!made.problems.empty()) {
-        print_problems(made.problems);
-    }
+    const bool writable = can_write({"--out", options.out}, {{"the model", options.rexs}}) &&
+                          (!exists || options.force);
+    const NewStudy made = options.rexs.empty()
+                              ? new_planetary(options.planetary, options.command)
+                              : new_from_rexs(options.rexs, options.rexs_choices, options.command);
+    print_problems(made.problems);
     if (!made.problems.empty() || !writable ||
         !write_text_to(options.out, schema_line() + made.text)) {
         return kBadInput;
     }
+    print_problems(made.notices);
     if (options.out != "-") {
         fmt::print(
             "{0}: check its values and replace those that you know, then\n"

@@ -49,8 +49,8 @@ class SignalFile {
 // The first twenty of the texts, "a, b, c and 5 more"; "none" if there are none.
 std::string listed_text(const std::vector<std::string>& texts);
 
-// Opens a file according to the extension of its name. HDF5, MAT, TDMS and sound files are read in a child
-// process (isolated_signal.hpp). Throws SignalError.
+// Opens a file according to the extension of its name. HDF5, MAT, TDMS and sound files are read in
+// a child process (isolated_signal.hpp). Throws SignalError.
 //   .csv, .txt   A header line with names and units in brackets ("sensor [m/s^2]"), then a line
 //                of numbers per sample, in any usual form (text_dialect.hpp); also compressed
 //                with gzip (.csv.gz, .txt.gz). Columns that are not read may contain anything.

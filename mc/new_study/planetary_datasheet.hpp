@@ -4,23 +4,21 @@
 #include <optional>
 #include <string>
 
+#include "mc/new_study/stage_datasheet.hpp"
+
 namespace gearpod::mc {
 
 // Datasheet values in the usual units. Missing values follow from rules of thumb or the geometry.
-struct PlanetaryDatasheet {
+struct PlanetaryDatasheet : StageDatasheet {
     int sun = 0, planet = 0;
     std::optional<int> ring;  // teeth; default for standard gears: sun + 2 planet
     int planets = 3;
-    double module_mm = 0;  // normal
-    double helix_deg = 0, pressure_angle_deg = 20;
-    std::optional<double> face_width_mm;
-    std::optional<double> addendum;  // divided by the normal module
-    std::optional<double> sun_shift, planet_shift, ring_shift, centre_distance_mm;
+    std::optional<double> sun_shift, planet_shift, ring_shift;
     std::optional<double> sun_tip_mm, planet_tip_mm, ring_tip_mm;  // diameters
-    double quality = 6;                                            // ISO 1328 grade
-    std::string input = "sun";                                     // or "carrier"
-    // Torque, speed and power of the input; exactly two of the three.
-    std::optional<double> torque_N_m, speed_rpm, power_kW;
+    // Radial stiffness of the bearings of each member.
+    std::optional<double> sun_bearing_N_m, planet_bearing_N_m, ring_bearing_N_m,
+        carrier_bearing_N_m;
+    std::string input = "sun";  // or "carrier"
 };
 
 }  // namespace gearpod::mc

@@ -2,43 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "mc/new_study/study_text.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-// Formats a number to four significant rounded_text, with an exponent from a million on.
-std::string rounded_text(double value) {
-    const double rounded = std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr);
-    return std::abs(rounded) < 1e6 ? fmt::format("{:.9g}", rounded)
-                                   : fmt::format("{:.4g}", rounded);
-}
-
-// Formats a key with its value and the source of the value.
-std::string line(const std::string& key, const std::string& value, const std::string& comment) {
-    return comment.empty() ? fmt::format("{} = {}\n", key, value)
-                           : fmt::format("{:<43} # {}\n", key + " = " + value, comment);
-}
-std::string line(const std::string& key, double value, const std::string& comment = "") {
-    return line(key, rounded_text(value), comment);
-}
-
-std::string header(const NominalGears& g, const std::string& command) {
-    return fmt::format(
-        "# A planetary gearbox of {}/{}/{} teeth and {} planets, from its datasheet by\n"
-        "#   gearpod {}\n"
-        "# Values that the datasheet does not give follow from rules of thumb with their\n"
-        "# sources, or are chosen. Replace the values that you know.\n"
-        "# Shigley: Mechanical Engineering Design. Kraemer: Dynamics of Rotors and\n"
-        "# Foundations (1993), section 3.4.\n"
-        "# `gearpod describe` prints the resulting gearbox. `gearpod calibrate` fits tooth\n"
-        "# errors, path and background noise to recordings of healthy gearboxes.\n"
-        "title = \"Planetary gearbox {}/{}/{}: crack of a planet tooth on the ring side\"\n\n",
-        g.data.sun, g.data.planet, g.ring_teeth, g.data.planets, command, g.data.sun, g.data.planet,
-        g.ring_teeth);
-}
 
 std::string masses(const DerivedGearbox& d) {
     std::string text;
@@ -65,8 +35,16 @@ std::string bodies(const DerivedGearbox& d) {
                 "rim of three tooth heights, with room for bolts (chosen)");
 }
 
-std::string bearings(const DerivedGearbox& d) {
-    const double planet = d.bearing.stiffness_N_m(d.pin_load_N);
+// True if a datasheet gives that member's bearing stiffness.
+bool bearing_given(const PlanetaryDatasheet& data, const std::string& name) {
+    return name == "sun"       ? data.sun_bearing_N_m.has_value()
+           : name == "planet"  ? data.planet_bearing_N_m.has_value()
+           : name == "ring"    ? data.ring_bearing_N_m.has_value()
+           : name == "carrier" ? data.carrier_bearing_N_m.has_value()
+                               : false;
+}
+
+std::string bearings(const NominalGears& g, const DerivedGearbox& d) {
     const RollerBearing& b = d.bearing;
     std::string text = fmt::format(
         "# Planet bearings: 2 rows of {} rollers, {} mm long, loaded with {} kN:\n"
@@ -76,15 +54,14 @@ std::string bearings(const DerivedGearbox& d) {
         "# stiffness (Kraemer: 0.25e-5 to 2.5e-5 s).\n",
         b.rollers, rounded_text(1e3 * b.roller_length_m), rounded_text(1e-3 * d.pin_load_N));
     std::string damping;
-    for (const auto& [name, factor] : {std::pair{"sun_bearing", 0.02},
-                                       {"planet_bearing", 1.0},
-                                       {"ring_bearing", 2.0},
-                                       {"carrier_bearing", 1.0},
-                                       {"support", 2.0}}) {
-        const double stiffness = factor * planet;
-        const std::string prefix(name);
-        text += line(prefix + "_stiffness_N_m", stiffness,
-                     prefix == "support" ? "holds the ring's rotation" : "");
+    for (const char* name : {"sun", "planet", "ring", "carrier", "support"}) {
+        const double stiffness = d.bearings_N_m.at(name);
+        const bool support = name == std::string("support");
+        const std::string prefix = support ? name : std::string(name) + "_bearing";
+        text += bearing_given(g.data, name)
+                    ? given_line(prefix + "_stiffness_N_m", stiffness, "given")
+                    : line(prefix + "_stiffness_N_m", stiffness,
+                           support ? "holds the ring's rotation" : "");
         damping += line(prefix + "_damping_N_s_m", bearing_damping_N_s_m(stiffness));
     }
     return text + damping;
@@ -105,8 +82,11 @@ std::string accuracy(const NominalGears& g, const DerivedGearbox& d) {
 
 std::string operation(const NominalGears& g, const InputLoad& load) {
     return "\n[operation]\nfixed = \"ring\"\n" + line("input", "\"" + g.data.input + "\"", "") +
-           line("torque_on", "\"" + g.data.input + "\"", "") + line("torque_N_m", load.torque_N_m) +
-           line(g.data.input + "_speed_rpm", load.speed_rpm);
+           line("torque_on", "\"" + g.data.input + "\"", "") +
+           (g.data.torque_N_m ? given_line("torque_N_m", load.torque_N_m)
+                              : line("torque_N_m", load.torque_N_m)) +
+           (g.data.speed_rpm ? given_line(g.data.input + "_speed_rpm", load.speed_rpm)
+                             : line(g.data.input + "_speed_rpm", load.speed_rpm));
 }
 
 std::string effects() {
@@ -123,96 +103,20 @@ constexpr const char* kFault =
     "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\nplanet = 1\ndepth_mm = 0\n"
     "angle_deg = 45\n";
 
-// Sensor rates, Hz.
-struct SensorRates {
-    double low_pass = 0, sampling = 0;
-};
-
-// Rates for twenty mesh harmonics, limited to the range of a general-purpose accelerometer. At
-// higher mesh frequencies a mesh period still has enough samples for the encoders and the windows.
-SensorRates sensor_rates(double mesh_frequency_Hz) {
-    constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kAnalyser = 2.56,
-                     kFewestPerMesh = 12.0;
-    const double low_pass = std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz);
-    return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
-}
-
-// Background noise of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which
-// is 0.1 m/s^2 up to 10 kHz (chosen). At sampling rates far above the low-pass the rms of white
-// noise is used instead.
-struct Background {
-    const char* key;
-    double value;
-};
-
-Background background(const SensorRates& rates) {
-    constexpr double kDensity = 1e-3, kMostPerLowPass = 50.0;
-    if (rates.sampling <= kMostPerLowPass * rates.low_pass) {
-        return {"noise_density_m_s2_per_sqrt_Hz", kDensity};
-    }
-    return {"noise_m_s2", kDensity * std::sqrt(0.5 * rates.sampling)};
-}
-
-std::string sensor(const DerivedGearbox& d) {
-    const SensorRates rates = sensor_rates(d.mesh_frequency_Hz);
-    return "\n[sensor]\n" +
-           line("low_pass_Hz", rates.low_pass,
-                fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
-                            rounded_text(d.mesh_frequency_Hz))) +
-           line("sampling_Hz", rates.sampling,
-                "2.56 times the low-pass, at least 12 per mesh period") +
-           line("path_exponent", 0.1, "Liang (2016), section 5.1") +
-           line(background(rates).key, background(rates).value,
-                "background of the machine; measure or calibrate it") +
-           line("encoder_sampling_Hz", rates.sampling, "same as the sensor") +
-           line("encoder_noise_arcsec", 1.0, "a good encoder (chosen)") +
-           line("noise_levels", "[0.005, 0.25, 1, 4]",
-                "0.005: a low-noise accelerometer alone, 0.5 ug/sqrt(Hz); 0.25: an industrial "
-                "MEMS one, 25 ug/sqrt(Hz)");
-}
-
-std::string varied(const char* key, const std::string& distribution, const char* comment = "") {
-    return line(key, "{ distribution = " + distribution + " }", comment);
-}
-
 std::string random(const DerivedGearbox& d, const InputLoad& load) {
-    const double bearing = d.bearing.stiffness_N_m(d.pin_load_N);
     const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
-    const auto lognormal = [](double median, double cv) {
-        return fmt::format("\"lognormal\", median = {}, cv = {}", rounded_text(median), cv);
-    };
-    std::string depths;
-    for (const double share : {0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8}) {
-        depths +=
-            (depths.empty() ? "" : ", ") + fmt::format("{:.3g}", 1e3 * share * d.deepest_crack_m);
+    std::string text =
+        "\n[random]                                    # variation between gearboxes (chosen)\n";
+    for (const char* name : {"planet", "sun", "ring", "carrier"}) {
+        text += varied(fmt::format("gearbox.{}_bearing_stiffness_N_m", name),
+                       lognormal(d.bearings_N_m.at(name), 0.3));
     }
-    return "\n[random]                                    # variation between gearboxes "
-           "(chosen)\n" +
-           varied("gearbox.planet_bearing_stiffness_N_m", lognormal(bearing, 0.3)) +
-           varied("gearbox.sun_bearing_stiffness_N_m", lognormal(0.02 * bearing, 0.3)) +
-           varied("gearbox.ring_bearing_stiffness_N_m", lognormal(2.0 * bearing, 0.3)) +
-           varied("gearbox.carrier_bearing_stiffness_N_m", lognormal(bearing, 0.3)) +
-           varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
-           varied("operation.torque_N_m",
-                  fmt::format("\"truncated-normal\", mean = {}, sd = {}, low = {}, high = {}",
-                              rounded_text(load.torque_N_m), rounded_text(0.05 * load.torque_N_m),
-                              rounded_text(0.85 * load.torque_N_m),
-                              rounded_text(1.15 * load.torque_N_m))) +
+    return text + varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
+           varied_torque(load.torque_N_m) +
            varied("sensor.path_exponent", "\"uniform\", low = -0.1, high = 0.1") +
-           varied(("sensor." + std::string(noise.key)).c_str(), lognormal(noise.value, 0.2)) +
-           fmt::format("# 0 to 80 % of the way through the root, {} mm at 45 degrees\n",
-                       rounded_text(1e3 * d.deepest_crack_m)) +
-           varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
+           varied("sensor." + std::string(noise.key), lognormal(noise.value, 0.2)) +
+           varied_depth(d.deepest_crack_m);
 }
-
-constexpr const char* kOutputSections =
-    "\n[features]\n"
-    "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
-    "\"own_window_ratio\", \"change_window_ratio\"]\n"
-    "baseline_torque_scatter = 0.02\n"
-    "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
-    "\n[ensemble]                                  # more gearboxes narrow the intervals\n"
-    "instances = 128\nthreshold_instances = 96\nseed = 1\n";
 
 }  // namespace
 
@@ -222,12 +126,7 @@ std::string gearbox_teeth(const NominalGears& g) {
         "[gearbox]\nkind = \"planetary\"\nplanets = {}\nsun_teeth = {}\nplanet_teeth = {}\n"
         "ring_teeth = {}\n",
         data.planets, data.sun, data.planet, g.ring_teeth);
-    if (data.helix_deg != 0.0) {
-        text += line("normal_module_mm", data.module_mm) + line("helix_angle_deg", data.helix_deg);
-    } else {
-        text += line("module_mm", data.module_mm);
-    }
-    text += line("pressure_angle_deg", data.pressure_angle_deg);
+    text += module_lines(data);
     for (const auto& [key, value] :
          {std::pair{"addendum_coefficient", data.addendum}, std::pair{"sun_shift", data.sun_shift},
           std::pair{"planet_shift", data.planet_shift}, std::pair{"ring_shift", data.ring_shift},
@@ -238,17 +137,23 @@ std::string gearbox_teeth(const NominalGears& g) {
             text += fmt::format("{} = {}\n", key, *value);
         }
     }
-    return text +
-           line("face_width_mm", g.face_width_mm,
-                data.face_width_mm ? "" : "four circular pitches (Shigley: three to five)") +
-           line("young_modulus_Pa", 2.06e11, "steel") + line("poisson_ratio", 0.3);
+    return text + body_lines(data, g.face_width_mm);
 }
 
 std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
                            const std::string& command) {
-    return header(g, command) + gearbox_teeth(g) + "tooth_profile = \"fillet\"\n" + bodies(d) +
-           accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + effects() + kFault +
-           sensor(d) + random(d, load) + kOutputSections;
+    const PlanetaryDatasheet& data = g.data;
+    const std::string gearbox = fmt::format("A planetary gearbox of {}/{}/{} teeth and {} planets",
+                                            data.sun, data.planet, g.ring_teeth, data.planets);
+    const std::string title = fmt::format(
+        "title = \"Planetary gearbox {}/{}/{}: crack of a planet tooth on the ring side\"\n\n",
+        data.sun, data.planet, g.ring_teeth);
+    return study_header(data, gearbox, command) + title + gearbox_teeth(g) +
+           "tooth_profile = \"fillet\"\n" + bodies(d) + accuracy(g, d) + masses(d) +
+           bearings(g, d) + operation(g, load) + effects() + kFault +
+           sensor_section(d.mesh_frequency_Hz,
+                          line("path_exponent", 0.1, "Liang (2016), section 5.1")) +
+           random(d, load) + output_sections();
 }
 
 }  // namespace gearpod::mc

@@ -1,9 +1,11 @@
 // Text of a planetary gearbox's study file.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "gears/power_flow.hpp"
+#include "mc/new_study/datasheet_problems.hpp"
 #include "mc/new_study/planetary_datasheet.hpp"
 #include "mc/new_study/rules.hpp"
 
@@ -21,13 +23,11 @@ struct DerivedGearbox {
     double centre_distance_m = 0;
     Annulus sun_body, planet_body, ring_body;
     RollerBearing bearing;  // of a planet
+    // Stiffness of bearings and support, given or by rule: sun, planet, ring, carrier, support.
+    std::map<std::string, double> bearings_N_m;
     double carrier_mass_kg = 0, carrier_inertia_kg_m2 = 0;
     gears::CentralMembers torques;
     double mesh_frequency_Hz = 0, pin_load_N = 0, deepest_crack_m = 0;
-};
-
-struct InputLoad {
-    double torque_N_m = 0, speed_rpm = 0;
 };
 
 // Returns section [gearbox] with the datasheet values and the material.

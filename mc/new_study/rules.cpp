@@ -1,5 +1,6 @@
 #include "mc/new_study/rules.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,15 @@ double default_face_width_m(double normal_module_m) {
 
 double default_rim_m(double tooth_height_m) {
     return 1.2 * tooth_height_m;
+}
+
+double tooth_height_m(const gears::Gear& gear) {
+    return std::abs(gear.tip_radius() - gear.root_radius());
+}
+
+double default_bore_radius_m(const gears::Gear& gear) {
+    return std::max(gear.root_radius() - default_rim_m(tooth_height_m(gear)),
+                    kMinBoreRatio * gear.root_radius());
 }
 
 double Annulus::mass_kg() const {
@@ -33,6 +43,17 @@ RollerBearing bearing_in_bore(double bore_m, double width_m) {
     constexpr int kRows = 2;
     return {static_cast<int>(pi * kPitchCircle / (kSpacing * kRoller)), kRows,
             0.7 * width_m / kRows, kInner * bore_m};
+}
+
+RollerBearing bearings_on_shaft(double shaft_diameter_m) {
+    constexpr double kInner = 0.55, kWidth = 0.25;
+    const double outer = shaft_diameter_m / kInner;
+    return bearing_in_bore(outer, 2.0 * kWidth * outer);
+}
+
+double shaft_torsion_N_m_rad(double diameter_m) {
+    constexpr double kShearModulus_Pa = 7.93e10, kLength = 10.0;
+    return kShearModulus_Pa * pi * std::pow(diameter_m, 3) / (32.0 * kLength);
 }
 
 double bearing_damping_N_s_m(double stiffness_N_m) {

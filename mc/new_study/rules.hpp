@@ -8,6 +8,8 @@
 // - ISO 286-1:2010: the standard tolerance factor.
 #pragma once
 
+#include "gears/gear.hpp"
+
 namespace gearpod::mc {
 
 inline constexpr double kSteelDensity_kg_m3 = 7850.0;
@@ -22,6 +24,11 @@ double default_rim_m(double tooth_height_m);
 // Least ratio of bore to root circle, for gears with few teeth whose rim would close the bore;
 // chosen.
 inline constexpr double kMinBoreRatio = 0.3;
+
+// Height of a gear's teeth from root to tip.
+double tooth_height_m(const gears::Gear& gear);
+// Radius of the bore that leaves a rim of default_rim_m() under the teeth of an external gear.
+double default_bore_radius_m(const gears::Gear& gear);
 
 // Steel ring. Radii in metres.
 struct Annulus {
@@ -45,6 +52,13 @@ struct RollerBearing {
 // roller diameters apart. The inner diameter is that of dimension series 22 (ISO 15); the rest is
 // chosen.
 RollerBearing bearing_in_bore(double bore_m, double width_m);
+
+// Two roller bearings on a shaft of that diameter, one at each side of its gear, as one bearing of
+// two rows. Proportions as above; the width is 0.25 of the outer diameter (dimension series 22).
+RollerBearing bearings_on_shaft(double shaft_diameter_m);
+
+// Torsional stiffness of a steel shaft of ten diameters' length, N m/rad (chosen).
+double shaft_torsion_N_m_rad(double diameter_m);
 
 // Damping of a rolling bearing: 1e-5 s times the stiffness; Kraemer gives 0.25e-5 to 2.5e-5 s.
 double bearing_damping_N_s_m(double stiffness_N_m);

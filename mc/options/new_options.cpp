@@ -1,23 +1,86 @@
-// Options of `new`: the datasheet of a gearbox.
+// Options of `new`: the datasheet of a gearbox, or a stage of a gear-unit model.
+
+#include <set>
+#include <string>
 
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+// Options that a REXS model leaves open. It states all others.
+const std::set<std::string> kWithModel{
+    "--rexs",  "--stage",   "--load-case", "--planets",    "--input", "--torque", "--speed",
+    "--power", "--quality", "--addendum",  "--face-width", "--out",   "--force"};
+
+// Rejects missing options of a datasheet, and options whose values a model states.
+void check_new_options(const CLI::App& command, const NewOptions& options) {
+    if (options.rexs.empty()) {
+        if (options.kind.empty()) {
+            throw CLI::RequiredError("kind");
+        }
+        for (const char* name : {"--sun", "--planet", "--module"}) {
+            if (command.count(name) == 0) {
+                throw CLI::RequiredError(name);
+            }
+        }
+        for (const char* name : {"--stage", "--load-case"}) {
+            if (command.count(name) > 0) {
+                throw CLI::ValidationError(name, "chooses a part of a model; give --rexs");
+            }
+        }
+        return;
+    }
+    if (!options.kind.empty()) {
+        throw CLI::ValidationError("kind", "the model's stage states the kind; leave out \"" +
+                                               options.kind + "\" or --rexs");
+    }
+    for (const CLI::Option* option : command.parse_order()) {
+        if (!kWithModel.contains(option->get_name())) {
+            throw CLI::ValidationError(option->get_name(),
+                                       "the model states this; leave it out, and change the model "
+                                       "or the written study");
+        }
+    }
+}
+
+// Values that are given in addition to a model.
+void take_choices(const CLI::App& command, NewOptions& options) {
+    const PlanetaryDatasheet& data = options.planetary;
+    RexsChoices& choices = options.rexs_choices;
+    const auto given = [&](const char* name) { return command.count(name) > 0; };
+    if (given("--input")) {
+        choices.input = data.input;
+    }
+    if (given("--planets")) {
+        choices.planets = data.planets;
+    }
+    if (given("--quality")) {
+        choices.quality = data.quality;
+    }
+    choices.face_width_mm = data.face_width_mm;
+    choices.addendum = data.addendum;
+    choices.torque_N_m = data.torque_N_m;
+    choices.speed_rpm = data.speed_rpm;
+    choices.power_kW = data.power_kW;
+}
+
+}  // namespace
 
 void add_new(CLI::App& app, NewOptions& options, int& code) {
     auto* command = app.add_subcommand("new",
-                                       "write a commented study from a gearbox datasheet; missing "
-                                       "values follow from rules of thumb with sources");
+                                       "write a commented study from a gearbox datasheet or from a "
+                                       "stage of a REXS model (--rexs); missing values follow from "
+                                       "rules of thumb with sources");
     PlanetaryDatasheet& data = options.planetary;
-    command->add_option("kind", options.kind, "kind of gearbox")
-        ->required()
+    command->add_option("kind", options.kind, "kind of gearbox; not with --rexs")
         ->check(CLI::IsMember({"planetary"}));
-    command->add_option("--sun", data.sun, "number of teeth of the sun")->required();
-    command->add_option("--planet", data.planet, "number of teeth of a planet")->required();
+    command->add_option("--sun", data.sun, "number of teeth of the sun");
+    command->add_option("--planet", data.planet, "number of teeth of a planet");
     command->add_option("--ring", data.ring,
                         "number of teeth of the ring (default: sun + 2 planet)");
     command->add_option("--planets", data.planets, "number of planets (default: 3)");
-    command->add_option("--module", data.module_mm, "normal module, mm")->required();
+    command->add_option("--module", data.module_mm, "normal module, mm");
     command->add_option("--helix", data.helix_deg, "helix angle, degrees (default: 0)");
     command->add_option("--pressure-angle", data.pressure_angle_deg,
                         "normal pressure angle, degrees (default: 20)");
@@ -42,11 +105,20 @@ void add_new(CLI::App& app, NewOptions& options, int& code) {
     command->add_option("--torque", data.torque_N_m, "input torque, N m");
     command->add_option("--speed", data.speed_rpm, "input speed, rpm");
     command->add_option("--power", data.power_kW, "power, kW, instead of torque or speed");
+    require_file_name(command->add_option("--rexs", options.rexs,
+                                          "gear-unit model to read instead (REXS 1.0 to 1.6, XML): "
+                                          "a planetary or cylindrical stage"));
+    command->add_option("--stage", options.rexs_choices.stage,
+                        "id of the model's stage; needed if it has several");
+    command->add_option("--load-case", options.rexs_choices.load_case,
+                        "id of the model's load case; needed if it has several");
     require_file_name(command->add_option("--out", options.out,
                                           "study file to write (default: - for standard output)"));
     command->add_flag("--force", options.force, "overwrite an existing file");
     command->callback([command, &options, &code] {
-        options.command = "new " + options.kind;
+        check_new_options(*command, options);
+        take_choices(*command, options);
+        options.command = options.kind.empty() ? "new" : "new " + options.kind;
         for (const CLI::Option* option : command->parse_order()) {
             if (option->nonpositional() && !option->check_lname("out") &&
                 !option->check_lname("force")) {

@@ -171,32 +171,44 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
     }
 }
 
-// Rejects unintended backlash between planets and ring, where the given shifts overdetermine the
-// geometry. Backlash counts as intended if the planet's shift, the ring's shift and the centre
-// distance are all given.
-void check_ring_backlash(StudyDraft& draft) {
-    constexpr double kRounded = 0.01;  // modules; the effect of shifts rounded to two decimals
+// Rejects backlash where the given shifts and the centre distance overdetermine a mesh. Backlash
+// counts as intended if both shifts of the mesh and the distance are given, unless it is more than
+// any allowance of tooth thickness: then they contradict each other.
+void check_backlash(StudyDraft& draft, const MeshMembers& mesh) {
+    // Modules: the effect of shifts rounded to two decimals, and of a coarse allowance.
+    constexpr double kRounded = 0.01, kIntended = 0.25;
     const Study& s = draft.study;
-    const MemberArray<MemberValues>& bodies = s.gearbox.bodies;
-    if (s.gearbox.kind != GearboxKind::planetary || !bodies[Member::ring].profile_shift ||
-        (bodies[Member::planet].profile_shift && s.gearbox.centre_distance_m)) {
+    const std::optional<double>& given_1 = s.gearbox.bodies[mesh.member_1].profile_shift;
+    const std::optional<double>& given_2 = s.gearbox.bodies[mesh.member_2].profile_shift;
+    if (!given_1 && !given_2) {
         return;
     }
-    const gears::Gear planet = gear_of(s, Member::planet);
-    gears::Gear ring = gear_of(s, Member::ring);
+    const bool intended = given_1 && given_2 && s.gearbox.centre_distance_m;
+    const gears::Gear gear_1 = gear_of(s, mesh.member_1), gear_2 = gear_of(s, mesh.member_2);
     const double distance = centre_distance_m(s);
-    const double backlash = gears::MeshGeometry(planet, ring, distance).backlash();
-    if (backlash > kRounded * ring.module_m) {
-        ring.profile_shift = gears::tight_shift_sum(planet, ring, distance) - planet.profile_shift;
-        draft.reject(
-            "gearbox.ring_shift",
-            fmt::format("leaves {:.4f} mm of backlash between planets and ring at a centre "
-                        "distance of {:.6g} mm (a shift of {:.4f} leaves none)",
-                        kMmPerM * backlash, kMmPerM * distance,
-                        ring.profile_shift / normal_over_transverse(s.gearbox)),
-            "give that one, or none; if the backlash is meant, give planet_shift and "
-            "centre_distance_mm as well");
+    const double backlash = gears::MeshGeometry(gear_1, gear_2, distance).backlash();
+    if (backlash <= (intended ? kIntended : kRounded) * gear_1.module_m) {
+        return;
     }
+    const Member changed = given_2 ? mesh.member_2 : mesh.member_1;
+    const double other = (given_2 ? gear_1 : gear_2).profile_shift;
+    const bool ring = mesh.member_2 == Member::ring;
+    draft.reject(
+        fmt::format("gearbox.{}_shift", member_name(changed)),
+        fmt::format("leaves {:.4f} mm of backlash between {} and {} at a centre distance of {:.6g} "
+                    "mm (a shift of {:.4f} leaves none)",
+                    kMmPerM * backlash, ring ? "planets" : member_name(mesh.member_1),
+                    ring                              ? "ring"
+                    : mesh.member_2 == Member::planet ? "planets"
+                                                      : member_name(mesh.member_2),
+                    kMmPerM * distance,
+                    (gears::tight_shift_sum(gear_1, gear_2, distance) - other) /
+                        normal_over_transverse(s.gearbox)),
+        intended ? fmt::format("correct the shifts or the centre distance; up to {:g} mm of "
+                               "backlash can be meant",
+                               kIntended * kMmPerM * gear_1.module_m)
+                 : "give that one, or none; if the backlash is meant, give planet_shift and "
+                   "centre_distance_mm as well");
 }
 
 // Rejects reliefs of a gear that are longer than its path of contact in that mesh.
@@ -244,7 +256,9 @@ void check_gear_shapes(StudyDraft& draft) {
     }
     // Contact below the base circle is reported first; it makes the undercut message redundant.
     if (draft.problems.size() == before) {
-        check_ring_backlash(draft);
+        for (const MeshMembers& mesh : meshes_of(draft.study.gearbox.kind)) {
+            check_backlash(draft, mesh);
+        }
         check_reliefs(draft);
         for (const Member member : toothed_members(draft.study)) {
             for (const std::string& what : gears::undercut_problems(gear_of(draft.study, member))) {

@@ -1,0 +1,287 @@
+#include "mc/new_study/rexs_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "mc/new_study/pair.hpp"
+#include "mc/new_study/planetary.hpp"
+#include "mc/new_study/rexs_reading.hpp"
+#include "mc/rexs/rexs_gear.hpp"
+#include "mc/rexs/rexs_load.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Stage with that id, or the only one that is possible. Null after a problem that lists all.
+const RexsStage* chosen_stage(const std::vector<RexsStage>& stages, const std::string& id,
+                              RexsReading& reading) {
+    std::vector<std::string> descriptions;
+    const RexsStage* only = nullptr;
+    int possible = 0;
+    for (const RexsStage& stage : stages) {
+        descriptions.push_back(stage.description());
+        if (id.empty() ? stage.obstacle.empty() : stage.component->id == id) {
+            only = &stage;
+            ++possible;
+        }
+    }
+    const std::string list = "the model has " + list_of(descriptions, "; ");
+    if (stages.empty()) {
+        reading.reject("", "has no gear stages",
+                       "name a model with a planetary or cylindrical stage");
+    } else if (possible == 0) {
+        reading.reject("--stage",
+                       id.empty() ? "no stage of the model can be simulated"
+                                  : fmt::format("there is no stage {}", id),
+                       list);
+    } else if (possible > 1) {
+        reading.reject("--stage", fmt::format("the model has {} stages", stages.size()),
+                       "choose one: " + list_of(descriptions, "; "));
+    } else if (!only->obstacle.empty()) {
+        reading.reject("--stage", fmt::format("stage {} is not possible: {}", id, only->obstacle),
+                       list);
+    } else {
+        return only;
+    }
+    return nullptr;
+}
+
+// Applies the chosen load case, or the only one.
+void apply_load_case(RexsModel& model, const std::string& id, Problems& problems,
+                     std::vector<std::string>& notes) {
+    std::vector<std::string> ids;
+    const RexsLoadCase* chosen = nullptr;
+    for (const RexsLoadCase& load_case : model.load_cases) {
+        ids.push_back(load_case.id);
+        if (load_case.id == id || (id.empty() && model.load_cases.size() == 1)) {
+            chosen = &load_case;
+        }
+    }
+    if (chosen != nullptr) {
+        notes.push_back("load case " + chosen->id);
+        model.apply(*chosen);
+    } else if (!id.empty()) {
+        problems.push_back({model.file, 0, "--load-case",
+                            fmt::format("the model has no load case {}", id),
+                            ids.empty() ? "it has none" : "it has " + list_of(ids)});
+    } else if (!ids.empty()) {
+        problems.push_back({model.file, 0, "--load-case",
+                            fmt::format("the model has {} load cases", ids.size()),
+                            "choose one: " + list_of(ids)});
+    }
+}
+
+NewStudy with_notices(NewStudy made, Problems notices) {
+    made.notices = made.problems.empty() ? std::move(notices) : Problems{};
+    return made;
+}
+
+// Number of planets: chosen, stated or modelled.
+int planets_of(const RexsStage& stage, const RexsChoices& choices, RexsReading& reading) {
+    const int modelled = static_cast<int>(stage.planets.size());
+    const std::optional<int> stated = reading.values.count(*stage.component, "number_of_planets");
+    if (stated && modelled > 1 && *stated != modelled) {
+        reading.values.reject(
+            *stage.component, "number_of_planets",
+            fmt::format("is {}, but the model has {} planet gears", *stated, modelled),
+            "correct one of them");
+    }
+    constexpr int kUsual = 3;
+    if (modelled == 1 && !stated && !choices.planets) {
+        reading.lacking.emplace_back("number of planets (3; the model has one planet gear)");
+    }
+    const int here = stated.value_or(modelled == 1 ? kUsual : modelled);
+    if (choices.planets && *choices.planets != here && modelled > 1) {
+        reading.notes.push_back(
+            fmt::format("an option replaces the model's number of planets, {}", here));
+    }
+    return choices.planets.value_or(here);
+}
+
+// Notes planets that the model does not space equally.
+void note_positions(const RexsStage& stage, RexsReading& reading) {
+    constexpr double kSame_deg = 0.5, kTurn_deg = 360.0;
+    std::vector<double> angles;
+    for (const RexsComponent* pair : stage.first_pairs) {
+        if (const auto angle = reading.values.number(*pair, "rotating_angle_around_neg_u_axis",
+                                                     RexsQuantity::angle)) {
+            angles.push_back(std::fmod(std::fmod(*angle, kTurn_deg) + kTurn_deg, kTurn_deg));
+        }
+    }
+    std::ranges::sort(angles);
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const double equal =
+            angles[0] + kTurn_deg * static_cast<double>(i) / static_cast<double>(angles.size());
+        if (std::abs(angles[i] - equal) > kSame_deg) {
+            std::vector<std::string> list;
+            for (const double angle : angles) {
+                list.push_back(fmt::format("{:.4g}", angle - angles[0]));
+            }
+            reading.notes.push_back(
+                "planets at " + list_of(list) +
+                " deg; the study spaces them equally or as nearly as the teeth allow "
+                "(gearbox.planet_positions_deg)");
+            return;
+        }
+    }
+}
+
+NewStudy planetary_study(const RexsStage& stage, const std::vector<RexsStage>& stages,
+                         const RexsChoices& choices, const std::string& command,
+                         RexsReading& reading) {
+    RexsValues& values = reading.values;
+    const RexsModel& model = reading.model;
+    const RexsGear sun = rexs_gear(values, {stage.first}),
+                   planet = rexs_gear(values, stage.planets),
+                   ring = rexs_gear(values, {stage.second});
+    const RexsTeeth teeth = rexs_teeth(values, stage, {sun, planet, ring});
+    check_centre_distance(values, *stage.first_pairs.front(), teeth, sun, planet, false,
+                          reading.notes);
+    check_centre_distance(values, *stage.second_pairs.front(), teeth, planet, ring, true,
+                          reading.notes);
+    if (const std::string why = why_ring_turns(values, stage); !why.empty()) {
+        reading.reject(stage.component->label(), "the ring is not the fixed member: " + why,
+                       "new writes studies with a fixed ring; edit operation.fixed in one");
+    }
+    PlanetaryDatasheet data;
+    set_teeth(data, teeth, choices, reading);
+    data.sun = sun.teeth;
+    data.planet = planet.teeth;
+    data.ring = ring.teeth;
+    data.planets = planets_of(stage, choices, reading);
+    note_positions(stage, reading);
+    std::tie(data.sun_shift, data.planet_shift, data.ring_shift) =
+        std::tie(sun.shift, planet.shift, ring.shift);
+    std::tie(data.sun_tip_mm, data.planet_tip_mm, data.ring_tip_mm) =
+        std::tie(sun.tip_mm, planet.tip_mm, ring.tip_mm);
+    reading.lacks(sun.shift, "sun's shift");
+    reading.lacks(planet.shift, "planets' shift");
+    reading.lacks(ring.shift, "ring's shift");
+    reading.lacks(sun.tip_mm, "sun's tip circle");
+    reading.lacks(planet.tip_mm, "planets' tip circle");
+    reading.lacks(ring.tip_mm, "ring's tip circle");
+    std::vector<const RexsComponent*> planet_shafts{rexs_shaft_of(model, *stage.planets.front())};
+    for (const RexsComponent* other : stage.planets) {
+        std::vector<std::string> same;  // as of the first planet
+        rexs_bearings(values, {rexs_shaft_of(model, *other)}, "planets", same);
+    }
+    data.sun_bearing_N_m =
+        rexs_bearings(values, {rexs_shaft_of(model, *stage.first)}, "sun", reading.notes);
+    data.planet_bearing_N_m = rexs_bearings(values, planet_shafts, "planets", reading.notes);
+    data.ring_bearing_N_m =
+        rexs_bearings(values, {rexs_shaft_of(model, *stage.second)}, "ring", reading.notes);
+    data.carrier_bearing_N_m =
+        rexs_bearings(values, rexs_carrier_shafts(model, stage), "carrier", reading.notes);
+    reading.lacks(data.sun_bearing_N_m, "sun's bearing stiffness");
+    reading.lacks(data.planet_bearing_N_m, "planets' bearing stiffness");
+    reading.lacks(data.ring_bearing_N_m, "ring's bearing stiffness");
+    reading.lacks(data.carrier_bearing_N_m, "carrier's bearing stiffness");
+
+    RexsLoad load = rexs_load(values, stages, stage);
+    data.input = load.second_drives ? "carrier" : "sun";
+    if (choices.input && *choices.input != data.input && data.sun > 0) {
+        const double ratio = 1.0 + static_cast<double>(ring.teeth) / data.sun;
+        const double faster = data.input == "sun" ? 1.0 / ratio : ratio;
+        if (load.speed_rpm && load.torque_N_m) {
+            reading.notes.push_back("an option replaces the model's input, the " + data.input);
+        }
+        load.speed_rpm = load.speed_rpm ? std::optional(*load.speed_rpm * faster) : std::nullopt;
+        load.torque_N_m = load.torque_N_m ? std::optional(*load.torque_N_m / faster) : std::nullopt;
+        data.input = *choices.input;
+    }
+    reading.notes.insert(reading.notes.end(), load.notes.begin(), load.notes.end());
+    set_load(data, load, choices, reading);
+    if (!reading.problems.empty()) {
+        return {"", reading.problems};
+    }
+    DatasheetSource source = model_source(model, stage);
+    name_gear(source, "sun", sun);
+    name_gear(source, "planet", planet);
+    name_gear(source, "ring", ring);
+    Problems notices = finish(data, model, stage, reading);
+    return with_notices(new_planetary(data, command, source), std::move(notices));
+}
+
+NewStudy pair_study(const RexsStage& stage, const std::vector<RexsStage>& stages,
+                    const RexsChoices& choices, const std::string& command, RexsReading& reading) {
+    RexsValues& values = reading.values;
+    const RexsModel& model = reading.model;
+    const RexsLoad load = rexs_load(values, stages, stage);
+    const RexsComponent *driving = load.second_drives ? stage.second : stage.first,
+                        *driven = load.second_drives ? stage.first : stage.second;
+    const RexsGear pinion = rexs_gear(values, {driving}), gear = rexs_gear(values, {driven});
+    const RexsTeeth teeth = rexs_teeth(values, stage, {pinion, gear});
+    check_centre_distance(values, *stage.component, teeth, pinion, gear, false, reading.notes);
+    for (const auto& [option, given] : {std::pair{"--input", choices.input.has_value()},
+                                        std::pair{"--planets", choices.planets.has_value()}}) {
+        if (given) {
+            reading.reject(option, "a gear pair has none", "leave it out for a cylindrical stage");
+        }
+    }
+    PairDatasheet data;
+    set_teeth(data, teeth, choices, reading);
+    data.pinion = pinion.teeth;
+    data.gear = gear.teeth;
+    std::tie(data.pinion_shift, data.gear_shift) = std::tie(pinion.shift, gear.shift);
+    std::tie(data.pinion_tip_mm, data.gear_tip_mm) = std::tie(pinion.tip_mm, gear.tip_mm);
+    data.pinion_bearing_N_m =
+        rexs_bearings(values, {rexs_shaft_of(model, *driving)}, "driving gear", reading.notes);
+    data.gear_bearing_N_m =
+        rexs_bearings(values, {rexs_shaft_of(model, *driven)}, "driven gear", reading.notes);
+    reading.lacks(pinion.shift, "driving gear's shift");
+    reading.lacks(gear.shift, "driven gear's shift");
+    reading.lacks(pinion.tip_mm, "driving gear's tip circle");
+    reading.lacks(gear.tip_mm, "driven gear's tip circle");
+    reading.lacks(data.pinion_bearing_N_m, "driving gear's bearing stiffness");
+    reading.lacks(data.gear_bearing_N_m, "driven gear's bearing stiffness");
+    reading.lacking.emplace_back("shafts, motor and load");
+    reading.notes.push_back(driving->label() + " drives (the study's pinion)");
+    reading.notes.insert(reading.notes.end(), load.notes.begin(), load.notes.end());
+    set_load(data, load, choices, reading);
+    if (!reading.problems.empty()) {
+        return {"", reading.problems};
+    }
+    DatasheetSource source = model_source(model, stage);
+    name_gear(source, "pinion", pinion);
+    name_gear(source, "gear", gear);
+    Problems notices = finish(data, model, stage, reading);
+    return with_notices(new_pair(data, command, source), std::move(notices));
+}
+
+}  // namespace
+
+NewStudy new_from_rexs(const std::string& path, const RexsChoices& choices,
+                       const std::string& command) {
+    Problems problems;
+    RexsModel model = read_rexs(path, problems);
+    if (!problems.empty()) {
+        return {"", std::move(problems)};
+    }
+    std::vector<std::string> notes;
+    apply_load_case(model, choices.load_case, problems, notes);
+    RexsValues values(model, problems);
+    RexsReading reading{model, values, problems, std::move(notes), {}};
+    constexpr std::size_t kMostStages = 200;
+    const std::vector<RexsStage> stages = rexs_stages(values);
+    if (stages.size() > kMostStages) {
+        reading.reject("", fmt::format("has {} gear stages", stages.size()),
+                       fmt::format("models of up to {} are read", kMostStages));
+        return {"", std::move(problems)};
+    }
+    const RexsStage* stage = chosen_stage(stages, choices.stage, reading);
+    if (stage == nullptr) {
+        return {"", std::move(problems)};
+    }
+    NewStudy made = stage->kind == RexsStageKind::planetary
+                        ? planetary_study(*stage, stages, choices, command, reading)
+                        : pair_study(*stage, stages, choices, command, reading);
+    sort_problems(made.problems);
+    return made;
+}
+
+}  // namespace gearpod::mc

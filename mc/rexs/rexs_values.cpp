@@ -1,0 +1,176 @@
+#include "mc/rexs/rexs_values.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+namespace gearpod::mc {
+namespace {
+
+// Number that takes the whole text.
+std::optional<double> parsed(std::string_view text) {
+    double value = 0;
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+    }
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = result.ec == std::errc{} && result.ptr == text.data() + text.size();
+    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+// Attributes that place a component in space or describe it to a user.
+bool is_position(std::string_view attribute) {
+    constexpr std::array kPositions{"support_vector",
+                                    "u_axis_vector",
+                                    "v_axis_vector",
+                                    "w_axis_vector",
+                                    "reference_component_for_position",
+                                    "u_coordinate_on_shaft",
+                                    "u_coordinate_on_shaft_inner_side",
+                                    "u_coordinate_on_shaft_outer_side",
+                                    "rotating_angle_around_neg_u_axis",
+                                    "name",
+                                    "display_color"};
+    for (const std::string_view position : kPositions) {
+        if (attribute == position) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// True for zero, false and empty values, which leave nothing to take into account.
+bool is_trivial(const RexsAttribute& attribute) {
+    return attribute.text.empty() || attribute.text == "false" || parsed(attribute.text) == 0.0;
+}
+
+}  // namespace
+
+void RexsValues::reject(const RexsComponent& component, std::string_view attribute,
+                        std::string what, std::string remedy) {
+    const RexsAttribute* at = component.find(attribute);
+    problems_.push_back(
+        {model_.file, at == nullptr ? component.line : at->line,
+         component.label() + (attribute.empty() ? "" : ": ") + std::string(attribute),
+         std::move(what), std::move(remedy)});
+}
+
+std::optional<double> RexsValues::number(const RexsComponent& component, std::string_view attribute,
+                                         RexsQuantity quantity) {
+    const RexsAttribute* at = component.find(attribute);
+    if (at == nullptr) {
+        return {};
+    }
+    const bool again = !used_.insert(at).second;
+    const std::optional<double> value = at->scalar ? parsed(at->text) : std::nullopt;
+    const std::optional<double> factor = rexs_factor(at->unit, quantity);
+    if (!value && !again) {
+        reject(component, attribute,
+               at->scalar ? fmt::format("must be a number, but is {}", at->text)
+                          : "must be one number, but is an array");
+    }
+    if (!factor && !again) {
+        reject(component, attribute,
+               at->unit.empty() ? "states no unit" : fmt::format("unit {} is not known", at->unit),
+               "the units known here are " + rexs_units(quantity));
+    }
+    return value && factor ? std::optional(*value * *factor) : std::nullopt;
+}
+
+std::optional<double> RexsValues::number(const RexsComponent& component,
+                                         std::initializer_list<std::string_view> attributes,
+                                         RexsQuantity quantity) {
+    for (const std::string_view attribute : attributes) {
+        if (component.find(attribute) != nullptr) {
+            return number(component, attribute, quantity);
+        }
+    }
+    return {};
+}
+
+std::optional<int> RexsValues::count(const RexsComponent& component, std::string_view attribute) {
+    const std::optional<double> value = number(component, attribute, RexsQuantity::number);
+    constexpr double kMost = 1e6;
+    if (value && (*value != std::round(*value) || std::abs(*value) > kMost)) {
+        reject(component, attribute, fmt::format("must be a whole number, but is {:g}", *value));
+        return {};
+    }
+    return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
+}
+
+std::optional<bool> RexsValues::flag(const RexsComponent& component, std::string_view attribute) {
+    const RexsAttribute* at = component.find(attribute);
+    if (at == nullptr) {
+        return {};
+    }
+    used_.insert(at);
+    return at->text == "true" || at->text == "1";
+}
+
+std::optional<double> RexsValues::common(const std::vector<const RexsComponent*>& components,
+                                         std::initializer_list<std::string_view> attributes,
+                                         RexsQuantity quantity) {
+    constexpr double kRounded = 1e-6;
+    const RexsComponent* first = nullptr;
+    std::optional<double> value;
+    for (const RexsComponent* component : components) {
+        const std::optional<double> next = number(*component, attributes, quantity);
+        if (!next) {
+            continue;
+        }
+        if (!value) {
+            value = next;
+            first = component;
+        } else if (std::abs(*next - *value) > kRounded * std::max(1.0, std::abs(*value))) {
+            reject(*component, *attributes.begin(),
+                   fmt::format("is {:.9g}, but {} has {:.9g}", *next, first->label(), *value),
+                   "a study has one value for both");
+        }
+    }
+    return value;
+}
+
+std::vector<std::string> RexsValues::unused() const {
+    // By type: attributes with the components that have them; and the other types with their
+    // number.
+    std::map<std::string, std::map<std::string, std::string>> attributes;
+    std::map<std::string, int> types;
+    for (const RexsComponent& component : model_.components) {
+        if (!considered_.contains(&component)) {
+            ++types[component.type];
+            continue;
+        }
+        for (const RexsAttribute& attribute : component.attributes) {
+            if (used_.contains(&attribute) || is_position(attribute.id) || is_trivial(attribute)) {
+                continue;
+            }
+            std::string& value = attributes[component.type][attribute.id];
+            const std::string here =
+                attribute.scalar
+                    ? attribute.text + (attribute.unit == "none" ? "" : " " + attribute.unit)
+                    : "an array";
+            value = value.empty() || value == here ? here : "several values";
+        }
+    }
+    std::vector<std::string> lines;
+    for (const auto& [type, values] : attributes) {
+        std::string list;
+        for (const auto& [id, value] : values) {
+            list += (list.empty() ? "" : ", ") + id + " (" + value + ")";
+        }
+        lines.push_back(type + ": " + list);
+    }
+    std::string list;
+    for (const auto& [type, number] : types) {
+        list += (list.empty() ? "" : ", ") + fmt::format("{} {}", number, type);
+    }
+    if (!list.empty()) {
+        lines.push_back("components: " + list);
+    }
+    return lines;
+}
+
+}  // namespace gearpod::mc
