@@ -20,15 +20,20 @@ struct Inspections {
     std::vector<long> specimen;  // equal for repeated measurements of one specimen
 };
 
-enum class BoundConvention { handbook, one_sided, two_sided, joint };
+// Calibrated: one-sided bounds that cover the confidence in small tables. The others are
+// asymptotic.
+enum class BoundConvention { calibrated, handbook, one_sided, two_sided, joint };
+const char* convention_name(BoundConvention convention);
 
 struct InspectionRequest {
     bool responses = false;  // values are responses, otherwise hits and misses
     double confidence = 0.95;
-    BoundConvention convention = BoundConvention::handbook;
+    BoundConvention convention = BoundConvention::calibrated;
     std::optional<BoundMethod> method;  // none: the default of the convention
     std::vector<bool> log_sizes = {false, true};
     std::optional<double> target;  // size at which the POD is requested
+    // Tables simulated from the fit to state the coverage of the bound of a90.
+    int simulated_tables = 200;
     // Options for hits and misses.
     std::vector<Link> links = {kLinks, kLinks + 4};
     // None: the false-call rate of places without a flaw; fits with and without it are compared.
@@ -54,6 +59,7 @@ struct TradeOffPoint {
 struct InspectionResult {
     std::string refusal;  // reason why there is no result, or ""
     HitMissTable table;
+    bool once_per_specimen = false;  // the table divides specimens over their repeats
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
     double threshold = 0.0;                // for responses
@@ -63,11 +69,17 @@ struct InspectionResult {
     std::vector<NoiseDistribution> noise;  // fits to the responses without flaw, in order of AIC
     std::vector<TradeOffPoint> trade_off;
     long specimens = 0, repeats = 0;  // specimens with a flaw; lines in excess of one per specimen
+    // Flaws of at least the upper bound of a90, hits among them, and the lower bound of their POD
+    // without a curve (Clopper-Pearson). 0 tests without a bound, and with repeats.
+    long tests_above = 0, hits_above = 0;
+    double demonstrated = 0.0;
     // Number of specimens of one size that must all be found to demonstrate Pd 0.9 at the
     // confidence.
     long all_found = 0;
 };
 
+// Throws std::invalid_argument with all problems of the data and the request, such as values that
+// are not finite.
 InspectionResult inspect(const Inspections& data, const InspectionRequest& request);
 
 }  // namespace gearpod::analysis

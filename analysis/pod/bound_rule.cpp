@@ -32,9 +32,17 @@ BoundRule joint_bound(double confidence, BoundMethod method) {
 }
 
 std::string bound_text(const BoundRule& rule) {
-    return rule.method == BoundMethod::wald
-               ? fmt::format("Wald, {:.4g} standard errors", rule.limit())
-               : fmt::format("likelihood ratio, chi-squared {:.4g}", rule.chi_squared);
+    switch (rule.method) {
+        case BoundMethod::wald:
+            return fmt::format("Wald, {:.4g} standard errors", rule.limit());
+        case BoundMethod::calibrated:
+            return "calibrated on simulated tables";
+        case BoundMethod::exact:
+            return "exact, noncentral t distribution";
+        case BoundMethod::likelihood_ratio:
+            break;
+    }
+    return fmt::format("likelihood ratio, chi-squared {:.4g}", rule.chi_squared);
 }
 
 }  // namespace gearpod::analysis

@@ -7,8 +7,9 @@
 namespace gearpod::analysis {
 
 // Likelihood ratio: the range in which the likelihood, maximised over all other parameters, stays
-// within a deviance. Wald: a number of standard errors of the size (delta method).
-enum class BoundMethod { likelihood_ratio, wald };
+// within a deviance. Wald: a number of standard errors of the size (delta method). Calibrated: a
+// bound that covers its confidence in small tables; exact: the same, without simulation.
+enum class BoundMethod { likelihood_ratio, wald, calibrated, exact };
 
 struct BoundRule {
     BoundMethod method = BoundMethod::likelihood_ratio;

@@ -7,9 +7,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <set>
+#include <random>
 #include <stdexcept>
 
+#include "analysis/pod/cluster_effect.hpp"
 #include "analysis/pod/location_scale.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 
@@ -154,15 +155,95 @@ std::vector<double> band_sizes(const HitMissPod& pod, int points) {
     return sizes;
 }
 
+// Adds curves with a fitted ceiling where these have less AIC than the best without. `fitted` must
+// have the capacity. Returns the fit of least AIC.
+const Fitted* add_needed_ceilings(const HitMissTable& table, Scales& scales,
+                                  std::vector<Fitted>& fitted, const Fitted* best,
+                                  HitMissPod& pod) {
+    const double least = best->fit.aic;
+    const std::size_t count = fitted.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!fitted[i].fit.refusal.empty() || fitted[i].fit.aic > least + 2.0 * kSupported) {
+            continue;
+        }
+        PodForm form = fitted[i].fit.curve.form;
+        form.free_ceiling = true;
+        Fitted more = fit_form(table, scales, form, &fitted[i]);
+        if (more.fit.refusal.empty() && more.fit.aic < least + kSupported) {
+            pod.candidates.push_back(more.fit);
+            fitted.push_back(std::move(more));
+            best = fitted.back().fit.aic < best->fit.aic ? &fitted.back() : best;
+        }
+    }
+    return best;
+}
+
+bool is_clustered(const HitMissRequest& request) {
+    return count_clusters(request.outcomes) < static_cast<long>(request.outcomes.size());
+}
+
 // Location and scale of a curve without fitted ceiling.
 LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& request) {
-    std::set<long> clusters;
-    for (const ClusteredOutcome& outcome : request.outcomes) {
-        clusters.insert(outcome.cluster);
+    return location_scale(curve.intercept, curve.slope,
+                          curve_covariance(request.outcomes, curve, is_clustered(request)));
+}
+
+// Replaces a calibrated rule by the likelihood ratio with the limit for these outcomes. Returns a
+// refusal, or "".
+std::string calibrate(HitMissPod& pod, const std::vector<Fitted>& fitted,
+                      const HitMissRequest& request) {
+    pod.rule = one_sided_bound(request.confidence);
+    if (!is_clustered(request)) {
+        return "";
     }
-    return location_scale(
-        curve.intercept, curve.slope,
-        curve_covariance(request.outcomes, curve, clusters.size() < request.outcomes.size()));
+    pod.clusters = count_clusters(request.outcomes);
+    if (pod.clusters < kFewestClusters) {
+        return fmt::format("outcomes of only {} {}s, bounds need at least {}", pod.clusters,
+                           request.tested, kFewestClusters);
+    }
+    const Fitted* plain = nullptr;
+    for (const Fitted& other : fitted) {
+        if (other.fit.refusal.empty() && !other.fit.curve.form.free_ceiling &&
+            (plain == nullptr || other.fit.aic < plain->fit.aic)) {
+            plain = &other;
+        }
+    }
+    if (plain == nullptr) {
+        return "repeated outcomes need a curve without fitted ceiling";
+    }
+    pod.design_effect = design_effect(request.outcomes, plain->fit.curve);
+    pod.rule.chi_squared =
+        clustered_chi_squared(pod.design_effect, pod.clusters, request.confidence);
+    return "";
+}
+
+// Share of tables simulated from the chosen curve in which the same analysis holds its a90. NaN if
+// a90 is not among the tested sizes.
+double coverage_of_bound(const HitMissPod& pod, const HitMissRequest& request) {
+    HitMissRequest again = request;
+    again.simulated_tables = 0;
+    again.band_points = 2;
+    again.target.reset();
+    std::mt19937_64 engine(20230417);
+    std::vector<double> sizes;
+    for (const ClusteredOutcome& outcome : request.outcomes) {
+        sizes.push_back(outcome.size);
+    }
+    std::vector<char> hits(sizes.size());
+    int answered = 0, held = 0;
+    for (int t = 0; t < request.simulated_tables; ++t) {
+        for (std::size_t i = 0; i < sizes.size(); ++i) {
+            hits[i] =
+                static_cast<double>(engine() >> 11) * 0x1p-53 < pod.chosen.curve.pod(sizes[i]);
+            again.outcomes[i].hit = hits[i] != 0;
+        }
+        const HitMissPod found = hit_miss_pod(hit_miss_table(sizes, hits), again);
+        if (found.refusal.empty()) {
+            ++answered;
+            held += place_of(found.a90.upper) >= pod.a90.estimate.size;
+        }
+    }
+    return answered == 0 ? kNan : static_cast<double>(held) / answered;
 }
 
 // Number of specimens for a90's bound at the target, as a factor on the number tested, by Wald or
@@ -229,6 +310,9 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     if (!pod.refusal.empty()) {
         return pod;
     }
+    if (!(request.floor >= 0.0 && request.floor < 1.0)) {
+        throw std::invalid_argument("hit/miss POD: the floor must be 0 to below 1");
+    }
     if (pod.rule.method == BoundMethod::wald && (request.fit_ceiling || request.outcomes.empty())) {
         throw std::invalid_argument(
             "hit/miss POD: Wald bounds need the individual outcomes and no fitted ceiling");
@@ -236,7 +320,7 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     Scales scales(table);
     std::vector<Fitted> fitted;
     const Fitted* best = nullptr;
-    fitted.reserve(forms(request).size());
+    fitted.reserve(2 * forms(request).size());
     for (const PodForm& form : forms(request)) {
         const bool more = !fitted.empty() && fitted.back().fit.curve.form.link == form.link &&
                           fitted.back().fit.curve.form.log_size == form.log_size;
@@ -251,12 +335,21 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
         pod.refusal = pod.candidates.front().refusal;
         return pod;
     }
+    if (pod.rule.method == BoundMethod::calibrated && !request.fit_ceiling && !request.firth) {
+        best = add_needed_ceilings(table, scales, fitted, best, pod);
+    }
     pod.chosen = best->fit;
     if (!(best->fit.curve.slope > 0.0)) {
         pod.refusal = "the detection rate does not rise with the fault size";
         return pod;
     }
     pod.doubtful = best->fit.fit.p_value < kLackOfFit;
+    if (pod.rule.method == BoundMethod::calibrated) {
+        pod.refusal = calibrate(pod, fitted, request);
+        if (!pod.refusal.empty()) {
+            return pod;
+        }
+    }
     add_bounds(pod, table, scales, *best, request);
     if (!request.outcomes.empty() && !pod.chosen.curve.form.free_ceiling) {
         pod.covariance = location_scale_of(pod.chosen.curve, request).covariance;
@@ -269,6 +362,10 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
             other.fit.aic <= best->fit.aic + kSupported) {
             add_bounds(pod, table, scales, other, request);
         }
+    }
+    if (request.simulated_tables > 0 && !request.outcomes.empty() && !is_clustered(request) &&
+        pod.a90.estimate.where == SizeEstimate::Where::reached) {
+        pod.simulated_coverage = coverage_of_bound(pod, request);
     }
     return pod;
 }

@@ -43,6 +43,13 @@ struct HitMissPod {
     std::vector<PodPoint> band;  // over the tested sizes
     bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
     BoundRule rule;
+    // Clusters of outcomes and the design effect on the bounds (cluster_effect.hpp); 0 and 1
+    // without.
+    long clusters = 0;
+    double design_effect = 1.0;
+    // Share of tables simulated from the chosen curve in which the bound holds a90. NaN if not
+    // simulated.
+    double simulated_coverage = kNan;
     // Covariance of the chosen curve's location and scale (location_scale.hpp). NaN with a fitted
     // ceiling or without individual outcomes.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kNan);
@@ -63,10 +70,11 @@ struct HitMissRequest {
     bool fit_ceiling = true;    // also fit curves with a ceiling
     bool firth = false;
     // Individual outcomes, for Wald bounds and the covariance. With more outcomes than clusters the
-    // covariance is robust.
+    // covariance is robust, and calibrated bounds are those of cluster_effect.hpp.
     std::vector<ClusteredOutcome> outcomes = {};
     std::optional<double> target = {};  // size to which a90's bound should come down
     std::string tested = "faulty gearbox";
+    int simulated_tables = 0;  // for simulated_coverage
 };
 
 // Fits one form alone, for comparison with other programs and for coverage tests.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/pod/pod_bounds.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
@@ -29,6 +30,39 @@ double root(Function function, double a, double b) {
         steps, QuietPolicy());
     return 0.5 * (bracket.first + bracket.second);
 }
+
+class WidestBounds : public ResponseBounds {
+  public:
+    explicit WidestBounds(std::vector<std::unique_ptr<ResponseBounds>> bounds)
+        : bounds_(std::move(bounds)) {}
+
+    SizeBounds size(double pod, double smallest, double largest) const override {
+        SizeBounds all = bounds_.front()->size(pod, smallest, largest);
+        for (std::size_t i = 1; i < bounds_.size(); ++i) {
+            all = widest(all, bounds_[i]->size(pod, smallest, largest));
+        }
+        return all;
+    }
+    PodPoint point(double size) const override {
+        PodPoint all = bounds_.front()->point(size);
+        for (std::size_t i = 1; i < bounds_.size(); ++i) {
+            const PodPoint other = bounds_[i]->point(size);
+            all.lower = std::min(all.lower, other.lower);
+            all.upper = std::max(all.upper, other.upper);
+        }
+        return all;
+    }
+    double specimens(double pod, double size) const override {
+        double most = 0.0;
+        for (const auto& bounds : bounds_) {
+            most = std::max(most, bounds->specimens(pod, size));
+        }
+        return most;
+    }
+
+  private:
+    std::vector<std::unique_ptr<ResponseBounds>> bounds_;
+};
 
 class BoundsOfPod : public ResponseBounds {
   public:
@@ -183,6 +217,11 @@ LocationScale curve_of(const SignalResponseFit& fit, double threshold) {
         0.0, -curve.scale / model.slope, 1.0 / steep;
     curve.covariance = by * model.covariance * by.transpose();
     return curve;
+}
+
+std::unique_ptr<ResponseBounds> widest_bounds(std::vector<std::unique_ptr<ResponseBounds>> bounds) {
+    return bounds.size() == 1 ? std::move(bounds.front())
+                              : std::make_unique<WidestBounds>(std::move(bounds));
 }
 
 std::unique_ptr<ResponseBounds> bounds_of_pod(const SignalResponseFit& fit, double threshold,

@@ -1,6 +1,9 @@
 // Bounds of a POD curve from a line through responses.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "analysis/pod/bound_rule.hpp"
 #include "analysis/pod/location_scale.hpp"
 #include "analysis/pod/response_fit.hpp"
@@ -21,6 +24,9 @@ class ResponseBounds {
     // factor on the number tested.
     virtual double specimens(double pod, double size) const = 0;
 };
+
+// Estimates of the first bounds, and the widest of all bounds.
+std::unique_ptr<ResponseBounds> widest_bounds(std::vector<std::unique_ptr<ResponseBounds>> bounds);
 
 // Wald bounds of POD at a size; where they cross a POD they bound the size. var u = (variance of
 // the line at x + u^2 variance of sigma) / sigma^2, with u the distance of the line beyond the

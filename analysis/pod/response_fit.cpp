@@ -88,8 +88,9 @@ void add_checks(SignalResponseFit& fit, const Scaled& points) {
     }
 }
 
-void fit_by_likelihood(SignalResponseFit& fit, const Scaled& points, bool by_specimen) {
-    auto likelihood = std::make_shared<const ResponseLikelihood>(points.all, by_specimen);
+void fit_by_likelihood(SignalResponseFit& fit, const Scaled& points, bool by_specimen,
+                       bool coarse) {
+    auto likelihood = std::make_shared<const ResponseLikelihood>(points.all, by_specimen, coarse);
     fit.maximum = likelihood->maximise();
     if (by_specimen && !likelihood->has_between(fit.maximum)) {
         likelihood = std::make_shared<const ResponseLikelihood>(points.all, false);
@@ -133,7 +134,7 @@ std::string ResponseScale::text() const {
 
 SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& scale,
                                const CensoringLimits& limits, LineMethod method, bool by_specimen,
-                               double threshold, Alarm alarm) {
+                               double threshold, Alarm alarm, bool coarse) {
     SignalResponseFit fit;
     fit.scale = scale;
     fit.aic = fit.log_likelihood = kNan;
@@ -159,7 +160,7 @@ SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& sc
         return fit;
     }
     if (method == LineMethod::maximum_likelihood) {
-        fit_by_likelihood(fit, points, by_specimen);
+        fit_by_likelihood(fit, points, by_specimen, coarse);
     } else {
         const auto n = static_cast<double>(points.y.size());
         const double variance = fit.line.sigma * fit.line.sigma * (n - 2.0) / n;
@@ -176,13 +177,13 @@ SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& sc
 }
 
 std::optional<double> box_cox_power(const ResponseRows& rows, bool log_size,
-                                    const CensoringLimits& limits, bool by_specimen) {
+                                    const CensoringLimits& limits, bool by_specimen, bool coarse) {
     if (!(lowest(rows, limits) > 0.0)) {
         return std::nullopt;
     }
     const auto miss = [&](double power) {
         const Scaled points = scaled(rows, {log_size, power}, limits);
-        const ResponseLikelihood likelihood(points.all, by_specimen);
+        const ResponseLikelihood likelihood(points.all, by_specimen, coarse);
         return -(likelihood.maximise().log_likelihood + points.jacobian);
     };
     constexpr int kBits = 20;

@@ -66,13 +66,15 @@ struct SignalResponseFit {
     bool usable() const { return refusals.empty() && doubts.empty(); }
 };
 
-// Fits the line. `by_specimen`: with random effects of specimens, by maximum likelihood.
+// Fits the line. `by_specimen`: with random effects of specimens, by maximum likelihood. `coarse`:
+// as in ResponseLikelihood.
 SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& scale,
                                const CensoringLimits& limits, LineMethod method, bool by_specimen,
-                               double threshold, Alarm alarm);
+                               double threshold, Alarm alarm, bool coarse = false);
 
 // Box-Cox power of greatest likelihood in [-2, 2]; empty if a value is not positive.
 std::optional<double> box_cox_power(const ResponseRows& rows, bool log_size,
-                                    const CensoringLimits& limits, bool by_specimen);
+                                    const CensoringLimits& limits, bool by_specimen,
+                                    bool coarse = false);
 
 }  // namespace gearpod::analysis

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -31,9 +32,10 @@ double log_censored(const Response& response, double mean, double sigma) {
     return log_normal_probability(response.censored * (mean - response.y) / sigma);
 }
 
-const GaussRule& rule() {
-    static const GaussRule nodes = normal_gauss_rule(48);
-    return nodes;
+const GaussRule& rule(bool coarse) {
+    static const GaussRule fine_nodes = normal_gauss_rule(48);
+    static const GaussRule coarse_nodes = normal_gauss_rule(6);
+    return coarse ? coarse_nodes : fine_nodes;
 }
 
 // Mean and root mean square deviation.
@@ -52,8 +54,9 @@ std::pair<double, double> moments(const std::vector<Response>& responses, Get ge
 
 }  // namespace
 
-ResponseLikelihood::ResponseLikelihood(std::vector<Response> responses, bool by_specimen)
-    : responses_(std::move(responses)), by_specimen_(by_specimen) {
+ResponseLikelihood::ResponseLikelihood(std::vector<Response> responses, bool by_specimen,
+                                       bool coarse)
+    : responses_(std::move(responses)), by_specimen_(by_specimen), coarse_(coarse) {
     std::tie(x_centre_, x_spread_) = moments(responses_, [](const Response& r) { return r.x; });
     std::tie(y_centre_, y_spread_) = moments(responses_, [](const Response& r) { return r.y; });
     if (responses_.size() < 3 || !(x_spread_ > 0.0 && y_spread_ > 0.0)) {
@@ -98,7 +101,7 @@ double ResponseLikelihood::of_specimen(std::size_t first, std::size_t last,
     }
     const double centre = ratio * sum / growth * within;
     const double width = between / std::sqrt(growth);
-    const GaussRule& nodes = rule();
+    const GaussRule& nodes = rule(coarse_);
     std::vector<double> terms;
     for (Eigen::Index k = 0; k < nodes.nodes.size(); ++k) {
         double term = std::log(nodes.weights[k]);
@@ -139,20 +142,102 @@ double ResponseLikelihood::log_likelihood(const Line& line) const {
     return sum;
 }
 
+Curvature ResponseLikelihood::curvature(const Eigen::VectorXd& p) const {
+    const double sigma = std::exp(p[2]);
+    Eigen::Vector3d score = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    for (const Response& r : responses_) {
+        // Derivatives by the mean in sigmas and by ln sigma.
+        const double z = (r.y - p[0] - p[1] * r.x) / sigma;
+        double by_mean = z, by_sigma = z * z - 1.0;
+        double mean_mean = 1.0, mean_sigma = 2.0 * z, sigma_sigma = 2.0 * z * z;
+        if (r.censored != 0) {
+            const double away = -r.censored * z;
+            const double ratio =
+                std::exp(-0.5 * away * away - kLogRootTwoPi - log_normal_probability(away));
+            const double bend = ratio * (away + ratio);
+            by_mean = r.censored * ratio;
+            by_sigma = -away * ratio;
+            mean_mean = bend;
+            mean_sigma = r.censored * (ratio - bend * away);
+            sigma_sigma = bend * away * away - ratio * away;
+        }
+        const Eigen::Vector3d row(1.0 / sigma, r.x / sigma, 0.0);
+        score += by_mean * row;
+        score[2] += by_sigma;
+        information += mean_mean * row * row.transpose();
+        information.col(2) += mean_sigma * row;
+        information(2, 2) += sigma_sigma;
+    }
+    information.row(2).head<2>() = information.col(2).head<2>();
+    return {score, information};
+}
+
+Eigen::VectorXd ResponseLikelihood::start_with_specimens() const {
+    struct Sums {
+        double count = 0.0, x = 0.0, y = 0.0;
+    };
+    std::vector<Sums> specimens;
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t i = 0; i < responses_.size(); ++i) {
+        const Response& r = responses_[i];
+        if (i == 0 || r.specimen != responses_[i - 1].specimen) {
+            specimens.emplace_back();
+        }
+        Sums& sums = specimens.back();
+        sums = {sums.count + 1.0, sums.x + r.x, sums.y + r.y};
+        xx += r.x * r.x;
+        xy += r.x * r.y;
+        yy += r.y * r.y;
+    }
+    const auto total = static_cast<double>(responses_.size());
+    Eigen::VectorXd best(4);
+    // Generalised least squares for a logarithm of between over within; returns minus twice the
+    // profile log likelihood.
+    const auto miss = [&](double log_ratio) {
+        const double ratio = std::exp(2.0 * log_ratio);
+        double n = 0.0, x = 0.0, y = 0.0, sxx = xx, sxy = xy, syy = yy, growth = 0.0;
+        for (const Sums& sums : specimens) {
+            const double share = ratio / (1.0 + sums.count * ratio);
+            n += sums.count - share * sums.count * sums.count;
+            x += sums.x - share * sums.count * sums.x;
+            y += sums.y - share * sums.count * sums.y;
+            sxx -= share * sums.x * sums.x;
+            sxy -= share * sums.x * sums.y;
+            syy -= share * sums.y * sums.y;
+            growth += std::log1p(sums.count * ratio);
+        }
+        const double determinant = n * sxx - x * x;
+        const double slope = (n * sxy - x * y) / determinant, intercept = (y - slope * x) / n;
+        const double left = std::max(1e-12, (syy - intercept * y - slope * sxy) / total);
+        const double within = 0.5 * std::log(left);
+        best << intercept, slope, within, within + log_ratio;
+        return total * std::log(left) + growth;
+    };
+    constexpr double kWidest = 6.0;
+    constexpr int kBits = 12;
+    miss(boost::math::tools::brent_find_minima(miss, -kWidest, kWidest, kBits).first);
+    return best;
+}
+
 ResponseLikelihood::Maximum ResponseLikelihood::maximise() const {
     const auto value = [&](const Eigen::VectorXd& p) {
         return log_likelihood({p[0], p[1], std::exp(p[2]), by_specimen_ ? std::exp(p[3]) : 0.0});
     };
+    NumericMaximum found;
     // Starts from least squares with censored values at their limits.
-    double slope = 0.0;
-    for (const Response& r : responses_) {
-        slope += r.x * r.y / static_cast<double>(responses_.size());
+    if (by_specimen_) {
+        found = numeric_maximum(value, start_with_specimens());
+    } else {
+        double slope = 0.0;
+        for (const Response& r : responses_) {
+            slope += r.x * r.y / static_cast<double>(responses_.size());
+        }
+        const double scatter = std::log(std::sqrt(std::max(1e-6, 1.0 - slope * slope)));
+        found = numeric_maximum(
+            value, [&](const Eigen::VectorXd& p) { return curvature(p); },
+            Eigen::Vector3d(0.0, slope, scatter));
     }
-    const double scatter = std::log(std::sqrt(std::max(1e-6, 1.0 - slope * slope)));
-    Eigen::VectorXd start(by_specimen_ ? 4 : 3);
-    start << Eigen::Vector3d(0.0, slope, scatter),
-        Eigen::VectorXd::Constant(start.size() - 3, scatter - 0.5);
-    const NumericMaximum found = numeric_maximum(value, start);
     return {found.at, found.information, found.value, found.converged};
 }
 

@@ -14,6 +14,8 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/statistics/numeric_maximum.hpp"
+
 namespace gearpod::analysis {
 
 struct Response {
@@ -36,8 +38,8 @@ struct ResponseModel {
 class ResponseLikelihood {
   public:
     // `by_specimen`: with random effects of specimens. Needs at least three responses that differ
-    // in x and in y.
-    ResponseLikelihood(std::vector<Response> responses, bool by_specimen);
+    // in x and in y. `coarse`: with fewer nodes for specimens' censored values, for simulations.
+    ResponseLikelihood(std::vector<Response> responses, bool by_specimen, bool coarse = false);
 
     struct Maximum {
         Eigen::VectorXd parameters;  // in standardised units
@@ -60,9 +62,13 @@ class ResponseLikelihood {
     };
     double log_likelihood(const Line& line) const;
     double of_specimen(std::size_t first, std::size_t last, const Line& line) const;
+    // Derivatives without specimen effects, by intercept, slope and ln sigma.
+    Curvature curvature(const Eigen::VectorXd& parameters) const;
+    // Maximum with censored values taken at their limits.
+    Eigen::VectorXd start_with_specimens() const;
 
     std::vector<Response> responses_;  // standardised, sorted by specimen
-    bool by_specimen_;
+    bool by_specimen_, coarse_;
     double x_centre_ = 0.0, x_spread_ = 1.0, y_centre_ = 0.0, y_spread_ = 1.0;
     double constant_ = 0.0;  // log likelihood of y minus that of standardised y
 };

@@ -17,27 +17,11 @@
 #include <vector>
 
 #include "analysis/pod/response_bounds.hpp"
+#include "analysis/pod/response_scales.hpp"
+#include "analysis/pod/simulated_responses.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
-
-struct SignalResponseRequest {
-    double threshold = 0.0;
-    Alarm alarm = Alarm::high;
-    double confidence = 0.95;
-    int band_points = 21;
-
-    LineMethod method = LineMethod::least_squares;
-    BoundRule rule = {BoundMethod::wald, 0.0};  // of a fit by maximum likelihood
-    CensoringLimits limits = {};
-    std::vector<bool> log_sizes = {false, true};
-    // Box-Cox powers; NaN: the power of greatest likelihood.
-    std::vector<double> powers = {1.0, 0.0};
-    bool accept_failed_checks = false;    // accept a scale whose checks fail
-    std::span<const long> specimen = {};  // specimen of each value; empty: one each
-    std::optional<double> target = {};    // size to which a90's bound should come down
-    std::string tested = "faulty gearboxes";
-};
 
 struct SignalResponsePod {
     long count = 0;            // faulty gearboxes with a value
@@ -46,8 +30,17 @@ struct SignalResponsePod {
     std::string refusal;       // reason why there is no curve, empty if there is one
     std::vector<SignalResponseFit> candidates;
     std::size_t chosen = 0;  // least AIC of those not refused
-    LocationScale curve;     // of the chosen fit
+    // Numbers of the candidates that the bounds span, the chosen one first.
+    std::vector<std::size_t> supported;
+    LocationScale curve;  // of the chosen fit
     BoundRule rule;
+    std::shared_ptr<const SimulatedLimits> limits;  // of calibrated bounds
+    // Share of tables simulated from the chosen fit in which the bound holds a90. NaN for exact and
+    // calibrated bounds.
+    double simulated_coverage = kNan;
+    // The same if the scatter grew in proportion to the size, and the share of such tables that
+    // pass the checks. NaN if not simulated.
+    double growing_coverage = kNan, growing_answered = kNan;
     SizeBounds a50, a90;
     std::vector<PodPoint> band;
     // Specimens needed for a90's upper bound at the target, over those tested.

@@ -22,6 +22,9 @@ Json hit_miss_of(const HitMissPod& pod) {
         const PodCurve& curve = pod.chosen.curve;
         add_curve(json, -curve.intercept / curve.slope, 1.0 / curve.slope, pod.covariance);
     }
+    json["simulated_coverage"] = number(pod.simulated_coverage);
+    json["clusters"] = pod.clusters;
+    json["design_effect"] = number(pod.design_effect);
     return json;
 }
 
@@ -32,6 +35,9 @@ Json responses_of(const InspectionResult& result) {
     json["censored"] = {pod.left, pod.right};
     json["specimens"] = pod.specimens;
     json["bound"] = bound_text(pod.rule);
+    json["simulated_coverage"] = number(pod.simulated_coverage);
+    json["growing_scatter"] = {{"answered", number(pod.growing_answered)},
+                               {"coverage", number(pod.growing_coverage)}};
     json["smallest"] = pod.band.empty() ? Json(nullptr) : number(pod.band.front().size);
     json["largest"] = pod.band.empty() ? Json(nullptr) : number(pod.band.back().size);
     if (pod.refusal.empty()) {
@@ -79,6 +85,7 @@ nlohmann::json inspection_json(const Inspections& data, const InspectionRequest&
             {"size", {{"name", words.size.name}, {"unit", words.size.unit}}},
             {"value", {{"name", words.value}, {"unit", words.unit}}},
             {"confidence", request.confidence},
+            {"convention", convention_name(request.convention)},
             {"specimens", result.specimens},
             {"repeats", result.repeats},
             {"refusal", text_or_null(result.refusal)},

@@ -9,10 +9,12 @@ namespace gearpod::analysis {
 
 // JSON form:
 // {"kind": "inspection", "table", "size": {"name", "unit"}, "value": {"name", "unit"},
-//  "confidence", "specimens", "repeats", "refusal",
+//  "confidence", "convention", "specimens", "repeats", "refusal",
 //  "data": {"size", "value"},
-//  "hit_miss": as in pod_json.hpp, with "location", "scale", "covariance" and "bound", or null,
-//  "signal_response": the same, with "threshold", "censored", or null,
+//  "hit_miss": as in pod_json.hpp, with "location", "scale", "covariance", "bound",
+//    "simulated_coverage", "clusters" and "design_effect", or null,
+//  "signal_response": the same without clusters, with "threshold", "censored" and
+//    "growing_scatter": {"answered", "coverage"}, or null,
 //  "false_calls": {"calls", "of", "lower", "upper", "laws": [{"law", "first", "second", "aic",
 //    "at_threshold"}]},
 //  "trade_off": [{"threshold", "false_calls", "a50", "a90"}],

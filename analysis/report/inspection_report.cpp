@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/pod/cluster_effect.hpp"
 #include "analysis/report/wording.hpp"
 
 namespace gearpod::analysis {
@@ -22,6 +23,7 @@ struct FittedCurve {
     double location, scale;
     const Eigen::Matrix2d& covariance;
     bool log_size;
+    double simulated_coverage;
 };
 
 FittedCurve curve_of(const HitMissPod& pod) {
@@ -35,7 +37,8 @@ FittedCurve curve_of(const HitMissPod& pod) {
             -curve.intercept / curve.slope,
             1.0 / curve.slope,
             pod.covariance,
-            curve.form.log_size};
+            curve.form.log_size,
+            pod.simulated_coverage};
 }
 
 FittedCurve curve_of(const SignalResponsePod& pod) {
@@ -49,7 +52,8 @@ FittedCurve curve_of(const SignalResponsePod& pod) {
             pod.curve.location,
             pod.curve.scale,
             pod.curve.covariance,
-            fitted && pod.candidates[pod.chosen].scale.log_size};
+            fitted && pod.candidates[pod.chosen].scale.log_size,
+            pod.simulated_coverage};
 }
 
 std::string size_text(const SizeEstimate& estimate, const FittedCurve& curve,
@@ -92,6 +96,14 @@ Section inspection_headline(const InspectionRequest& request, const FittedCurve&
                                        request.convention == BoundConvention::handbook
                                            ? " (the handbook's convention, MIL-HDBK-1823A)"
                                            : ""));
+    if (std::isfinite(curve.simulated_coverage)) {
+        section.state("coverage",
+                      fmt::format("{}In tables simulated from this fit, the bound held a90 in {}.",
+                                  request.convention == BoundConvention::calibrated
+                                      ? ""
+                                      : "This convention is asymptotic. ",
+                                  percent_text(curve.simulated_coverage)));
+    }
     return section;
 }
 
@@ -105,6 +117,25 @@ std::string parameters_text(const FittedCurve& curve) {
                           number_text(covariance(0, 1), kDigits),
                           number_text(covariance(1, 1), kDigits))
             : "");
+}
+
+std::string repeats_text(const InspectionResult& result) {
+    const HitMissPod& pod = result.hit_miss;
+    if (result.repeats == 0) {
+        return "";
+    }
+    if (result.once_per_specimen) {
+        return "Every specimen counts once, divided over its repeated outcomes.";
+    }
+    return pod.clusters == 0
+               ? "Repeated outcomes of one specimen are correlated: the bounds are Wald bounds "
+                 "with "
+                 "cluster-robust covariance."
+               : fmt::format(
+                     "Repeated outcomes of one specimen are correlated: the likelihood ratio is "
+                     "divided by the design effect {} of {} specimens (robust covariance), with "
+                     "the limit of t with {} degrees of freedom.",
+                     number_text(pod.design_effect), pod.clusters, pod.clusters - 2);
 }
 
 void add_hits(Section& section, const InspectionResult& result) {
@@ -125,11 +156,24 @@ void add_hits(Section& section, const InspectionResult& result) {
     section.state("parameters", parameters_text(curve_of(pod)));
     section.state("warning.0",
                   pod.doubtful ? "Warning: the goodness-of-fit test rejects the curve." : "");
-    section.state("repeats",
-                  result.repeats > 0
-                      ? "Repeated outcomes of one specimen are correlated: the bounds are Wald "
-                        "bounds with cluster-robust covariance."
-                      : "");
+    section.state("repeats", repeats_text(result));
+    section.state("warning.1", pod.clusters > 0 && pod.clusters < kFewClusters
+                                   ? fmt::format("Warning: only {} specimens with repeated "
+                                                 "outcomes; the bounds need {} to be reliable.",
+                                                 pod.clusters, kFewClusters)
+                                   : "");
+    const bool ceiling_fitted = std::any_of(pod.supported.begin(), pod.supported.end(),
+                                            [](const PodForm& form) { return form.free_ceiling; });
+    section.state("ceiling", ceiling_fitted
+                                 ? "The bounds include curves that level off below 1."
+                                 : "The curves assume that large enough flaws are always found.");
+    if (result.tests_above > 0) {
+        section.state(
+            "demonstrated",
+            fmt::format("Without a curve, the {} of {} flaws found above the upper bound "
+                        "of a90 demonstrate a POD of {}.",
+                        result.hits_above, result.tests_above, percent_text(result.demonstrated)));
+    }
 }
 
 void add_line(Section& section, const InspectionRequest& request, const InspectionResult& result,
@@ -141,7 +185,7 @@ void add_line(Section& section, const InspectionRequest& request, const Inspecti
                               quantity_text(result.threshold, names.unit, 6), pod.left, pod.right));
     if (!pod.refusal.empty()) {
         section.state("scales",
-                      pod.candidates.empty()
+                      pod.candidates.empty() && pod.specimens == pod.count
                           ? ""
                           : "To fit anyway, give both --size-scale and --response-scale.");
         return;
@@ -149,17 +193,35 @@ void add_line(Section& section, const InspectionRequest& request, const Inspecti
     const SignalResponseFit& fit = pod.candidates[pod.chosen];
     section.state(
         "curve",
-        fmt::format("Line: {}, intercept {}, slope {}, scatter {}{}.", fit.scale.text(),
-                    number_text(fit.model.intercept, 6), number_text(fit.model.slope, 6),
-                    number_text(fit.model.sigma, 6),
-                    fit.model.between > 0.0 ? fmt::format(" ({} between specimens, {} within)",
-                                                          number_text(fit.model.between, 6),
-                                                          number_text(fit.model.within, 6))
-                                            : ""));
+        fmt::format(
+            "Line: {}, intercept {}, slope {}, scatter {}{}{}.", fit.scale.text(),
+            number_text(fit.model.intercept, 6), number_text(fit.model.slope, 6),
+            number_text(fit.model.sigma, 6),
+            fit.model.between > 0.0
+                ? fmt::format(" ({} between specimens, {} within)",
+                              number_text(fit.model.between, 6), number_text(fit.model.within, 6))
+                : "",
+            pod.supported.size() > 1 ? fmt::format("; the bounds span {} of {} scales",
+                                                   pod.supported.size(), pod.candidates.size())
+                                     : ""));
     section.state("parameters", parameters_text(curve_of(pod)));
     for (std::size_t i = 0; i < fit.doubts.size(); ++i) {
         section.state(fmt::format("warning.{}", i), "Warning: " + fit.doubts[i] + ".");
     }
+    section.state("warning.specimens",
+                  pod.specimens < pod.count && pod.specimens < kFewClusters
+                      ? fmt::format("Warning: only {} specimens; their checks have "
+                                    "little power.",
+                                    pod.specimens)
+                      : "");
+    constexpr double kOften = 0.1;
+    section.state(
+        "growing",
+        pod.growing_answered >= kOften
+            ? fmt::format("If the scatter grew in proportion to the size, {} of such tables would "
+                          "pass the checks, and the bound would hold a90 in {} of these.",
+                          percent_text(pod.growing_answered), percent_text(pod.growing_coverage))
+            : "");
 }
 
 void add_false_calls(Section& section, const InspectionRequest& request,

@@ -11,11 +11,6 @@ using Function = std::function<double(const Eigen::VectorXd&)>;
 
 constexpr double kStep = 1e-4;  // step of the differences, for parameters of order 1
 
-struct Curvature {
-    Eigen::VectorXd score;
-    Eigen::MatrixXd information;
-};
-
 Curvature differences(const Function& function, const Eigen::VectorXd& at, double value) {
     const Eigen::Index n = at.size();
     Curvature curvature{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
@@ -54,9 +49,10 @@ Eigen::VectorXd ascent_step(const Curvature& curvature) {
     return curvature.score / scale;
 }
 
-}  // namespace
-
-NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& start) {
+// `curvature_at`: of (point, value there).
+template <typename CurvatureAt>
+NumericMaximum climb(const Function& function, CurvatureAt curvature_at,
+                     const Eigen::VectorXd& start) {
     constexpr int kMostSteps = 200;
     constexpr double kConverged = 1e-9;  // gain of a step
     constexpr double kLongest = 2.0;     // longest change of a parameter in one step
@@ -64,7 +60,7 @@ NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& 
     maximum.at = start;
     maximum.value = function(start);
     for (int step = 0; step < kMostSteps && !maximum.converged; ++step) {
-        const Curvature curvature = differences(function, maximum.at, maximum.value);
+        const Curvature curvature = curvature_at(maximum.at, maximum.value);
         maximum.information = curvature.information;
         if (!curvature.score.allFinite() || !curvature.information.allFinite()) {
             return maximum;
@@ -90,6 +86,22 @@ NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& 
         }
     }
     return maximum;
+}
+
+}  // namespace
+
+NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& start) {
+    return climb(
+        function,
+        [&](const Eigen::VectorXd& at, double value) { return differences(function, at, value); },
+        start);
+}
+
+NumericMaximum numeric_maximum(const Function& function,
+                               const std::function<Curvature(const Eigen::VectorXd&)>& curvature,
+                               const Eigen::VectorXd& start) {
+    return climb(
+        function, [&](const Eigen::VectorXd& at, double) { return curvature(at); }, start);
 }
 
 }  // namespace gearpod::analysis

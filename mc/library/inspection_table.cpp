@@ -188,7 +188,12 @@ void check_options(const InspectionOptions& options, Problems& problems) {
         }
     };
     choice("--size-scale", options.size_scale, {"linear", "log"});
-    choice("--convention", options.convention, {"handbook", "one-sided", "two-sided", "joint"});
+    choice("--convention", options.convention,
+           {"calibrated", "handbook", "one-sided", "two-sided", "joint"});
+    if (options.convention == "calibrated" && !options.bounds.empty()) {
+        problems.push_back({.what = "--bounds and --convention calibrated cannot be used together; "
+                                    "calibrated bounds have a method of their own"});
+    }
     choice("--bounds", options.bounds, {"likelihood-ratio", "wald"});
     choice("--alarm", options.alarm, {"high", "low"});
     for (const std::string& link : options.links) {
@@ -212,7 +217,9 @@ InspectionRequest request_of(const InspectionOptions& options, const Columns& ch
     request.convention = options.convention == "one-sided"   ? BoundConvention::one_sided
                          : options.convention == "two-sided" ? BoundConvention::two_sided
                          : options.convention == "joint"     ? BoundConvention::joint
-                                                             : BoundConvention::handbook;
+                         : options.convention == "handbook" || !options.bounds.empty()
+                             ? BoundConvention::handbook
+                             : BoundConvention::calibrated;
     if (!options.bounds.empty()) {
         request.method = options.bounds == "wald" ? analysis::BoundMethod::wald
                                                   : analysis::BoundMethod::likelihood_ratio;

@@ -18,7 +18,8 @@ struct InspectionOptions {
     std::vector<std::string> links;  // empty: all
     std::string size_scale;          // "linear", "log"; "": both
     std::string response_scale;      // "linear", "log", "box-cox" or a power; "": linear and log
-    std::string convention = "handbook", bounds;
+    // "": calibrated bounds, or the handbook's if `bounds` names a method.
+    std::string convention, bounds;
     std::string alarm = "high";
     std::optional<double> threshold, false_call_rate, left, right, floor, target;
     double confidence = 0.95;

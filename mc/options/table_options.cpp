@@ -63,13 +63,14 @@ void add_pod(CLI::App& app, PodOptions& pod, int& code) {
                       "penalised likelihood (Firth), for hits and misses that sizes separate");
     command
         ->add_option("--convention", pod.convention,
-                     "convention of the confidence bounds: handbook (default; two-sided for hits, "
-                     "one-sided for responses), one-sided, two-sided, joint")
-        ->check(CLI::IsMember({"handbook", "one-sided", "two-sided", "joint"}));
+                     "convention of the confidence bounds: calibrated (default; covers the "
+                     "confidence in small tables), or the asymptotic handbook (MIL-HDBK-1823A: "
+                     "two-sided for hits, one-sided for responses), one-sided, two-sided, joint")
+        ->check(CLI::IsMember({"calibrated", "handbook", "one-sided", "two-sided", "joint"}));
     command
         ->add_option("--bounds", pod.bounds,
-                     "method of the confidence bounds: likelihood-ratio (default for hits) or "
-                     "wald (default for responses)")
+                     "method of asymptotic bounds: likelihood-ratio (default for hits) or wald "
+                     "(default for responses); without --convention: the handbook's")
         ->check(CLI::IsMember({"likelihood-ratio", "wald"}));
     command
         ->add_option("--confidence", pod.confidence,

@@ -214,7 +214,8 @@ def pod(table: TableLike, **options: Any) -> Pod:
 
     options are those of `gearpod pod`: size, hit, response, specimen (columns), link, size_scale,
     response_scale, convention, bounds, alarm, threshold, false_call_rate, left, right, floor,
-    target, confidence, fit_ceiling, firth.
+    target, confidence, fit_ceiling, firth. Bounds are calibrated unless convention or bounds say
+    otherwise.
     """
     for name in ("hit", "response", "link"):
         if isinstance(options.get(name), str):

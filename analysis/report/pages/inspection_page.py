@@ -142,5 +142,6 @@ def parts(data, page):
     method = [inspection.text(block["key"]) for block in data["findings"][-1]["blocks"]
               if "text" in block]
     body += page.section("facts", "Data and method",
-                         blocks.bullets([inspection.text("bound")] + method))
+                         blocks.bullets([text for text in map(inspection.text, ("bound", "coverage"))
+                                        if text] + method))
     return inspection.title(), inspection.text("headline"), verdict, body

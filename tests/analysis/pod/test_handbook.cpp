@@ -47,6 +47,8 @@ TEST_CASE("Example 1, a-hat against a with censored values", "[handbook]") {
         return;
     }
     InspectionRequest request;
+    request.convention = BoundConvention::handbook;
+    request.simulated_tables = 0;
     request.responses = true;
     request.threshold = 200.0;
     request.limits = {50.0, 1375.0};
@@ -71,6 +73,8 @@ TEST_CASE("Example 2, repeated measurements, against statsmodels' mixed model", 
         return;
     }
     InspectionRequest request;
+    request.convention = BoundConvention::handbook;
+    request.simulated_tables = 0;
     request.responses = true;
     request.threshold = 200.0;
     request.log_sizes = {true};
@@ -92,6 +96,8 @@ TEST_CASE("Example 3, hit/miss by the logit of size and of log size", "[handbook
         return;
     }
     InspectionRequest request;
+    request.convention = BoundConvention::handbook;
+    request.simulated_tables = 0;
     request.links = {Link::logit};
     request.log_sizes = {false};
     const HitMissPod linear = inspect(data, request).hit_miss;
@@ -111,6 +117,8 @@ TEST_CASE("Example 4, hit/miss by the complementary log-log", "[handbook]") {
         return;
     }
     InspectionRequest request;
+    request.convention = BoundConvention::handbook;
+    request.simulated_tables = 0;
     request.links = {Link::cloglog};
     request.log_sizes = {false};
     const HitMissPod pod = inspect(data, request).hit_miss;

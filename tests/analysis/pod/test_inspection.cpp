@@ -40,6 +40,7 @@ Inspections responses(bool repeated) {
 
 InspectionRequest of_hits(Link link, bool log_size) {
     InspectionRequest request;
+    request.simulated_tables = 0;
     request.links = {link};
     request.log_sizes = {log_size};
     return request;
@@ -47,6 +48,7 @@ InspectionRequest of_hits(Link link, bool log_size) {
 
 InspectionRequest of_responses() {
     InspectionRequest request;
+    request.simulated_tables = 0;
     request.responses = true;
     request.threshold = 6.0;
     request.log_sizes = {true};
@@ -122,6 +124,7 @@ TEST_CASE("Firth's penalty gives a curve where hits and misses do not overlap") 
     InspectionRequest request = of_hits(Link::logit, false);
     CHECK_THAT(inspect(data, request).hit_miss.refusal, Catch::Contains("do not overlap"));
     request.firth = true;
+    request.convention = BoundConvention::handbook;
     const HitMissPod pod = inspect(data, request).hit_miss;
     REQUIRE(pod.refusal == "");
     CHECK(pod.chosen.curve.intercept == Approx(-8.9500545).epsilon(1e-5));

@@ -132,6 +132,22 @@ def response_profile(at):
 a90 = (threshold + z * np.exp(best.x[2]) - best.x[0]) / best.x[1]
 say("censored a90 likelihood-ratio upper", np.exp(a90), np.exp(optimize.brentq(
     lambda at: response_profile(at) - stats.norm.ppf(0.95)**2, a90, a90 + 1.0, xtol=1e-11)))
+# Exact bounds of a50 and a90 from the first 12 of the same measurements, uncensored.
+few_x, few_y = x[:12], np.log(wide["A"].to_numpy()[:12])
+slope, intercept = np.polyfit(few_x, few_y, 1)
+sigma = np.sqrt(((few_y - intercept - slope * few_x)**2).sum() / 10)
+
+
+def exact_bound(pod, confidence):
+    u = stats.norm.ppf(pod)
+
+    def beyond(size):
+        spread = np.sqrt(1 / 12 + (np.log(size) - few_x.mean())**2 / ((few_x - few_x.mean())**2).sum())
+        return stats.nct.cdf((intercept + slope * np.log(size) - np.log(6.0)) / sigma / spread, 10, u / spread) - confidence
+    return optimize.brentq(beyond, 2.0, 8.6, xtol=1e-12)
+
+
+say("exact bounds", *(exact_bound(pod, confidence) for pod in (0.5, 0.9) for confidence in (0.05, 0.95)))
 # Box and Cox's power of the same measurements uncensored, by scipy on the residuals of least squares.
 value, design = wide["A"].to_numpy(), sm.add_constant(x)
 

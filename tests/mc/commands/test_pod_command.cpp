@@ -34,7 +34,14 @@ TEST_CASE("pod reads hits and misses with units, and states the kind of bound") 
     const auto json = pod_of(table);
     CHECK(json["size"]["unit"] == "mm");
     CHECK(json["hit_miss"]["a90"]["estimate"]["size"].get<double>() == Approx(2.5928436));
-    CHECK(json["hit_miss"]["a90"]["upper"]["size"].get<double>() == Approx(3.1112525));
+    CHECK(json["hit_miss"]["a90"]["upper"]["size"].get<double>() == Approx(3.0141444));
+    CHECK(json["convention"] == "calibrated");
+    const auto handbook = pod_of(table + " --convention handbook");
+    CHECK(handbook["hit_miss"]["a90"]["upper"]["size"].get<double>() == Approx(3.1112525));
+    CHECK(handbook["hit_miss"]["simulated_coverage"].get<double>() > 0.9);
+    // A method of asymptotic bounds alone is that of the handbook.
+    CHECK(pod_of(table + " --bounds likelihood-ratio")["hit_miss"]["a90"] ==
+          handbook["hit_miss"]["a90"]);
     const Outcome text = program("pod " + table + " --specimen specimen");
     CHECK(text.mentions("120 specimens and 120 repeated measurements"));
     CHECK(text.mentions("robust covariance"));

@@ -93,7 +93,7 @@ TEST_CASE("A table in memory is inspected like one of a file") {
     wrong.convention = "both";
     wrong.links = {"line"};
     const std::string message = message_of([&] { mc::inspect_table(table, wrong); });
-    CHECK(mentions(message, "--convention: must be handbook or"));
+    CHECK(mentions(message, "--convention: must be calibrated or handbook or"));
     CHECK(mentions(message, "\ntable: --link: must be logit or"));
 }
 

@@ -1,0 +1,191 @@
+// Checks the default bounds of `pod` against scipy (reference/inspection_py.txt) and against
+// properties that they must have. Their coverage is measured in test_pod_coverage.cpp.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/inspection.hpp"
+#include "analysis/pod/calibrated_bounds.hpp"
+#include "analysis/pod/cluster_effect.hpp"
+#include "tests/analysis/reference_data.hpp"
+
+namespace test_calibrated_bounds {
+
+using namespace gearpod;
+using namespace gearpod::analysis;
+
+namespace {
+
+Inspections hits(bool repeated) {
+    const auto columns = reference_columns("inspections_hits.csv");
+    Inspections data{columns[1], columns[2], {}};
+    for (std::size_t i = 0; i < columns[0].size(); ++i) {
+        data.specimen.push_back(repeated ? std::lround(columns[0][i]) : static_cast<long>(i));
+    }
+    return data;
+}
+
+Inspections responses(bool repeated) {
+    const auto columns = reference_columns("inspections_responses.csv");
+    Inspections data;
+    for (std::size_t i = 0; i < columns[0].size(); ++i) {
+        for (std::size_t m = 2; m < (repeated ? 5 : 3); ++m) {
+            data.size.push_back(columns[1][i]);
+            data.value.push_back(columns[m][i]);
+            data.specimen.push_back(static_cast<long>(i));
+        }
+    }
+    return data;
+}
+
+InspectionRequest of_hits(Link link, bool log_size) {
+    InspectionRequest request;
+    request.simulated_tables = 0;
+    request.links = {link};
+    request.log_sizes = {log_size};
+    return request;
+}
+
+InspectionRequest of_responses() {
+    InspectionRequest request;
+    request.simulated_tables = 0;
+    request.responses = true;
+    request.threshold = 6.0;
+    request.log_sizes = {true};
+    request.powers = {0.0};
+    request.accept_failed_checks = true;
+    return request;
+}
+
+// First `count` of the responses.
+Inspections first_responses(std::size_t count) {
+    Inspections data = responses(false);
+    data.size.resize(count);
+    data.value.resize(count);
+    data.specimen.resize(count);
+    return data;
+}
+
+TEST_CASE("Exact bounds agree with scipy's noncentral t, and simulated ones with them") {
+    const SignalResponsePod pod = inspect(first_responses(12), of_responses()).signal_response;
+    REQUIRE(pod.refusal == "");
+    CHECK(pod.rule.method == BoundMethod::exact);
+    CHECK(pod.a50.lower.size == Approx(2.8129684).epsilon(1e-6));
+    CHECK(pod.a50.upper.size == Approx(3.4963071).epsilon(1e-6));
+    CHECK(pod.a90.lower.size == Approx(3.6562181).epsilon(1e-6));
+    CHECK(pod.a90.upper.size == Approx(4.9671246).epsilon(1e-6));
+    // The band crosses a POD of 0.9 where the size's bound lies.
+    const SignalResponseFit& fit = pod.candidates[pod.chosen];
+    const auto exact = exact_bounds(fit, 6.0, Alarm::high, 0.95);
+    CHECK(exact->point(4.9671246).lower == Approx(0.9).epsilon(1e-5));
+    CHECK(exact->point(3.6562181).upper == Approx(0.9).epsilon(1e-5));
+    CHECK(exact->specimens(0.9, 4.9671246) == Approx(1.0).epsilon(1e-3));
+    // One given scale, so that simulated limits have nothing else to account for.
+    const Inspections data = first_responses(12);
+    SignalResponseRequest request;
+    request.threshold = 6.0;
+    request.method = LineMethod::maximum_likelihood;
+    request.log_sizes = {true};
+    request.powers = {0.0};
+    request.accept_failed_checks = true;
+    const auto limits = std::make_shared<const SimulatedLimits>(
+        ResponseRows{data.size, data.value, data.specimen}, false, fit, request);
+    CHECK(limits->tables() == 1000);
+    const auto simulated = simulated_bounds(fit, 6.0, Alarm::high, limits);
+    const SizeBounds a90 = simulated->size(0.9, data.size[0] / 100.0, 8.66);
+    CHECK(a90.upper.size == Approx(4.9671246).epsilon(0.02));
+    CHECK(a90.lower.size == Approx(3.6562181).epsilon(0.02));
+}
+
+TEST_CASE("Default bounds of responses span scales, and repeat to the bit") {
+    InspectionRequest request;
+    request.responses = true;
+    request.threshold = 6.0;
+    request.limits = {3.0, 20.0};
+    const SignalResponsePod a = inspect(responses(false), request).signal_response;
+    const SignalResponsePod b = inspect(responses(false), request).signal_response;
+    REQUIRE(a.refusal == "");
+    CHECK(a.rule.method == BoundMethod::calibrated);
+    CHECK(a.a90.upper.size == b.a90.upper.size);
+    CHECK(a.growing_coverage == b.growing_coverage);
+    CHECK(a.growing_answered >= 0.0);
+    request.convention = BoundConvention::handbook;
+    const SignalResponsePod handbook = inspect(responses(false), request).signal_response;
+    CHECK(handbook.a90.estimate.size == Approx(a.a90.estimate.size));
+    CHECK(handbook.a90.upper.size < a.a90.upper.size);
+    CHECK(handbook.simulated_coverage > 0.75);
+    CHECK(handbook.simulated_coverage < 0.97);
+}
+
+TEST_CASE("Few clusters never narrow the bound of a90") {
+    // 60 flaws in three groups, hit from a size that differs between groups.
+    Inspections alone;
+    for (int i = 0; i < 60; ++i) {
+        const double size = 0.1 * (i + 1);
+        alone.size.push_back(size);
+        alone.value.push_back(size + 0.9 * std::sin(2.1 * i) + 0.5 * (i % 3 - 1) > 2.5);
+        alone.specimen.push_back(i);
+    }
+    Inspections grouped = alone;
+    for (std::size_t i = 0; i < grouped.specimen.size(); ++i) {
+        grouped.specimen[i] = static_cast<long>(i % 3);
+    }
+    const InspectionRequest request = of_hits(Link::logit, false);
+    const HitMissPod independent = inspect(alone, request).hit_miss;
+    const HitMissPod clustered = inspect(grouped, request).hit_miss;
+    REQUIRE(clustered.refusal == "");
+    CHECK(clustered.clusters == 3);
+    CHECK(clustered.design_effect >= 1.0);
+    CHECK(clustered.a90.estimate.size == independent.a90.estimate.size);
+    CHECK(place_of(clustered.a90.upper) > place_of(independent.a90.upper));
+    for (std::size_t i = 0; i < grouped.specimen.size(); ++i) {
+        grouped.specimen[i] = static_cast<long>(i % 2);
+    }
+    CHECK_THAT(inspect(grouped, request).hit_miss.refusal, Catch::Contains("need at least 3"));
+    // Ten repeats of everything hold no more information if every specimen counts once.
+    Inspections repeated;
+    for (int r = 0; r < 10; ++r) {
+        repeated.size.insert(repeated.size.end(), alone.size.begin(), alone.size.end());
+        repeated.value.insert(repeated.value.end(), alone.value.begin(), alone.value.end());
+        repeated.specimen.insert(repeated.specimen.end(), alone.specimen.begin(),
+                                 alone.specimen.end());
+    }
+    InspectionRequest handbook = request;
+    handbook.convention = BoundConvention::handbook;
+    CHECK(inspect(repeated, handbook).hit_miss.a90.upper.size ==
+          Approx(inspect(alone, handbook).hit_miss.a90.upper.size).epsilon(1e-6));
+    CHECK(clustered_chi_squared(1.0, 1000000, 0.95) == Approx(2.7055).epsilon(1e-4));
+}
+
+TEST_CASE("Values that are not finite, and few specimens, are refused") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    InspectionRequest request = of_hits(Link::logit, false);
+    request.floor = nan;
+    request.confidence = nan;
+    request.target = nan;
+    Inspections data = hits(false);
+    data.size[3] = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_WITH(inspect(data, request),
+                      Catch::Contains("sizes must be finite") && Catch::Contains("confidence") &&
+                          Catch::Contains("target") && Catch::Contains("floor"));
+    InspectionRequest line = of_responses();
+    line.threshold = nan;
+    line.false_call_rate = nan;
+    line.limits.left = nan;
+    CHECK_THROWS_WITH(inspect(responses(false), line), Catch::Contains("threshold") &&
+                                                           Catch::Contains("false-call rate") &&
+                                                           Catch::Contains("censoring limit"));
+    Inspections few = responses(true);
+    few.size.resize(27);
+    few.value.resize(27);
+    few.specimen.resize(27);
+    InspectionRequest scales = of_responses();
+    CHECK(inspect(few, scales).signal_response.refusal == "");
+    scales.accept_failed_checks = false;
+    CHECK_THAT(inspect(few, scales).signal_response.refusal,
+               Catch::Contains("only 9 specimens with repeated values"));
+}
+
+}  // namespace
+
+}  // namespace test_calibrated_bounds
