@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <fstream>
 #include <unordered_set>
 
 #include "mc/files/signal_file.hpp"
+#include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -105,11 +105,10 @@ std::string TextTable::names() const {
 TextTable read_text_table(const std::string& path) {
     TextTable table;
     table.path = path;
-    std::error_code error;
-    std::ifstream stream(path, std::ios::binary);
-    if (!std::filesystem::is_regular_file(path, error) || !stream) {
-        throw SignalError(path + ": no such file, or it cannot be read");
+    if (const std::string why = why_not_readable(path); !why.empty()) {
+        throw SignalError(path + ": " + why);
     }
+    std::ifstream stream(path, std::ios::binary);
     std::string line;
     for (long number = 1; std::getline(stream, line); ++number) {
         std::string_view text = line;

@@ -11,6 +11,7 @@
 #include "analysis/detection/feature_alarm.hpp"
 #include "machine/team.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/row_source.hpp"
 
@@ -141,6 +142,23 @@ std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
     return measured;
 }
 
+Problems condition_name_problems(const std::string& manifest, const RecordingList& list) {
+    Problems problems;
+    for (const TableColumn& column : list.inputs) {
+        const std::string& name = column.name;
+        const bool reserved = name.empty() || name == "." || name == "group" ||
+                              name == kNoiseWeight || name.find('/') != std::string::npos;
+        if (reserved) {
+            problems.push_back(
+                {manifest, 0, printable(name),
+                 "the name of this column cannot be stored in a results file (a slash, a point, "
+                 "group, noise_weight or no name)",
+                 "rename the column; a unit stands in brackets after the name, as load [N/m]"});
+        }
+    }
+    return problems;
+}
+
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
                            std::span<const features::Feature> features) {
@@ -169,8 +187,8 @@ std::string recordings_csv(const RecordingList& list,
             out += "," + field_text(input);
         }
         for (std::size_t f = 0; f < features.size(); ++f) {
-            out += "," + (measured[i].values.empty() ? std::string()
-                                                     : field_text(measured[i].values[f]));
+            out += "," +
+                   (measured[i].values.empty() ? std::string() : field_text(measured[i].values[f]));
         }
         out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted_field(measured[i].problem));
     }

@@ -29,6 +29,10 @@ std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
                                                   const MeasuredBaseline* baseline, int threads,
                                                   const std::function<void()>& done);
 
+// Problems with names of operating conditions that a results file cannot hold: names with a slash,
+// and names that have a meaning there. `manifest` names the table.
+Problems condition_name_problems(const std::string& manifest, const RecordingList& list);
+
 // Returns a CSV table with a line for each recording: its description, its features (those of
 // measurable()) and its problem.
 std::string recordings_csv(const RecordingList& list,

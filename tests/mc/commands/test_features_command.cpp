@@ -186,7 +186,7 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     }
     bad[17] = bad[40] = NAN;
 
-    refused(folder.file("none.csv"), "no such file");
+    refused(folder.file("none.csv"), "No such file");
     write_bytes(folder.file("a.xls"), "RIFF");
     refused(folder.file("a.xls"), "must end in .csv, .h5, .hdf5, .mat, .wav, .uff or .unv");
     for (const char* name : {"a.h5", "a.mat"}) {
@@ -220,7 +220,8 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     refused(folder.file("rate.csv"), "no sampling rate");
     refused(folder.file("rate.csv") + " --sampling-Hz 5000",
             "set sensor.sampling_Hz to that of the recording, about 5000 Hz");
-    refused(folder.file("rate.csv") + " --sampling-Hz 100", "set sensor.low_pass_Hz to at most half of it");
+    refused(folder.file("rate.csv") + " --sampling-Hz 100",
+            "set sensor.low_pass_Hz to at most half of it");
     time[50] += 1e-3;
     write_csv(folder.file("uneven.csv"), {{"time", time}, {"sensor", good}});
     refused(folder.file("uneven.csv"), "the samples must be evenly spaced");
