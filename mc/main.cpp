@@ -79,6 +79,9 @@ int run_program(int argc, char** argv) {
     ReportOptions report;
     add_report(app, report, code);
 
+    RepairOptions repair;
+    add_repair(app, repair, code);
+
     MissesOptions misses;
     add_misses(app, misses, code);
 
@@ -97,11 +100,10 @@ int run_program(int argc, char** argv) {
     describe_app->add_flag("--keys", describe.keys,
                            "print all keys of study files, or those with a word: describe --keys "
                            "sensor");
-    describe_app
-        ->add_option("--ranks", describe.ranks,
-                     "also forecast a run with this many MPI ranks: time, memory per rank, disk, "
-                     "and the number of ranks from which rank 0 limits the speed")
-        ->check(CLI::Range(1, 1000000));
+    add_number(*describe_app, "--ranks", describe.ranks,
+               "also forecast a run with this many MPI ranks: time, memory per rank, disk, and the "
+               "number of ranks from which rank 0 limits the speed",
+               from_to(1, 1e6));
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
             throw CLI::RequiredError("study");
@@ -115,8 +117,9 @@ int run_program(int argc, char** argv) {
     add_study(*stiffness_app, stiffness.study);
     require_file_name(stiffness_app->add_option(
         "--csv", stiffness.csv, "write the curves to a file, or - for standard output"));
-    stiffness_app->add_option("--points", stiffness.points, "phases of the curves (default: 1000)")
-        ->check(CLI::Range(2, 1000000));
+    add_number(*stiffness_app, "--points", stiffness.points, "phases of the curves (default: 1000)",
+               from_to(2, 1e6));
+    add_force(*stiffness_app, stiffness.force);
     stiffness_app->add_flag(
         "--te", stiffness.te,
         "print the static transmission error under nominal load, including tooth relief, instead "
@@ -129,6 +132,7 @@ int run_program(int argc, char** argv) {
     add_study(*modes_app, modes.study);
     require_file_name(modes_app->add_option("--json", modes.json,
                                             "write JSON to a file, or - for standard output"));
+    add_force(*modes_app, modes.force);
     modes_app->callback([&] { code = modes_command(modes); });
 
     AccuracyOptions accuracy;
@@ -140,20 +144,16 @@ int run_program(int argc, char** argv) {
                                                "write JSON to a file, or - for standard output"));
     accuracy_app->add_option("--peers", accuracy.peers,
                              "table (CSV) with results of other programs, for comparison");
-    accuracy_app
-        ->add_option("--repeats", accuracy.repeats,
-                     "number of timings of each solver setting (default: 3)")
-        ->check(CLI::Range(1, 1000));
-    accuracy_app
-        ->add_option("--gearboxes", accuracy.gearboxes,
-                     "number of gearboxes whose detection rates are compared; 0: none (default: "
-                     "480, or as many as the time allows)")
-        ->check(CLI::Range(0L, 1000000L));
-    accuracy_app
-        ->add_option("--seconds", accuracy.seconds,
-                     "processor time in seconds after which remaining parts are omitted; 0: no "
-                     "limit (default: 300)")
-        ->check(CLI::Range(0.0, 1e9));
+    add_number(*accuracy_app, "--repeats", accuracy.repeats,
+               "number of timings of each solver setting (default: 3)", from_to(1, 1000));
+    add_number(*accuracy_app, "--gearboxes", accuracy.gearboxes,
+               "number of gearboxes whose detection rates are compared; 0: none (default: 480, or "
+               "as many as the time allows)",
+               from_to(0, 1e6));
+    add_number(*accuracy_app, "--seconds", accuracy.seconds,
+               "processor time after which remaining parts are omitted; 0: no limit (default: 300)",
+               from_to(0.0, 1e9, "s"));
+    add_force(*accuracy_app, accuracy.force);
     accuracy_app->add_flag("--quiet", accuracy.quiet, "show no progress");
     accuracy_app->callback([&] { code = accuracy_command(accuracy); });
 
@@ -161,14 +161,13 @@ int run_program(int argc, char** argv) {
     auto* simulate_app =
         app.add_subcommand("simulate", "compute the signals and features of one gearbox");
     add_study(*simulate_app, simulate.study);
-    simulate_app->add_option("--instance", simulate.instance, "row of the results file, from 0")
+    add_number(*simulate_app, "--instance", simulate.instance, "row of the results file, from 0")
         ->required();
     require_file_name(
         simulate_app->add_option("--out", simulate.out, "file for the signals, .h5 or .csv"));
-    simulate_app
-        ->add_option("--meshes", simulate.meshes,
-                     "number of mesh periods (default: one planet turn)")
-        ->check(CLI::PositiveNumber);
+    add_number(*simulate_app, "--meshes", simulate.meshes,
+               "number of mesh periods (default: one planet turn)", at_least(1));
+    add_force(*simulate_app, simulate.force);
     simulate_app->callback([&] { code = simulate_command(simulate); });
 
     FeaturesOptions features;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "mc/accuracy/report.hpp"
+#include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -40,6 +41,9 @@ double number_in(const std::string& cell, const std::string& where, const std::s
 }  // namespace
 
 std::vector<PeerResult> read_peers(const std::string& path) {
+    if (const std::string why = why_not_readable(path); !why.empty()) {
+        throw std::runtime_error(path + ": " + why);
+    }
     std::ifstream file(path);
     std::string line;
     if (!file || !std::getline(file, line)) {

@@ -10,8 +10,9 @@
 namespace gearpod::mc {
 
 int accuracy_command(const AccuracyOptions& options) {
-    const bool writable = can_write(
-        {"--json", options.json}, {{"the study", options.study.path}, {"--peers", options.peers}});
+    const bool writable = can_write({"--json", options.json},
+                                    {{"the study", options.study.path}, {"--peers", options.peers}},
+                                    {json_output(), options.force});
     const auto made = load_scene(options.study);
     if (!made || !writable) {
         return kBadInput;

@@ -123,9 +123,11 @@ class Command {
         for (const Recording& recording : list_.recordings) {
             read.push_back({"a recording", recording.file});
         }
-        const bool good = can_write({"--out", options_.out}, read);
+        const bool good =
+            can_write({"--out", options_.out}, read,
+                      {text_output("a calibrated study", "# Calibrated"), options_.force});
         read.push_back({"--out", options_.out.empty() ? "-" : options_.out});
-        return can_write({"--json", options_.json}, read) && good;
+        return can_write({"--json", options_.json}, read, {json_output(), options_.force}) && good;
     }
 
     // Uses the priors given by --prior, or else the default ones.

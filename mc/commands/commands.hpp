@@ -56,8 +56,15 @@ struct ReportOptions {
     // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     std::optional<double> alarm_cost, miss_cost, fault_share;
     bool shows_withheld = false;  // of lives with too large an interpolation error
+    bool force = false;  // replaces outputs of another kind
 };
 int report_command(const ReportOptions& options);
+
+struct RepairOptions {
+    std::string results;
+};
+// Renews the integrity hash of a results file after reading it completely.
+int repair_command(const RepairOptions& options);
 
 struct MissesOptions {
     std::string results;
@@ -68,6 +75,7 @@ struct MissesOptions {
     int records = 64;  // per gearbox, most of them with exponentially tilted noise
     std::string json;  // "": none; "-": standard output instead of the text
     bool quiet = false;
+    bool force = false;  // replaces outputs of another kind
 };
 int misses_command(const MissesOptions& options);
 
@@ -80,12 +88,14 @@ struct RareOptions {
     long gearboxes = 1000;              // per level
     std::string json;                   // "": none; "-": standard output instead of the text
     bool quiet = false;
+    bool force = false;  // replaces outputs of another kind
 };
 int rare_command(const RareOptions& options);
 
 struct CompareOptions {
     std::vector<std::string> results;  // the others are compared with the first
     std::string json, html;            // "": none; JSON "-": standard output
+    bool force = false;                // replaces outputs of another kind
 };
 int compare_command(const CompareOptions& options);
 
@@ -111,13 +121,15 @@ struct StiffnessOptions {
     StudyOptions study;
     std::string csv;  // "": a summary; "-": standard output
     int points = 1000;
-    bool te = false;  // loaded static transmission error instead of the stiffness
+    bool te = false;     // loaded static transmission error instead of the stiffness
+    bool force = false;  // replaces outputs of another kind
 };
 int stiffness_command(const StiffnessOptions& options);
 
 struct ModesOptions {
     StudyOptions study;
     std::string json;
+    bool force = false;  // replaces outputs of another kind
 };
 int modes_command(const ModesOptions& options);
 
@@ -128,15 +140,17 @@ struct AccuracyOptions {
     int repeats = 3;                // timings of each solver setting
     std::optional<long> gearboxes;  // size of the pilot ensemble; 0: no detection rates
     double seconds = 300.0;         // limit of processor time; 0: none
+    bool force = false;             // replaces outputs of another kind
     bool quiet = false;
 };
 int accuracy_command(const AccuracyOptions& options);
 
 struct SimulateOptions {
     StudyOptions study;
-    long instance = 0;  // row of the results file
-    long meshes = 0;    // 0: one planet turn
-    std::string out;    // .h5 or .csv
+    long instance = 0;   // row of the results file
+    long meshes = 0;     // 0: one planet turn
+    std::string out;     // .h5 or .csv
+    bool force = false;  // replaces outputs of another kind
 };
 int simulate_command(const SimulateOptions& options);
 
@@ -152,6 +166,7 @@ struct FeaturesOptions {
     std::string out, csv;              // results file and table, for many recordings
     std::string against;               // results file of healthy gearboxes to compare with
     std::string feature;               // decides the alarm; "": the best ranked one in `against`
+    bool force = false;                // replaces outputs of another kind
     bool quiet = false;
 };
 // Prints the features of one recording. For many recordings it calls recordings_command().
@@ -169,6 +184,7 @@ struct CalibrateOptions {
     std::vector<std::string> feature;  // features to compare; empty: all
     long sets = 200;                   // parameter sets integrated in each round
     std::string out, json;
+    bool force = false;  // replaces outputs of another kind
     bool quiet = false;
 };
 int calibrate_command(const CalibrateOptions& options);
@@ -176,6 +192,7 @@ int calibrate_command(const CalibrateOptions& options);
 struct PodOptions : InspectionOptions {
     std::string table;
     std::string json, html;  // "": none; JSON "-": standard output
+    bool force = false;      // replaces outputs of another kind
 };
 int pod_command(const PodOptions& options);
 

@@ -352,8 +352,9 @@ int compare_command(const CompareOptions& options) {
     std::vector<FileRole> with_json = read;
     const FileRole json_role{"--json", options.json};
     with_json.push_back(json_role);
-    const bool json_good = can_write(json_role, read);
-    if (!can_write({"--html", options.html}, with_json) || !json_good) {
+    const bool json_good = can_write(json_role, read, {json_output(), options.force});
+    if (!can_write({"--html", options.html}, with_json, {page_output(), options.force}) ||
+        !json_good) {
         return kBadInput;
     }
     if (options.results.size() < 2) {

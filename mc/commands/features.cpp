@@ -96,7 +96,7 @@ int features_command(const FeaturesOptions& options) {
     }
     read.push_back({"the file of --against", options.against});
     read.push_back({"the recording of --baseline", options.baseline});
-    const bool writable = can_write({"--json", options.json}, read);
+    const bool writable = can_write({"--json", options.json}, read, {json_output(), options.force});
     const auto scene = load_scene(options.study).scene;
     if (!scene || !writable) {
         return kBadInput;

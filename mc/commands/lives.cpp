@@ -176,8 +176,9 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     if (ranks.leads()) {
         const FileRole study{"the study", run.study.path}, results{"--out", results_path(run)},
             json{"--json", options.json};
-        const bool good_json = can_write(json, {study, results});
-        const bool good_page = can_write({"--html", options.html}, {study, results, json});
+        const bool good_json = can_write(json, {study, results}, {json_output(), run.force});
+        const bool good_page =
+            can_write({"--html", options.html}, {study, results, json}, {page_output(), run.force});
         const bool good_out = check_output(run), good_progress = check_progress(run);
         if (made) {
             print_omitted(run, made.scene->study());
@@ -206,10 +207,11 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
 }
 
 int report_lives(const ReportOptions& options) {
-    if (!options.csv.empty() || !options.condition.empty() || options.alarm_cost) {
+    if (!options.csv.empty() || !options.pdf.empty() || !options.condition.empty() ||
+        options.alarm_cost) {
         fmt::print(stderr,
-                   "{}: holds lives; --csv, --by and costs are only for results of `run`, omit "
-                   "them\n",
+                   "{}: holds lives; --csv, --pdf, --by and costs are only for results of `run`, "
+                   "omit them\n",
                    options.results);
         return kBadInput;
     }

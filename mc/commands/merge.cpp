@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <exception>
@@ -180,6 +181,7 @@ int merge_command(const MergeOptions& options) {
     run.out = options.out;
     run.force = options.force;
     run.quiet = options.quiet;
+    run.merges = true;
     const Ranks ranks;
     if (ranks.size() > 1) {
         fmt::print(stderr,
@@ -198,6 +200,8 @@ int merge_command(const MergeOptions& options) {
         print_problems(made.problems);
         return kBadInput;
     }
+    const std::string temporary = checkpoint_path(options.out);
+    const bool existed = Checkpoint::exists(temporary);
     std::unique_ptr<Checkpoint> checkpoint;
     try {
         checkpoint = open_checkpoint(*made.scene, merge.whole(), options.out,
@@ -206,6 +210,9 @@ int merge_command(const MergeOptions& options) {
         checkpoint->sync();
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
+        if (!existed) {
+            ::unlink(temporary.c_str());
+        }
         return kBadInput;
     }
     const Interruption interruption(std::nullopt);

@@ -183,7 +183,7 @@ int misses_command(const MissesOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
     std::optional<Prepared> prepared;
-    if (!prepare_together(ranks, options.results, options.json,
+    if (!prepare_together(ranks, options.results, {"--json", options.json}, options.force,
                           [&] { prepared = prepare(options); })) {
         return kBadInput;
     }

@@ -19,7 +19,8 @@ constexpr double kSameMode = 1e-6;
 }  // namespace
 
 int modes_command(const ModesOptions& options) {
-    const bool writable = can_write({"--json", options.json}, {{"the study", options.study.path}});
+    const bool writable = can_write({"--json", options.json}, {{"the study", options.study.path}},
+                                    {json_output(), options.force});
     const auto study = load_study(options.study);
     if (!study || !writable) {
         return kBadInput;

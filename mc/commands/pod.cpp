@@ -18,8 +18,9 @@ namespace gearpod::mc {
 
 int pod_command(const PodOptions& options) {
     const FileRole read{"the table", options.table}, json{"--json", options.json};
-    const bool json_good = can_write(json, {read});
-    if (!can_write({"--html", options.html}, {read, json}) || !json_good) {
+    const bool json_good = can_write(json, {read}, {json_output(), options.force});
+    if (!can_write({"--html", options.html}, {read, json}, {page_output(), options.force}) ||
+        !json_good) {
         return kBadInput;
     }
     try {

@@ -220,7 +220,7 @@ int rare_command(const RareOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
     std::optional<PreparedRare> prepared;
-    if (!prepare_together(ranks, options.results, options.json,
+    if (!prepare_together(ranks, options.results, {"--json", options.json}, options.force,
                           [&] { prepared = prepare_rare(options); })) {
         return kBadInput;
     }

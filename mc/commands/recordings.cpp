@@ -55,9 +55,13 @@ bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
             last = recording.file;
         }
     }
-    const bool out_good = can_write({"--out", options.out}, read);
+    const bool out_good =
+        can_write({"--out", options.out}, read, {recordings_output(), options.force});
     read.push_back({"--out", options.out.empty() ? "-" : options.out});
-    return can_write({"--csv", options.csv}, read) && out_good;
+    return can_write({"--csv", options.csv}, read,
+                     {text_output("a table of `features` (CSV)", "file,row,gearbox,label"),
+                      options.force}) &&
+           out_good;
 }
 
 RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
@@ -113,6 +117,11 @@ int recordings_command(const FeaturesOptions& options) {
     RecordingList list;
     if (problems.empty()) {
         list = list_of(options, problems);
+    }
+    if (!options.out.empty()) {
+        for (Problem& problem : condition_name_problems(options.manifest, list)) {
+            problems.push_back(std::move(problem));
+        }
     }
     if (!problems.empty()) {
         print_problems(problems);

@@ -26,8 +26,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Checks that no table would overwrite another input or output file. Returns false after printing
-// the problem.
+// Checks that no table would overwrite another input or output file, or a file of another kind.
+// Returns false after printing the problem.
 bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>& tables) {
     const std::vector<FileRole> others{{"the results file", options.results},
                                        {"--json", options.json},
@@ -36,6 +36,12 @@ bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>&
     bool good = true;
     for (const CsvTable& table : tables) {
         const std::string path = table_path(options.csv, table);
+        const OutputKind kind =
+            text_output("a table of `report` (CSV)", table.columns.front() + ",");
+        if (const std::string why = why_not_replaced(path, {kind, options.force}); !why.empty()) {
+            fmt::print(stderr, "--csv {}: {}\n", printable(path), why);
+            good = false;
+        }
         for (const FileRole& other : others) {
             if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
                 fmt::print(stderr, "--csv {}: would overwrite {}; choose another folder\n", path,
@@ -111,11 +117,13 @@ bool read_costs(const ReportOptions& options, std::optional<analysis::Costs>& co
 int report_command(const ReportOptions& options) {
     const FileRole read{"the results file", options.results}, json{"--json", options.json},
         html{"--html", options.html};
-    const bool json_good = can_write(json, {read});
-    const bool pdf_good = can_write({"--pdf", options.pdf}, {read, json, html});
+    const bool json_good = can_write(json, {read}, {json_output(), options.force});
+    const bool pdf_good =
+        can_write({"--pdf", options.pdf}, {read, json, html}, {sheet_output(), options.force});
     std::optional<analysis::Costs> costs;
     const bool costs_good = read_costs(options, costs);
-    if (!can_write(html, {read, json}) || !json_good || !pdf_good || !costs_good) {
+    const bool html_good = can_write(html, {read, json}, {page_output(), options.force});
+    if (!html_good || !json_good || !pdf_good || !costs_good) {
         return kBadInput;
     }
     try {

@@ -96,14 +96,28 @@ int simulate_command(const SimulateOptions& options) {
                        options.out);
             good = false;
         } else {
-            good = can_write({"--out", options.out}, {{"the study", options.study.path}}) && good;
+            good = can_write({"--out", options.out}, {{"the study", options.study.path}},
+                             {csv ? text_output("signals of `simulate` (CSV)",
+                                                "time [s],mesh_phase [mesh periods],")
+                                  : signals_output(),
+                              options.force}) &&
+                   good;
         }
     }
     if (!good) {
         return kBadInput;
     }
+    Simulation simulation;
     try {
-        const Simulation simulation = simulate_row(*scene, options.instance, options.meshes);
+        simulation = simulate_row(*scene, options.instance, options.meshes);
+    } catch (const BadInput& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return kBadInput;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kSomeFailed;
+    }
+    try {
         if (csv) {
             const std::string text = csv_text(simulation);
             write_file(options.out, std::as_bytes(std::span(text)));
@@ -111,12 +125,9 @@ int simulate_command(const SimulateOptions& options) {
             write_hdf5(options.out, simulation, scene->study());
         }
         print_summary(simulation, options.out);
-    } catch (const BadInput& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return kBadInput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
-        return kSomeFailed;
+        return kBadInput;
     }
     return kDone;
 }

@@ -64,7 +64,9 @@ void print_summary(const Scene& scene) {
 }  // namespace
 
 int stiffness_command(const StiffnessOptions& options) {
-    const bool writable = can_write({"--csv", options.csv}, {{"the study", options.study.path}});
+    const bool writable =
+        can_write({"--csv", options.csv}, {{"the study", options.study.path}},
+                  {text_output("a table of `stiffness` (CSV)", "phase,"), options.force});
     const auto scene = load_scene(options.study).scene;
     if (!scene || !writable) {
         return kBadInput;

@@ -119,10 +119,11 @@ StudyScene scene_for_results(const StudyResults& results, const Study& study) {
     return made;
 }
 
-bool prepare_together(const Ranks& ranks, const std::string& results, const std::string& json,
-                      const std::function<void()>& prepare) {
+bool prepare_together(const Ranks& ranks, const std::string& results, const FileRole& json,
+                      bool force, const std::function<void()>& prepare) {
     std::string problem;
-    if (ranks.leads() && !can_write({"--json", json}, {{"the results file", results}})) {
+    if (ranks.leads() &&
+        !can_write(json, {{"the results file", results}}, {json_output(), force})) {
         problem = "-";  // can_write() has printed the reason
     } else {
         try {

@@ -15,6 +15,7 @@
 #include "mc/input/problems.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/results/results_file.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 
@@ -61,9 +62,10 @@ std::string miss_probability_text(const RequestedSize& size, const std::string& 
 StudyScene scene_for_results(const StudyResults& results, const Study& study);
 
 // Calls `prepare`, which may throw, in every rank. Returns false in all ranks if one of them
-// failed; rank 0 has then printed the problem.
-bool prepare_together(const Ranks& ranks, const std::string& results, const std::string& json,
-                      const std::function<void()>& prepare);
+// failed, or if the JSON cannot be written; rank 0 has then printed the problem. `force`: the JSON
+// may replace a file of another kind.
+bool prepare_together(const Ranks& ranks, const std::string& results, const FileRole& json,
+                      bool force, const std::function<void()>& prepare);
 
 // Result of a command in rank 0.
 struct CommandResult {

@@ -254,9 +254,9 @@ bool can_write_outputs(const SweepOptions& options, const std::vector<SweepPoint
         others.push_back({"the results of " + point.name, results_path(run_of(options, point))});
     }
     const FileRole json{"--json", options.json};
-    const bool json_good = can_write(json, others);
+    const bool json_good = can_write(json, others, {json_output(), options.force});
     others.push_back(json);
-    return can_write({"--html", options.html}, others) && json_good;
+    return can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
 }
 
 }  // namespace

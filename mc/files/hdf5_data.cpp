@@ -119,8 +119,9 @@ Hdf5Handle create_memory_file() {
             "file"};
 }
 
-Hdf5Handle create_file(const std::string& path) {
+Hdf5Handle create_file(const std::string& path, hsize_t user_block) {
     const Hdf5Handle creation = ordered_properties(H5P_FILE_CREATE, "file");
+    check(H5Pset_userblock(creation.get(), user_block), "file");
     return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT), H5Fclose, "file"};
 }
 

@@ -19,8 +19,9 @@ Hdf5Handle create_memory_file();
 // Content of the file, as it would be on the disk.
 std::vector<std::byte> file_bytes(const Hdf5Handle& file);
 
-// Creates such a file on the disk.
-Hdf5Handle create_file(const std::string& path);
+// Creates such a file on the disk. Its first `user_block` bytes (0, 512, 1024, ...) are zeros that
+// HDF5 neither reads nor writes.
+Hdf5Handle create_file(const std::string& path, hsize_t user_block = 0);
 // Creates a dataset of doubles or 64-bit integers and returns the position of its values in the
 // file, 0 for no values. The caller writes the values (little-endian, row-major) there after
 // closing the file; HDF5 keeps no copy of them.

@@ -5,6 +5,7 @@
 #include "mc/files/formats/file_content.hpp"
 #include "mc/files/isolated_signal.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -26,10 +27,8 @@ std::string extension_of(const std::filesystem::path& path) {
 
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
-        throw SignalError(path + (std::filesystem::is_directory(path, error) ? ": is a folder"
-                                                                             : ": no such file"));
+    if (const std::string why = why_not_readable(path); !why.empty()) {
+        throw SignalError(path + ": " + why);
     }
     std::string kind = extension_of(path);
     const bool compressed = kind == ".gz";

@@ -4,6 +4,7 @@
 
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text_dialect.hpp"
+#include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -48,6 +49,9 @@ std::string TextTable::no_number_text(std::size_t row, std::size_t column) const
 }
 
 TextTable read_text_table(const std::string& path) {
+    if (const std::string why = why_not_readable(path); !why.empty()) {
+        throw SignalError(path + ": " + why);
+    }
     const TextDialect dialect = text_dialect(path);
     TextTable table;
     table.path = path;

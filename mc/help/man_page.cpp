@@ -80,7 +80,8 @@ std::string man_page(const CLI::App& app, const std::string& version) {
         }
     }
     return out +
-           ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n2\nwrong input; every problem is printed\n"
+           ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n2\nwrong input, or an output that cannot be "
+           "written; every problem is printed\n"
            ".TP\n3\nsome gearboxes failed; they are counted, and the results are written\n"
            ".TP\n4\nstopped before the end; \\-\\-resume continues from the checkpoint\n";
 }

@@ -190,7 +190,7 @@ std::string reference_json(const CLI::App& app, const std::string& version) {
     }
     json["exit_codes"] = {
         {"0", "done"},
-        {"2", "bad input; every problem is reported, and nothing is written"},
+        {"2", "bad input, or an output that cannot be written; every problem is reported"},
         {"3", "some gearboxes failed; they are counted, and the results are written"},
         {"4", "stopped before the end, with a checkpoint from which --resume continues"}};
     json["sections"] = OrderedJson::array();

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
+#include "mc/input/input_file.hpp"
 #include "mc/input/nesting.hpp"
 
 // toml++ 3.3 asserts conditions that malformed headers such as "[[[" violate, and relies on them in
@@ -296,18 +294,11 @@ void drop_overridden_random(Value& document) {
 }
 
 std::string read_file(const std::string& path, Problems& problems) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        problems.push_back({path, 0, "", "is a folder", "name a study file (*.toml)"});
+    if (const std::string why = why_not_readable(path, StandardInput::accepted); !why.empty()) {
+        problems.push_back({path, 0, "", why, "name an existing study file (*.toml)"});
         return {};
     }
     std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
-        problems.push_back({path, 0, "",
-                            std::string("cannot be read (") + std::strerror(errno) + ")",
-                            "name an existing study file (*.toml)"});
-        return {};
-    }
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (stream.bad()) {
         problems.push_back({path, 0, "", "cannot be read (input error)", ""});

@@ -202,7 +202,17 @@ void check_options(const InspectionOptions& options, Problems& problems) {
     within("--confidence", options.confidence, 0.5, 0.9999);
     within("--false-call-rate", options.false_call_rate, 1e-6, 0.5);
     within("--floor", options.floor, 0.0, 0.999);
-    if (options.target && !(*options.target > 0.0)) {
+    const auto finite = [&](const char* name, std::optional<double> given) {
+        if (given && !std::isfinite(*given)) {
+            problems.push_back(
+                {.what = fmt::format("{}: {:g} is not a finite number", name, *given)});
+        }
+    };
+    finite("--threshold", options.threshold);
+    finite("--left", options.left);
+    finite("--right", options.right);
+    finite("--target", options.target);
+    if (options.target && *options.target <= 0.0) {
         problems.push_back(
             {.what = fmt::format("--target: must be > 0, but is {:g}", *options.target)});
     }

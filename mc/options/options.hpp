@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "mc/commands/commands.hpp"
+#include "mc/options/number_options.hpp"
 
 namespace gearpod::mc {
 
@@ -27,6 +28,9 @@ void add_shorthand(CLI::App& command, const char* name, const char* key, const c
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force);
 void add_progress(CLI::App& command, RunOptions& run);
 
+// Adds --force to a command whose outputs otherwise replace files of their own kind only.
+void add_force(CLI::App& command, bool& force);
+
 void add_run(CLI::App& app, RunOptions& run, int& code);
 void add_new(CLI::App& app, NewOptions& options, int& code);
 void add_sweep(CLI::App& app, SweepOptions& options, int& code);
@@ -35,6 +39,7 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code);
 void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code);
 void add_pod(CLI::App& app, PodOptions& pod, int& code);
 void add_report(CLI::App& app, ReportOptions& report, int& code);
+void add_repair(CLI::App& app, RepairOptions& repair, int& code);
 void add_misses(CLI::App& app, MissesOptions& misses, int& code);
 void add_rare(CLI::App& app, RareOptions& rare, int& code);
 void add_compare(CLI::App& app, CompareOptions& compare, int& code);

@@ -1,4 +1,4 @@
-// Options of `report`, `misses` and `rare`.
+// Options of `report`, `repair`, `misses` and `rare`.
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {
@@ -19,15 +19,26 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
     command->add_option("--by", report.condition,
                         "random input, e.g. torque_N_m; also use a separate threshold for each of "
                         "its values");
-    command->add_option("--alarm-cost", report.alarm_cost,
-                        "cost of a false alarm; with the next two options, find the threshold of "
-                        "least expected cost");
-    command->add_option("--miss-cost", report.miss_cost, "cost of a missed fault");
-    command->add_option("--fault-share", report.fault_share,
-                        "share of records that have a fault, 0 to 1");
+    add_number(*command, "--alarm-cost", report.alarm_cost,
+               "cost of a false alarm; with the next two options, find the threshold of least "
+               "expected cost",
+               at_least(0.0));
+    add_number(*command, "--miss-cost", report.miss_cost, "cost of a missed fault", at_least(0.0));
+    add_number(*command, "--fault-share", report.fault_share, "share of records that have a fault",
+               from_to(0.0, 1.0));
     command->add_flag("--show-withheld", report.shows_withheld,
                       "report lives although their signals are interpolated too coarsely");
+    add_force(*command, report.force);
     command->callback([&report, &code] { code = report_command(report); });
+}
+
+void add_repair(CLI::App& app, RepairOptions& repair, int& code) {
+    auto* command = app.add_subcommand(
+        "repair",
+        "renew the integrity hash of a results file that another program has changed on purpose or "
+        "written anew; the file is read completely first");
+    command->add_option("results", repair.results, "results file (HDF5)")->required();
+    command->callback([&repair, &code] { code = repair_command(repair); });
 }
 
 void add_misses(CLI::App& app, MissesOptions& misses, int& code) {
@@ -41,15 +52,17 @@ void add_misses(CLI::App& app, MissesOptions& misses, int& code) {
         ->required();
     command->add_option("--feature", misses.feature, "feature of the acceleration signal")
         ->required();
-    command->add_option("--size", misses.size, "fault size, in the unit of the study")->required();
-    command->add_option("--noise-level", misses.noise_level,
-                        "one of sensor.noise_levels (default: 1, or the first above 0)");
-    command->add_option("--gearboxes", misses.gearboxes, "number of gearboxes (default: 200)");
-    command->add_option("--records", misses.records,
-                        "records of each gearbox, a multiple of four (default: 64)");
+    add_number(*command, "--size", misses.size, "fault size, in the unit of the study", above(0.0))
+        ->required();
+    add_number(*command, "--noise-level", misses.noise_level,
+               "one of sensor.noise_levels (default: 1, or the first above 0)", at_least(0.0));
+    add_number(*command, "--gearboxes", misses.gearboxes, "number of gearboxes (default: 200)");
+    add_number(*command, "--records", misses.records,
+               "records of each gearbox, a multiple of four (default: 64)");
     require_file_name(command->add_option("--json", misses.json,
                                           "write JSON to a file, or - for standard output"));
     command->add_flag("--quiet", misses.quiet, "show no progress");
+    add_force(*command, misses.force);
     command->callback([&misses, &code] { code = misses_command(misses); });
 }
 
@@ -63,18 +76,18 @@ void add_rare(CLI::App& app, RareOptions& rare, int& code) {
                      "results file (HDF5) of `run`; gives the study and the threshold")
         ->required();
     command->add_option("--feature", rare.feature, "feature of the file")->required();
-    auto* rate = command->add_option("--rate", rare.rate, "false-alarm rate; find its threshold");
-    command
-        ->add_option("--size", rare.size,
-                     "fault size, in the unit of the study; find its miss rate")
+    auto* rate = add_number(*command, "--rate", rare.rate, "false-alarm rate; find its threshold");
+    add_number(*command, "--size", rare.size,
+               "fault size, in the unit of the study; find its miss rate", above(0.0))
         ->excludes(rate);
-    command->add_option("--noise-level", rare.noise_level,
-                        "one of sensor.noise_levels (default: 1, or the first above 0)");
-    command->add_option("--gearboxes", rare.gearboxes,
-                        "number of gearboxes of each level (default: 1000)");
+    add_number(*command, "--noise-level", rare.noise_level,
+               "one of sensor.noise_levels (default: 1, or the first above 0)", at_least(0.0));
+    add_number(*command, "--gearboxes", rare.gearboxes,
+               "number of gearboxes of each level (default: 1000)");
     require_file_name(
         command->add_option("--json", rare.json, "write JSON to a file, or - for standard output"));
     command->add_flag("--quiet", rare.quiet, "show no progress");
+    add_force(*command, rare.force);
     command->callback([&rare, &code] { code = rare_command(rare); });
 }
 

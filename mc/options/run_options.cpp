@@ -18,10 +18,17 @@ void add_run(CLI::App& app, RunOptions& run, int& code) {
     add_progress(*command, run);
     command->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
     command
-        ->add_option("--signals", run.signals,
-                     "store the signals of these rows over one planet turn in the results, "
-                     "e.g. 0,17")
+        ->add_option_function<std::vector<std::string>>(
+            "--signals",
+            [&run](const std::vector<std::string>& rows) {
+                for (const std::string& row : rows) {
+                    run.signals.push_back(whole_number(row));
+                }
+            },
+            "store the signals of these rows over one planet turn in the results, "
+            "e.g. 0,17")
         ->type_name("ROW,ROW...")
+        ->check(number_check(NumberForm::whole, {}))
         ->delimiter(',')
         ->allow_extra_args(false);
     command->add_flag("--quiet", run.quiet, "print problems only");

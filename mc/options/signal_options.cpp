@@ -13,10 +13,8 @@ void add_signal_reading(CLI::App& command, SignalColumns& columns) {
                        "unit: \"100 mV/g\", \"10.2 mV/(m/s^2)\"");
     command.add_option("--tachometer", columns.tachometer,
                        "column of tachometer pulses, of the member whose speed the study gives");
-    command
-        .add_option("--pulses-per-turn", columns.pulses_per_turn,
-                    "pulses of the tachometer per turn (default: 1)")
-        ->check(CLI::Range(1.0, 1e5));
+    add_number(command, "--pulses-per-turn", columns.pulses_per_turn,
+               "pulses of the tachometer per turn (default: 1)", from_to(1.0, 1e5));
     command.add_option("--encoder", columns.encoder,
                        "column of the encoder angle of that member; rad, or the unit in brackets "
                        "after the name: deg, turns, ...");
@@ -39,13 +37,11 @@ void add_columns(CLI::App& command, SignalColumns& columns) {
         "--sensor", columns.sensor,
         "column of the acceleration (default: sensor); in HDF5 and MAT files a name or path, "
         "and data:2 for the second column of a matrix");
-    command
-        .add_option("--sampling-Hz", columns.sampling_Hz, "sampling rate (default: from the file)")
-        ->check(CLI::PositiveNumber);
-    command
-        .add_option("--samples-per-mesh", columns.samples_per_mesh,
-                    "samples per mesh period, for recordings sampled evenly in mesh phase")
-        ->check(CLI::Range(2.0, 1e6));
+    add_number(command, "--sampling-Hz", columns.sampling_Hz,
+               "sampling rate (default: from the file)", above(0.0, "Hz"));
+    add_number(command, "--samples-per-mesh", columns.samples_per_mesh,
+               "samples per mesh period, for recordings sampled evenly in mesh phase",
+               from_to(2.0, 1e6));
     add_signal_reading(command, columns);
 }
 
@@ -71,13 +67,14 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
         ->add_option("--healthy", features.healthy,
                      "recording of a healthy gearbox, the reference of na4, nb4 and nsds; may be "
                      "repeated (default: gearboxes simulated from the study)")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->option_text("FILE");  // one for each --healthy, because the signals are files, too
     require_file_name(command->add_option(
         "--baseline", features.baseline,
         "earlier recording of the same gearbox in healthy condition, the reference of own_... and "
         "change_... features"));
-    command->add_option("--noise-level", features.noise_level,
-                        "noise level of the simulated gearboxes (default: 1)");
+    add_number(*command, "--noise-level", features.noise_level,
+               "noise level of the simulated gearboxes (default: 1)", at_least(0.0));
     require_file_name(command->add_option(
         "--json", features.json, "one signal: write JSON to a file, or - for standard output"));
     require_file_name(command->add_option(
@@ -91,6 +88,7 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
     command->add_option("--feature", features.feature,
                         "feature that decides the alarm (default: the best ranked in the "
                         "results file)");
+    add_force(*command, features.force);
     command->callback([&] { code = features_command(features); });
 }
 
@@ -101,9 +99,11 @@ void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code) {
         "recordings of healthy gearboxes: approximate Bayesian computation with regression "
         "adjustment");
     add_study(*command, calibrate.study);
-    command->add_option("--healthy", calibrate.healthy,
-                        "recordings of healthy gearboxes, each of a different gearbox, or name "
-                        "patterns; same formats as for `features`");
+    command
+        ->add_option("--healthy", calibrate.healthy,
+                     "recordings of healthy gearboxes, each of a different gearbox, or name "
+                     "patterns; same formats as for `features`")
+        ->allow_extra_args(false);
     command->add_option("--manifest", calibrate.manifest,
                         "instead: table (CSV) of recordings as for `features`; column gearbox "
                         "names the gearbox; faulty recordings are ignored");
@@ -118,23 +118,24 @@ void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code) {
             "it; sensor.noise_m_s2 or its density, 1 to 105 % of the recordings' rms, log; "
             "sensor.gain=0.05:20:log; sensor.path_exponent=-0.2:0.4; with tones "
             "sensor.tone_level=0.01:20:log)")
+        ->type_name("KEY=LOW:HIGH")
         ->allow_extra_args(false);
     command
         ->add_option("--feature", calibrate.feature,
                      "feature to compare; may be repeated (default: all features of the "
                      "acceleration except those of sun and ring)")
         ->allow_extra_args(false);
-    command
-        ->add_option("--draws", calibrate.sets,
-                     "parameter sets simulated in each of two rounds (default: 200); each set "
-                     "integrates every gearbox once")
-        ->check(CLI::Range(50L, 100000L));
+    add_number(*command, "--draws", calibrate.sets,
+               "parameter sets simulated in each of two rounds (default: 200); each set integrates "
+               "every gearbox once",
+               from_to(50, 100000));
     require_file_name(command->add_option("--out", calibrate.out,
                                           "write a study file (TOML) with the calibrated inputs in "
                                           "[random], or - for standard output"));
     require_file_name(command->add_option("--json", calibrate.json,
                                           "write JSON to a file, or - for standard output"));
     command->add_flag("--quiet", calibrate.quiet, "do not print the computing time");
+    add_force(*command, calibrate.force);
     command->callback([&] { code = calibrate_command(calibrate); });
 }
 

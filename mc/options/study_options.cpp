@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mc/input/wrapped_text.hpp"
 #include "mc/options/options.hpp"
+#include "mc/options/several_values.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -36,6 +39,37 @@ class WrappedHelp final : public CLI::Formatter {
     }
 };
 
+// Arguments with the name of the option before each of several values.
+std::vector<std::string> separated_arguments(const CLI::App& app, int argc, char** argv) {
+    std::vector<std::string> words(argv, argv + std::min(argc, 2));
+    const std::vector<std::string> rest(argv + words.size(), argv + argc);
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (words.size() == 2 && command->get_name() == words[1]) {
+            const std::vector<std::string> separated = separate_values(*command, rest);
+            words.insert(words.end(), separated.begin(), separated.end());
+            return words;
+        }
+    }
+    words.insert(words.end(), rest.begin(), rest.end());
+    return words;
+}
+
+// Problems of all values that the checks of a command's options refuse, one line each. CLI11 itself
+// stops at the first one.
+std::string refused_values(CLI::App& app) {
+    std::string text;
+    for (CLI::App* command : app.get_subcommands()) {
+        for (CLI::Option* option : command->get_options()) {
+            for (const std::string& value : option->results()) {
+                if (const std::string why = check_problem(*option, value); !why.empty()) {
+                    text += (text.empty() ? "" : "\n") + option->get_name() + ": " + why;
+                }
+            }
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 int parse(CLI::App& app, int argc, char** argv, const int& code) {
@@ -44,8 +78,16 @@ int parse(CLI::App& app, int argc, char** argv, const int& code) {
     for (CLI::App* command : app.get_subcommands({})) {
         command->formatter(help);
     }
+    const std::vector<std::string> words = separated_arguments(app, argc, argv);
+    std::vector<const char*> pointers;
+    for (const std::string& word : words) {
+        pointers.push_back(word.c_str());
+    }
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(pointers.size()), pointers.data());
+    } catch (const CLI::ValidationError& error) {
+        const std::string all = refused_values(app);
+        return app.exit(all.empty() ? error : CLI::ValidationError(all)) == 0 ? kDone : kBadInput;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kBadInput;
     }
@@ -90,6 +132,10 @@ void add_results(CLI::App& command, RunOptions& run, const char* resume, const c
         .add_option("--time-limit", run.time_limit,
                     "save a checkpoint and exit with code 4 before this time ends")
         ->type_name("HH:MM:SS");
+}
+
+void add_force(CLI::App& command, bool& force) {
+    command.add_flag("--force", force, "replace existing files that are no outputs of this kind");
 }
 
 void add_progress(CLI::App& command, RunOptions& run) {

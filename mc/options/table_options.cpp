@@ -19,17 +19,17 @@ void add_pod_data(CLI::App& command, PodOptions& pod) {
         ->allow_extra_args(false);
     command.add_option("--specimen", pod.specimen,
                        "column with the name of the specimen (default: one specimen per line)");
-    command.add_option("--threshold", pod.threshold, "decision threshold of responses");
-    command
-        .add_option("--false-call-rate", pod.false_call_rate,
-                    "false-call rate; sets the threshold from the responses of size 0")
-        ->check(CLI::Range(1e-6, 0.5));
+    add_number(command, "--threshold", pod.threshold, "decision threshold of responses");
+    add_number(command, "--false-call-rate", pod.false_call_rate,
+               "false-call rate; sets the threshold from the responses of size 0",
+               from_to(1e-6, 0.5));
     command
         .add_option("--alarm", pod.alarm,
                     "side of the threshold that is a hit: high (default) or low")
         ->check(CLI::IsMember({"high", "low"}));
-    command.add_option("--left", pod.left, "responses at or below this value are left-censored");
-    command.add_option("--right", pod.right, "responses at or above this value are right-censored");
+    add_number(command, "--left", pod.left, "responses at or below this value are left-censored");
+    add_number(command, "--right", pod.right,
+               "responses at or above this value are right-censored");
 }
 
 }  // namespace
@@ -53,10 +53,9 @@ void add_pod(CLI::App& app, PodOptions& pod, int& code) {
     command->add_option("--response-scale", pod.response_scale,
                         "scale of the response: linear, log, box-cox or a power (default: the "
                         "better fit of linear and log)");
-    command
-        ->add_option("--floor", pod.floor,
-                     "POD of vanishing flaws (default: the false-call rate of size 0)")
-        ->check(CLI::Range(0.0, 0.999));
+    add_number(*command, "--floor", pod.floor,
+               "POD of vanishing flaws (default: the false-call rate of size 0)",
+               from_to(0.0, 0.999));
     command->add_flag("--fit-ceiling", pod.fit_ceiling,
                       "also fit curves with a maximum POD below 1");
     command->add_flag("--firth", pod.firth,
@@ -72,18 +71,15 @@ void add_pod(CLI::App& app, PodOptions& pod, int& code) {
                      "method of asymptotic bounds: likelihood-ratio (default for hits) or wald "
                      "(default for responses); without --convention: the handbook's")
         ->check(CLI::IsMember({"likelihood-ratio", "wald"}));
-    command
-        ->add_option("--confidence", pod.confidence,
-                     "confidence level of the bounds (default: 0.95)")
-        ->check(CLI::Range(0.5, 0.9999));
-    command
-        ->add_option("--target", pod.target,
-                     "size that a90/95 must reach; print how many specimens that needs")
-        ->check(CLI::PositiveNumber);
+    add_number(*command, "--confidence", pod.confidence,
+               "confidence level of the bounds (default: 0.95)", from_to(0.5, 0.9999));
+    add_number(*command, "--target", pod.target,
+               "size that a90/95 must reach; print how many specimens that needs", above(0.0));
     require_file_name(
         command->add_option("--json", pod.json, "write JSON to a file, or - for standard output"));
     require_file_name(
         command->add_option("--html", pod.html, "write a page with figures to a file"));
+    add_force(*command, pod.force);
     command->callback([&] { code = pod_command(pod); });
 }
 
@@ -99,6 +95,7 @@ void add_compare(CLI::App& app, CompareOptions& compare, int& code) {
                                           "write JSON to a file, or - for standard output"));
     require_file_name(
         command->add_option("--html", compare.html, "write a page with figures to a file"));
+    add_force(*command, compare.force);
     command->callback([&] { code = compare_command(compare); });
 }
 

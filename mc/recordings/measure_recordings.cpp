@@ -165,6 +165,23 @@ void print_notes(const RecordingList& list, const std::vector<MeasuredRecording>
     }
 }
 
+Problems condition_name_problems(const std::string& manifest, const RecordingList& list) {
+    Problems problems;
+    for (const TableColumn& column : list.inputs) {
+        const std::string& name = column.name;
+        const bool reserved = name.empty() || name == "." || name == "group" ||
+                              name == kNoiseWeight || name.find('/') != std::string::npos;
+        if (reserved) {
+            problems.push_back(
+                {manifest, 0, printable(name),
+                 "the name of this column cannot be stored in a results file (a slash, a point, "
+                 "group, noise_weight or no name)",
+                 "rename the column; a unit stands in brackets after the name, as load [N/m]"});
+        }
+    }
+    return problems;
+}
+
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
                            std::span<const features::Feature> features) {

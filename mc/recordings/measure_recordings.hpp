@@ -33,6 +33,10 @@ std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
 // Prints the notes on the recordings to stderr, equal ones once with the first recording.
 void print_notes(const RecordingList& list, const std::vector<MeasuredRecording>& measured);
 
+// Problems with names of operating conditions that a results file cannot hold: names with a slash,
+// and names that have a meaning there. `manifest` names the table.
+Problems condition_name_problems(const std::string& manifest, const RecordingList& list);
+
 // Returns a CSV table with a line for each recording: its description, its features (those of
 // measurable()) and its problem.
 std::string recordings_csv(const RecordingList& list,

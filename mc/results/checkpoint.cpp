@@ -201,11 +201,12 @@ std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const Ru
                                       [](int file) { static_cast<void>(lock(file)); });
     if (fd < 0 && errno == EEXIST) {
         const std::string worker = worker_on(path);
-        throw std::runtime_error(
-            path + ": " +
-            (worker.empty() ? "contains the finished batches of an interrupted run; continue it "
-                              "with --resume, or delete this file to start again"
-                            : busy_text(worker)));
+        throw std::runtime_error(path + ": " +
+                                 (worker.empty()
+                                      ? "contains the finished batches of an interrupted run or "
+                                        "merge; continue a run with "
+                                        "`run --resume`, or delete this file to start again"
+                                      : busy_text(worker)));
     }
     std::unique_ptr<Checkpoint> checkpoint(new Checkpoint(path, Descriptor(fd), identity, plan));
     checkpoint->write_worker();

@@ -1,13 +1,16 @@
 // Implements read_results() and read_frame().
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <set>
 #include <sstream>
 
 #include "mc/files/hdf5_data.hpp"
+#include "mc/files/isolated_trial.hpp"
+#include "mc/input/input_file.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
 
@@ -254,16 +257,44 @@ class ResultsReader {
     Results results_;
 };
 
-void check_readable(const std::string& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        refuse_file(path, "is a folder; name a results file (*.h5)");
+constexpr const char* kRepairHint =
+    "; if it was changed on purpose, `gearpod repair` renews its integrity hash";
+
+// Refuses a file that cannot be opened, or whose integrity hash does not fit.
+void check_readable(const std::string& path, ChecksumState checksum, bool verified) {
+    if (const std::string why = why_not_readable(path); !why.empty()) {
+        refuse_file(path, why + (why == "is a folder" ? "; name a results file (*.h5)" : ""));
     }
-    if (!std::ifstream(path)) {
-        refuse_file(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+    if (is_open_for_writing(path)) {
+        refuse_file(path, "is open for writing in another program; close it there");
+    }
+    if (verified && checksum == ChecksumState::truncated) {
+        refuse_file(path, "is truncated: its end is missing; copy it again, or repeat the run");
+    }
+    if (verified && checksum == ChecksumState::extended) {
+        refuse_file(path, std::string("is longer than it was written: another program has changed "
+                                      "it") +
+                              kRepairHint);
+    }
+    if (verified && checksum == ChecksumState::broken) {
+        refuse_file(path, std::string("is damaged, or another program has changed it (wrong "
+                                      "integrity hash)") +
+                              kRepairHint);
     }
     if (H5Fis_hdf5(path.c_str()) <= 0) {
         refuse_file(path, "is not a results file (it is not HDF5); `run` writes one");
+    }
+}
+
+// Prints once for each file that its contents cannot be verified.
+void print_unverified(const std::string& path) {
+    static std::set<std::string> noted;
+    if (noted.insert(path).second) {
+        fmt::print(stderr,
+                   "{}: note: has no integrity hash, because another program opened it for writing "
+                   "or wrote it anew; changes of its contents cannot be detected (`gearpod repair` "
+                   "adds a hash)\n",
+                   path);
     }
 }
 
@@ -280,34 +311,39 @@ void check_format(const std::string& path, hid_t root) {
     }
     int number = 0;
     std::from_chars(version.data(), version.data() + version.size(), number);
-    if (number != kResultsFormatVersion) {
-        refuse_file(path, "has results format version " + version +
-                              ", but this program reads version " +
-                              std::to_string(kResultsFormatVersion) +
-                              "; use a matching version of gearpod");
+    if (number < kOldestFormatVersion || number > kResultsFormatVersion) {
+        refuse_file(path,
+                    fmt::format("has results format version {}, but this program reads "
+                                "versions {} to {}; use a matching version of gearpod",
+                                printable(version), kOldestFormatVersion, kResultsFormatVersion));
     }
 }
 
-Results read(const std::string& path, bool with_columns) {
-    const SilentHdf5 silent;
-    check_readable(path);
-    const ChecksumState checksum = check_file_checksum(path);
-    if (checksum == ChecksumState::broken) {
-        refuse_file(path, "is damaged (wrong checksum)");
-    }
+Results read_open_file(const std::string& path, bool with_columns) {
     try {
         const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                               "opening the file");
         const Hdf5Handle root = open_group(file.get(), "/");
         check_format(path, root.get());
-        if (checksum == ChecksumState::missing) {
-            refuse_file(path,
-                        "is truncated, or another program has changed it (no checksum at its end)");
-        }
         return ResultsReader(root.get(), std::filesystem::file_size(path), with_columns).read();
     } catch (const Hdf5Error& error) {
         refuse_file(path, std::string("is damaged or truncated (at \"") + error.what() + "\")");
     }
+}
+
+Results read(const std::string& path, bool with_columns, bool verified = true) {
+    const SilentHdf5 silent;
+    const ChecksumState checksum = check_file_checksum(path);
+    check_readable(path, checksum, verified);
+    if (checksum != ChecksumState::intact &&
+        !survives_reading(path, [&] { read_open_file(path, true); })) {
+        refuse_file(path, "is damaged: the HDF5 library crashes on it, or does not finish");
+    }
+    Results results = read_open_file(path, with_columns);
+    if (verified && checksum == ChecksumState::missing) {
+        print_unverified(path);
+    }
+    return results;
 }
 
 }  // namespace
@@ -318,6 +354,10 @@ Results read_results(const std::string& path) {
 
 Results read_frame(const std::string& path) {
     return read(path, false);
+}
+
+Results read_unverified_results(const std::string& path) {
+    return read(path, true, false);
 }
 
 }  // namespace gearpod::mc

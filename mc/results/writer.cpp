@@ -232,7 +232,7 @@ void write_all_signals(hid_t root, const Results& frame) {
 
 // Writes everything except the rows and reserves space for these.
 Places write_frame(const std::string& path, const Results& frame, std::size_t rows) {
-    Hdf5Handle file = create_file(path);
+    Hdf5Handle file = create_file(path, kUserBlockBytes);
     Places places;
     {
         const Hdf5Handle root = open_group(file.get(), "/");
@@ -353,7 +353,7 @@ void write_results(const std::string& path, const Results& frame, const RowSourc
     RowWriter writer(file, opened.get(), places, shape);
     rows.visit([&](const RowBlock& block) { writer.add(block); });
     writer.flush();
-    if (!append_checksum(opened.get())) {
+    if (!write_checksum(opened.get())) {
         file.fail(errno);
     }
     file.commit(opened.get());

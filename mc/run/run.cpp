@@ -172,7 +172,7 @@ class Run {
         std::string problem = outcome.failure, text;
         const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         Results all;
-        if (problem.empty()) {
+        if (problem.empty() && (whole || !options_.merges)) {
             try {
                 all = frame(rows, state_of(outcome));
                 all.signals = std::move(examples.signals);
@@ -239,8 +239,16 @@ class Run {
         }
     }
 
-    // Ends the run early; the checkpoint remains.
+    // Ends the run early; the checkpoint remains. That of a merge is deleted, because the parts
+    // hold all its batches.
     int finish_early(const EnsembleOutcome& outcome, bool saved) {
+        if (options_.merges) {
+            checkpoint_->remove();
+            fmt::print(
+                stderr, "{}nothing is merged and the parts are unchanged; repeat `merge`\n",
+                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ");
+            return kBadInput;
+        }
         if (!options_.quiet || !saved) {
             print_resume_hint(outcome, plan_, *checkpoint_);
         }

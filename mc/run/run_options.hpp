@@ -30,6 +30,7 @@ struct RunOptions {
     std::string progress;       // "json": one object per line; "": text
     bool quiet = false;
     bool prints_results = true;  // prints the results at the end
+    bool merges = false;         // all batches come from parts; without a checkpoint to resume from
 };
 int run_command(const RunOptions& options);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mc/files/atomic_file.hpp"
+#include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 
@@ -47,6 +48,19 @@ bool can_write(const FileRole& output, const std::vector<FileRole>& others) {
         fmt::print(stderr, "{}: cannot be written: {}\n", output.path, reason);
     }
     return reason.empty();
+}
+
+bool can_write(const FileRole& output, const std::vector<FileRole>& others,
+               const Overwriting& overwriting) {
+    if (!can_write(output, others)) {
+        return false;
+    }
+    const bool is_file = !output.path.empty() && output.path != "-";
+    const std::string why = is_file ? why_not_replaced(output.path, overwriting) : "";
+    if (!why.empty()) {
+        fmt::print(stderr, "{} {}: {}\n", output.role, printable(output.path), why);
+    }
+    return why.empty();
 }
 
 bool write_text_to(const std::string& path, const std::string& text) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mc/numerics/study_scene.hpp"
+#include "mc/run/output_kind.hpp"
 #include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
@@ -30,6 +31,10 @@ struct FileRole {
 // Returns false and prints the reason if an output cannot be written, or if it is the same file as
 // one of the others, by any name. "-" and "" are not files.
 bool can_write(const FileRole& output, const std::vector<FileRole>& others);
+
+// The same; also refuses to replace a file of another kind without force.
+bool can_write(const FileRole& output, const std::vector<FileRole>& others,
+               const Overwriting& overwriting);
 
 // Reason why a results file (HDF5) should not have this name: its extension belongs to another
 // format. The text suggests a name and a command that creates the other format. "" if the name is

@@ -1,7 +1,8 @@
 // Attacks the built program with mutated studies, damaged files with valid checksums, hostile
-// signals and files in two roles. Checks: no signal, no hang, no memory above 2 GB, only documented
-// exit codes, no NaN or infinity among the numbers of a success, no input overwritten.
-// Usage: attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS [MOST]
+// signals, files in two roles and hostile options. Checks: no signal, no hang, no memory above 2
+// GB, only documented exit codes, no NaN or infinity among the numbers of a success, no input
+// overwritten. Usage: attack PROGRAM study|results|checkpoint|signal|table|roles|options SEED
+// SECONDS [MOST]
 #include "attack.hpp"
 
 #include <fcntl.h>
@@ -125,7 +126,8 @@ using Maker = Attack (*)(const Arsenal&, const std::string&, std::uint64_t);
 const std::map<std::string, Maker> kKinds{
     {"study", attack_by_study},           {"results", attack_by_results},
     {"checkpoint", attack_by_checkpoint}, {"signal", attack_by_signal},
-    {"table", attack_by_table},           {"roles", attack_by_roles}};
+    {"table", attack_by_table},           {"roles", attack_by_roles},
+    {"options", attack_by_options}};
 
 // Runs attacks first, first + 1, ... in several threads until the time is over or all are done.
 class Campaign {
@@ -270,8 +272,9 @@ int campaign(const Arsenal& arsenal, const std::string& kind, std::uint64_t seed
 
 int main(int argc, char** argv) {
     if (argc < 5 || !kKinds.contains(argv[2])) {
-        std::fprintf(stderr,
-                     "attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS\n");
+        std::fprintf(
+            stderr,
+            "attack PROGRAM study|results|checkpoint|signal|table|roles|options SEED SECONDS\n");
         return 2;
     }
     std::string folder = (fs::temp_directory_path() / "gearpod-attack-XXXXXX").string();

@@ -36,5 +36,6 @@ Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,
 Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 Attack attack_by_roles(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
+Attack attack_by_options(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 
 }  // namespace gearpod::test

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "attack.hpp"
+#include "dice.hpp"
 #include "mutation.hpp"
 #include "tests/mc/edited_results.hpp"
 
@@ -17,19 +18,6 @@ namespace gearpod::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Dice {
-  public:
-    explicit Dice(std::uint64_t number) : engine_(number) {}
-    std::size_t below(std::size_t count) { return count == 0 ? 0 : engine_() % count; }
-    template <class List>
-    const auto& one_of(const List& list) {
-        return list[below(std::size(list))];
-    }
-
-  private:
-    std::mt19937_64 engine_;
-};
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

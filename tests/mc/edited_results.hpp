@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -16,23 +15,16 @@
 
 namespace gearpod::test {
 
-inline constexpr std::uintmax_t kChecksumBytes = 16;
-
 // Replaces the checksum of a file by the one of its bytes.
 inline void update_checksum(const std::string& path) {
     const mc::Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-    if (!mc::append_checksum(file.get())) {
-        throw std::runtime_error(path + " cannot be sealed");
+    if (!mc::write_checksum(file.get())) {
+        throw std::runtime_error(path + ": its checksum cannot be written");
     }
-}
-
-inline void unseal(const std::string& path) {
-    std::filesystem::resize_file(path, std::filesystem::file_size(path) - kChecksumBytes);
 }
 
 // Changes a results file through HDF5 and updates its checksum.
 inline void edit_results(const std::string& path, const std::function<void(hid_t root)>& edit) {
-    unseal(path);
     {
         const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose,
                                   "opening the file");

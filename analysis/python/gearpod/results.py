@@ -20,7 +20,7 @@ from . import library
 from .columns import Array, import_pandas
 from .program import PathLike, call
 
-FORMAT, NEWEST = "gearpod results", 2
+FORMAT, NEWEST = "gearpod results", 3
 LIFE_COLUMNS = {"crack_depth": "crack_depth", "record_torque": "torque", "record_speed": "speed",
                 "record_gain": "gain", "record_noise": "noise"}
 GROUPS = {"threshold": 0, "graded": 1, "neither": 2}

@@ -264,7 +264,7 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
     } cases[] = {
         {"", "no recordings; give one of --healthy REC..., --manifest T.csv, --features T.csv"},
         {"--healthy a.csv --features b.csv", "more than one source of recordings"},
-        {"--healthy no-such.csv", "no such file"},
+        {"--healthy no-such.csv", "No such file"},
         {"--healthy '" + folder.file("none*.csv") + "'", "no file matches"},
         {"--healthy " + folder.file("bad.csv"), "\"x\" is not a number"},
         {"--features " + folder.file("table.csv"),

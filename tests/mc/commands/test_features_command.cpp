@@ -186,7 +186,7 @@ TEST_CASE("Every problem of a signal is reported in one message, with exit code 
     }
     bad[17] = bad[40] = NAN;
 
-    refused(folder.file("none.csv"), "no such file");
+    refused(folder.file("none.csv"), "No such file");
     write_bytes(folder.file("a.xls"), "RIFF");
     refused(folder.file("a.xls"), "must end in .csv, .h5, .hdf5, .mat, .tdms, .uff, .unv, .wav");
     for (const char* name : {"a.h5", "a.mat"}) {

@@ -16,7 +16,7 @@ namespace {
 const char* const kCommands[] = {"run",   "report",   "compare",  "describe", "stiffness",
                                  "modes", "accuracy", "simulate", "features", "pod",
                                  "lives", "merge",    "misses",   "rare",     "calibrate",
-                                 "sweep", "new"};
+                                 "sweep", "new",      "repair"};
 
 // Options of a command from its own help: "  --json TEXT ..." begins with two spaces.
 std::vector<std::string> options(const std::string& command) {

@@ -163,4 +163,29 @@ TEST_CASE("An interrupted part is resumed before it is merged; progress is avail
     CHECK(refused.mentions("1-2.h5: contains 16 of its 37 gearboxes"));
 }
 
+TEST_CASE("A merge on a full disk leaves nothing and can be repeated", "[merge]") {
+    const Folder folder;
+    const std::string parts = part(folder, "1/2") + " " + part(folder, "2/2");
+    const std::string out = folder.file("m.h5");
+    const long files = folder.files();
+    // Limits in blocks of 512 bytes: too small for the checkpoint, and for the results only.
+    bool results_failed = false;
+    for (int blocks = 4; blocks <= 1024; blocks *= 2) {
+        const Outcome full = test::shell("ulimit -f " + std::to_string(blocks) + "; " +
+                                         GEARPOD_PROGRAM + " merge " + parts + " --out " + out);
+        INFO(blocks << "\n" << full.output);
+        results_failed = results_failed || full.mentions("m.h5: cannot be written");
+        if (full.code == 0) {
+            break;
+        }
+        CHECK(full.code == 2);
+        CHECK(full.mentions("cannot be written (File too large)"));
+        CHECK_FALSE(full.mentions("--resume"));
+        CHECK(folder.files() == files);
+    }
+    CHECK(results_failed);
+    CHECK(program("merge " + parts + " --force --out " + out).code == 0);
+    CHECK(folder.files() == files + 1);
+}
+
 }  // namespace test_merge

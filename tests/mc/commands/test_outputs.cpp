@@ -1,4 +1,5 @@
-// Checks that no command overwrites its inputs, and no run the results of another study.
+// Checks that no command overwrites its inputs or files of another kind, and no run the results of
+// another study.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -149,6 +150,129 @@ TEST_CASE("An existing file under the temporary output name is refused and not o
     write_bytes(pending, "what a killed writer left");
     CHECK(program("run " + place.study + kSmall + " --quiet --out " + out).code == 0);
     CHECK_FALSE(fs::exists(pending));
+}
+
+TEST_CASE("A file of another kind than the output is replaced with --force only") {
+    const Workplace place;
+    const auto at = [&](const std::string& name) { return place.folder.file(name); };
+    const std::string other = at("other.h5"), notes = at("notes.txt"), table = at("table.csv");
+    fs::copy_file(place.results, other);
+    write_bytes(notes, "years of work\n");
+    write_bytes(table, "size,hit\n1,0\n2,1\n3,0\n4,1\n5,1\n6,1\n");
+    const std::string measured = "features " + place.signal + " --study " + place.study;
+    struct Output {
+        std::string command, file;
+    };
+    std::vector<Output> outputs{
+        {measured + " --quiet --out ", other},
+        {measured + " --quiet --csv ", other},
+        {measured + " --quiet --csv ", notes},
+        {measured + " --json ", notes},
+        {"simulate " + place.study + " --instance 0 --out ", other},
+        {"simulate " + place.study + " --instance 0 --out ", table},
+        {"stiffness " + place.study + " --points 10 --csv ", other},
+        {"stiffness " + place.study + " --points 10 --csv ", place.signal},
+        {"modes " + place.study + " --json ", other},
+        {"pod " + table + " --firth --json ", other},
+        {"compare " + place.results + " " + at("link.h5") + " --json ", notes},
+        {"report " + place.results + " --json ", other},
+    };
+    for (const Output& output : outputs) {
+        const std::string before = bytes_of(output.file);
+        const Outcome refused = program(output.command + output.file);
+        INFO(output.command << output.file << "\n" << refused.output);
+        CHECK(refused.code == 2);
+        CHECK(refused.mentions("--force"));
+        CHECK(bytes_of(output.file) == before);
+        const Outcome forced = program(output.command + output.file + " --force");
+        INFO(forced.output);
+        CHECK(forced.code == 0);
+        CHECK(bytes_of(output.file) != before);
+        // The next output of the same kind replaces the first one.
+        CHECK(program(output.command + output.file).code == 0);
+        write_bytes(output.file, before);
+    }
+    for (const char* option : {"--html", "--pdf"}) {
+        const Outcome refused = program("report " + place.results + " " + option + " " + other);
+        CHECK(refused.code == 2);
+        CHECK(refused.mentions("--force"));
+    }
+    // Tables of a folder.
+    const std::string folder = at("tables");
+    REQUIRE(program("report " + place.results + " --csv " + folder).code == 0);
+    REQUIRE(program("report " + place.results + " --csv " + folder).code == 0);
+    const std::string first = fs::directory_iterator(folder)->path().string();
+    fs::copy_file(other, first, fs::copy_options::overwrite_existing);
+    const Outcome refused = program("report " + place.results + " --csv " + folder);
+    CHECK(refused.code == 2);
+    CHECK(refused.mentions("another kind"));
+    CHECK(bytes_of(first) == bytes_of(other));
+    CHECK(program("report " + place.results + " --force --csv " + folder).code == 0);
+    CHECK(bytes_of(first) != bytes_of(other));
+}
+
+TEST_CASE("An input that is a pipe or a device is refused by every command") {
+    const Workplace place;
+    const std::string pipe = place.folder.file("pipe.h5"), csv = place.folder.file("pipe.csv");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    REQUIRE(::mkfifo(csv.c_str(), 0600) == 0);
+    const std::string measured = "features --study " + place.study + " ";
+    for (const std::string& command :
+         {"report " + pipe, "repair " + pipe, "compare " + place.results + " " + pipe,
+          "merge " + pipe + " --out " + place.folder.file("m.h5"),
+          "misses " + pipe + " --feature window_z --size 1",
+          "rare " + pipe + " --feature window_z --rate 0.01", "run " + csv, "describe " + csv,
+          std::string("describe /dev/zero"), "stiffness " + csv, "pod " + csv,
+          "accuracy " + place.study + " --seconds 1 --peers " + csv, measured + csv,
+          measured + pipe, measured + "--manifest " + csv + " --csv -",
+          measured + place.signal + " --against " + pipe,
+          "calibrate " + place.study + " --features " + csv,
+          "run " + place.study + kSmall + " --resume --out " + pipe}) {
+        const Outcome outcome =
+            test::shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " " + command);
+        INFO(command << "\n" << outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("a regular file is needed"));
+    }
+    // A shell's pipe is an input like a file.
+    const Outcome piped =
+        test::shell("cat " + place.study + " | " + GEARPOD_PROGRAM + " stiffness /dev/stdin");
+    INFO(piped.output);
+    CHECK(piped.code == 0);
+}
+
+TEST_CASE("Outputs on a full disk are bad output, not failed gearboxes") {
+    const Workplace place;
+    const std::string full = "ulimit -f 1; ";
+    for (const std::string& command :
+         {"simulate " + place.study + " --instance 0 --out " + place.folder.file("s.h5"),
+          "simulate " + place.study + " --instance 0 --out " + place.folder.file("s.csv"),
+          "stiffness " + place.study + " --csv " + place.folder.file("s.csv")}) {
+        const Outcome outcome = test::shell(full + GEARPOD_PROGRAM + " " + command);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("cannot be written (File too large)"));
+        CHECK_FALSE(fs::exists(place.folder.file("s.h5")));
+        CHECK_FALSE(fs::exists(place.folder.file("s.csv")));
+    }
+}
+
+TEST_CASE("Names of conditions that a results file cannot hold are refused before measuring") {
+    const Workplace place;
+    const std::string manifest = place.folder.file("m.csv"), out = place.folder.file("f.h5");
+    write_bytes(manifest, "file,N/m,group,.,noise_weight,load\nx.csv,1,2,3,4,5\n");
+    const std::string command =
+        "features --manifest " + manifest + " --study " + place.study + " --quiet ";
+    const Outcome outcome = program(command + "--out " + out);
+    INFO(outcome.output);
+    CHECK(outcome.code == 2);
+    for (const char* name : {"N/m", "group", ".", "noise_weight"}) {
+        CHECK(outcome.mentions("m.csv: " + std::string(name) + ": the name of this column"));
+    }
+    CHECK_FALSE(outcome.mentions("load: the name"));
+    CHECK_FALSE(fs::exists(out));
+    // A table holds any name.
+    CHECK(program(command + "--csv -").code == 0);
 }
 
 }  // namespace test_outputs

@@ -112,7 +112,7 @@ TEST_CASE("A bad recording is reported and does not stop the others; the exit co
     INFO(outcome.output);
     CHECK(outcome.code == 3);
     CHECK(outcome.mentions("61 of 63 have features"));
-    CHECK(outcome.mentions("missing.csv: no such file"));
+    CHECK(outcome.mentions("missing.csv: cannot be read (No such file"));
     CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is not a number"));
     const auto results = mc::read_results(recorded.folder.file("f.h5"));
     REQUIRE(results.group.size() == 61);

@@ -219,6 +219,7 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
     CHECK(more == results_of(program(command + " --force --instances 5")));
     for (const std::string& refused :
          {"compare " + file + " " + file, "report " + file + " --csv " + folder.file("tables"),
+          "report " + file + " --pdf " + folder.file("l.pdf"),
           "merge " + file + " --out " + folder.file("m.h5")}) {
         const Outcome outcome = program(refused);
         CHECK(outcome.code == 2);

@@ -1,0 +1,62 @@
+// Command `repair RESULTS`: renews the integrity hash of a results file that another program has
+// changed or written anew.
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+
+#include "mc/commands/commands.hpp"
+#include "mc/ensemble/results_check.hpp"
+#include "mc/files/file_descriptor.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/results/file_checksum.hpp"
+#include "mc/results/results_file.hpp"
+#include "mc/results/row_source.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Throws std::runtime_error unless the file can be read completely and holds values that a run may
+// write.
+void check_contents(const std::string& path) {
+    const Results results = read_unverified_results(path);
+    if (results.provenance_value("kind") != kLivesKind) {
+        check_results(path, results, ColumnRows(results));
+    }
+}
+
+void renew_hash(const std::string& path) {
+    const Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    if (file.get() < 0 || !write_checksum(file.get()) || ::fsync(file.get()) != 0) {
+        throw std::runtime_error(path + ": cannot be written (" + std::strerror(errno) + ")");
+    }
+}
+
+}  // namespace
+
+int repair_command(const RepairOptions& options) {
+    const std::string& path = options.results;
+    try {
+        const bool intact = check_file_checksum(path) == ChecksumState::intact;
+        check_contents(path);
+        if (intact) {
+            fmt::print("{}: its integrity hash fits its contents; nothing to repair\n", path);
+            return kDone;
+        }
+        renew_hash(path);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
+    }
+    fmt::print(
+        "{}: can be read completely and has a new integrity hash; changes of its contents before "
+        "now cannot be detected\n",
+        path);
+    return kDone;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,173 @@
+// Checks the integrity hash of results files that other programs open, change, copy or cut.
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+
+#include "tests/mc/edited_results.hpp"
+#include "tests/mc/program.hpp"
+
+namespace test_integrity {
+
+using namespace gearpod;
+using test::bytes_of;
+using test::Folder;
+using test::Outcome;
+using test::program;
+using test::write_bytes;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kTrailingBytes = 16;
+
+// Results of a run with three gearboxes, computed once.
+const std::string& genuine() {
+    static const Folder folder;
+    static const std::string path = [] {
+        const std::string file = folder.file("r.h5");
+        REQUIRE(program("run " + test::study("planet-crack-ideal.toml") +
+                        " --instances 2 --set ensemble.threshold_instances=1 --quiet --out " + file)
+                    .code == 0);
+        return file;
+    }();
+    return path;
+}
+
+std::string reason(const std::string& path) {
+    try {
+        mc::read_results(path);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+mc::Hdf5Handle open_for_writing(const std::string& path) {
+    return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path};
+}
+
+// A file as format version 2 had it: without user block, the hash in its last bytes.
+void write_version_2(const std::string& path) {
+    write_bytes(path, bytes_of(genuine()).substr(mc::kUserBlockBytes));
+    {
+        const mc::Hdf5Handle file = open_for_writing(path);
+        mc::check(H5Adelete(file.get(), "format_version"), "format_version");
+        mc::write_text(file.get(), ".", "format_version", "2");
+    }
+    test::update_checksum(path);
+}
+
+}  // namespace
+
+TEST_CASE("A results file keeps its integrity when other programs open it for writing") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    fs::copy_file(genuine(), path);
+    const std::string before = bytes_of(path);
+    { const mc::Hdf5Handle file = open_for_writing(path); }
+    CHECK(bytes_of(path) == before);
+    CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
+    CHECK(test::bits(path) == test::bits(genuine()));
+    // A program that is killed leaves HDF5's mark of an open file.
+    std::string marked = before;
+    marked[mc::kUserBlockBytes + 20] = 1;
+    write_bytes(path, marked);
+    CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
+    CHECK(test::bits(path) == test::bits(genuine()));
+}
+
+TEST_CASE("A results file that is being written, cut or changed is refused with the true reason") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    fs::copy_file(genuine(), path);
+    {
+        const mc::Hdf5Handle file = open_for_writing(path);
+        CHECK(contains(reason(path), "is open for writing in another program"));
+    }
+    CHECK(reason(path).empty());
+    const std::string bytes = bytes_of(genuine());
+    write_bytes(path, bytes.substr(0, bytes.size() - 1));
+    CHECK(contains(reason(path), "is truncated"));
+    write_bytes(path, bytes + "x");
+    CHECK(contains(reason(path), "is longer than it was written"));
+    std::string changed = bytes;
+    changed[bytes.size() / 2] ^= 1;
+    write_bytes(path, changed);
+    CHECK(contains(reason(path), "wrong integrity hash"));
+    CHECK(contains(reason(path), "gearpod repair"));
+    REQUIRE(::mkfifo(folder.file("pipe.h5").c_str(), 0600) == 0);
+    CHECK(contains(reason(folder.file("pipe.h5")), "a regular file is needed"));
+}
+
+TEST_CASE("Files of version 2 are read, without their trailing hash with a note") {
+    const Folder folder;
+    const std::string path = folder.file("old.h5");
+    write_version_2(path);
+    CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
+    const Outcome whole = program("report " + path);
+    CHECK(whole.code == 0);
+    CHECK_FALSE(whole.mentions("integrity hash"));
+    // HDF5 cuts bytes after its own end.
+    const auto size = fs::file_size(path);
+    { const mc::Hdf5Handle file = open_for_writing(path); }
+    CHECK(fs::file_size(path) == size - kTrailingBytes);
+    CHECK(mc::check_file_checksum(path) == mc::ChecksumState::missing);
+    const Outcome cut = program("report " + path);
+    INFO(cut.output);
+    CHECK(cut.code == 0);
+    CHECK(cut.mentions("has no integrity hash"));
+    CHECK(cut.mentions("changes of its contents cannot be detected"));
+    CHECK(test::bits(path) == test::bits(genuine()));
+    // A damaged byte of a file with the trailing hash is detected.
+    write_version_2(path);
+    std::string damaged = bytes_of(path);
+    damaged[damaged.size() / 2] ^= 4;
+    write_bytes(path, damaged);
+    CHECK(contains(reason(path), "wrong integrity hash"));
+}
+
+TEST_CASE("`repair` renews the hash of a readable file and of no other") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    fs::copy_file(genuine(), path);
+    CHECK(program("repair " + path).mentions("nothing to repair"));
+    {
+        const mc::Hdf5Handle file = open_for_writing(path);
+        mc::write_text(file.get(), ".", "remark", "rig 7");
+    }
+    CHECK(program("report " + path).code == 2);
+    const Outcome repaired = program("repair " + path);
+    INFO(repaired.output);
+    CHECK(repaired.code == 0);
+    CHECK(repaired.mentions("changes of its contents before now cannot be detected"));
+    CHECK(program("report " + path).code == 0);
+    CHECK(test::bits(path) == test::bits(genuine()));
+
+    write_version_2(path);
+    { const mc::Hdf5Handle file = open_for_writing(path); }
+    CHECK(program("repair " + path).code == 0);
+    CHECK(mc::check_file_checksum(path) == mc::ChecksumState::intact);
+
+    // Missing data, values that no run writes, and other files cannot be repaired.
+    const std::string bytes = bytes_of(genuine());
+    write_bytes(path, bytes.substr(0, bytes.size() - 100));
+    CHECK(program("repair " + path).code == 2);
+    CHECK(bytes_of(path).size() == bytes.size() - 100);
+    fs::copy_file(genuine(), path, fs::copy_options::overwrite_existing);
+    {
+        const mc::Hdf5Handle file = open_for_writing(path);
+        test::replace_numbers(file.get(), "noise_levels", {1}, {7.0});
+    }
+    const std::string before = bytes_of(path);
+    CHECK(program("repair " + path).code == 2);
+    CHECK(bytes_of(path) == before);
+    write_bytes(path, "a,b\n1,2\n");
+    CHECK(program("repair " + path).code == 2);
+}
+
+}  // namespace test_integrity
