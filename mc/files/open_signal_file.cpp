@@ -10,7 +10,7 @@
 namespace gearpod::mc {
 namespace {
 
-bool is_one_of(const std::string& extension, std::initializer_list<const char*> all) {
+bool is_kind_among(const std::string& extension, std::initializer_list<const char*> all) {
     return std::find(all.begin(), all.end(), extension) != all.end();
 }
 
@@ -56,14 +56,14 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (kind == ".mat") {
         return isolated_signal(path, [&] { return open_signal_mat(path); });
     }
-    if (is_one_of(kind, {".wav", ".wave", ".bwf", ".rf64", ".w64", ".flac", ".aif", ".aiff",
-                         ".aifc", ".au", ".snd", ".caf"})) {
+    if (is_kind_among(kind, {".wav", ".wave", ".bwf", ".rf64", ".w64", ".flac", ".aif", ".aiff",
+                             ".aifc", ".au", ".snd", ".caf"})) {
         return isolated_signal(path, [&] { return open_signal_sound(path); });
     }
     if (kind == ".tdms") {
         return isolated_signal(path, [&] { return open_signal_tdms(path); });
     }
-    if (is_one_of(kind, {".uff", ".unv", ".uf58", ".uf", ".ufb"})) {
+    if (is_kind_among(kind, {".uff", ".unv", ".uf58", ".uf", ".ufb"})) {
         return open_signal_uff(path);
     }
     throw SignalError(path +

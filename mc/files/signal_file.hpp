@@ -66,9 +66,9 @@ std::string listed_text(const std::vector<std::string>& texts);
 //   .wav, .rf64, .w64, .flac, .aiff, .au, .caf
 //                The column sensor, or channel1, channel2, ...; integers are fractions of the
 //                full scale. Lossy compression is rejected.
-//   .tdms        Numeric channels as "group/channel", and as "channel" if that is unique.
-//                Timestamps are seconds from the first one. Linear and polynomial scales are
-//                applied.
+//   .tdms        Numeric channels as "group/channel", also found as "channel" if that is
+//                unique. Timestamps are seconds from the first one. Linear and polynomial scales
+//                are applied.
 //   .uff, .unv   Real time histories of dataset 58: the column sensor, or function1,
 //                function2, ..., also under unique titles; uneven ones have the column time.
 // A file whose content has another format is rejected with the format's name

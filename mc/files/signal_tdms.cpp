@@ -24,7 +24,7 @@ struct TdmsScale {
     std::uint32_t input = kRawInput;   // number of another scale, or the raw data
 };
 
-double polynomial(const std::vector<double>& coefficients, double x) {
+double polynomial_value(const std::vector<double>& coefficients, double x) {
     double value = 0.0;
     for (std::size_t i = coefficients.size(); i-- > 0;) {
         value = value * x + coefficients[i];
@@ -283,7 +283,7 @@ class SignalTdms : public SignalFile {
         std::vector<double> values = numbers(*raw);
         for (std::size_t i = chain.size(); i-- > 0;) {
             for (double& value : values) {
-                value = polynomial(chain[i].coefficients, value);
+                value = polynomial_value(chain[i].coefficients, value);
             }
         }
         return values;

@@ -100,7 +100,7 @@ std::string ordinate_unit(const UffFunction& function) {
 
 // Rate of a step that was rounded in the file: the whole number of Hz that rounds to this step, if
 // there is exactly one.
-double rate_Hz(double step_s, double rounding_s) {
+double unrounded_rate_Hz(double step_s, double rounding_s) {
     constexpr double kMargin = 1e-9;
     const double lowest = std::ceil((1.0 - kMargin) / (step_s + rounding_s));
     const double highest = std::floor((1.0 + kMargin) / (step_s - rounding_s));
@@ -195,7 +195,7 @@ class SignalUff : public SignalFile {
                 fmt::format("{}: column {}: {:g} s is not a valid time step", path_, name, step_s));
         }
         count_ = function.values.size();
-        const double rate = rate_Hz(step_s, function.step_rounding * second);
+        const double rate = unrounded_rate_Hz(step_s, function.step_rounding * second);
         if (rate != 1.0 / step_s && !sampling_.rate_Hz()) {
             notes_.push_back(fmt::format(
                 "the rate is {:.0f} Hz, which rounds to the time step {:g} s", rate, step_s));

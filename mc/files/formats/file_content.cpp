@@ -29,7 +29,7 @@ constexpr std::string_view kSoundExtensions =
 constexpr std::string_view kHdf5Extensions = " .h5 .hdf5 ";
 constexpr std::string_view kMatExtensions = " .mat ";
 constexpr std::string_view kUffExtensions = " .uff .unv .uf58 .uf .ufb ";
-constexpr SupportedFormat kSupported[] = {
+constexpr SupportedFormat kSupportedFormats[] = {
     {0, "\x89HDF\r\n\x1a\n"sv, "an HDF5 file", kHdf5Extensions},
     {0, "MATLAB 5.0 MAT-file"sv, "a MAT file", kMatExtensions},
     {0, "MATLAB 7.3 MAT-file"sv, "a MAT file", " .mat .h5 .hdf5 "},
@@ -53,7 +53,7 @@ struct OtherFormat {
 };
 constexpr const char* kUnpack = "unpack it, and give the file in it";
 constexpr const char* kPicture = "give the numbers of the recording instead, for example as CSV";
-constexpr OtherFormat kOthers[] = {
+constexpr OtherFormat kOtherFormats[] = {
     {30, "mimetypeapplication/vnd.oasis.opendocument.spreadsheet"sv, "an OpenDocument spreadsheet",
      "save its sheet as CSV"},
     {0, "PK\x03\x04"sv, "a ZIP archive", kUnpack},
@@ -106,10 +106,10 @@ constexpr OtherFormat kOthers[] = {
     {257, "ustar"sv, "a tar archive", kUnpack},
 };
 
-bool has_at(std::string_view head, std::size_t at, std::string_view bytes) {
+bool has_bytes_at(std::string_view head, std::size_t at, std::string_view bytes) {
     return at <= head.size() && head.substr(at).starts_with(bytes);
 }
-bool is_among(const std::string& extension, std::string_view extensions) {
+bool has_extension(const std::string& extension, std::string_view extensions) {
     return !extension.empty() && extensions.find(" " + extension + " ") != std::string_view::npos;
 }
 
@@ -139,7 +139,7 @@ bool is_catman(std::string_view head) {
     return head.size() > 2 && unsigned_at(head, 0, 2) >= 5000 && unsigned_at(head, 0, 2) < 5100;
 }
 
-bool is_text(std::string_view head) {
+bool is_plain_text(std::string_view head) {
     return !head.empty() && std::ranges::all_of(head, [](char c) {
         return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r') || c == '\x1b';
     });
@@ -175,8 +175,10 @@ void check_gzip(const std::string& path, const std::string& extension) {
     if (extension != ".gz") {
         refuse_name(path, extension, "compressed by gzip", ".csv.gz if it contains CSV");
     }
-    if (path.size() < 7 || !is_among(path.substr(path.size() - 7, 4), " .csv .CSV .txt .tsv ")) {
-        refuse_format(path, {0, "", "a file compressed by gzip other than .csv.gz",
+    std::string inner = path.size() < 7 ? "" : path.substr(path.size() - 7, 4);
+    std::ranges::transform(inner, inner.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (!has_extension(inner, " .csv .txt .tsv .dat .asc ")) {
+        refuse_format(path, {0, "", "a file compressed by gzip that is no table of text",
                              "decompress it: gunzip FILE"});
     }
 }
@@ -188,11 +190,11 @@ void check_file_content(const std::string& path, const std::string& extension) {
     std::ifstream stream(path, std::ios::binary);
     stream.read(head.data(), kHead);
     head.resize(static_cast<std::size_t>(stream.gcount()));
-    const bool text = is_text(head);
-    for (const OtherFormat& format : kOthers) {
+    const bool text = is_plain_text(head);
+    for (const OtherFormat& format : kOtherFormats) {
         // The names of a table's columns may begin with a few of these letters.
         const bool too_short = text && format.bytes.size() <= 3;
-        if (has_at(head, format.at, format.bytes) && !too_short) {
+        if (has_bytes_at(head, format.at, format.bytes) && !too_short) {
             refuse_format(path, head.starts_with("PK") ? zip_use(head, format) : format);
         }
     }
@@ -209,13 +211,13 @@ void check_file_content(const std::string& path, const std::string& extension) {
     }
     const bool wave =
         head.starts_with("RIFF") || head.starts_with("FORM") || head.starts_with("RF64");
-    if (head.starts_with("RIFF") && head.size() >= 12 && !has_at(head, 8, "WAVE")) {
+    if (head.starts_with("RIFF") && head.size() >= 12 && !has_bytes_at(head, 8, "WAVE")) {
         refuse_format(path, {0, "", "a RIFF file other than WAV, for example a video", kPicture});
     }
-    for (const SupportedFormat& format : kSupported) {
-        if (has_at(head, format.at, format.bytes) && (format.at == 0 || wave)) {
-            if (!is_among(extension, format.extensions) &&
-                !(is_among(extension, kSoundExtensions) &&
+    for (const SupportedFormat& format : kSupportedFormats) {
+        if (has_bytes_at(head, format.at, format.bytes) && (format.at == 0 || wave)) {
+            if (!has_extension(extension, format.extensions) &&
+                !(has_extension(extension, kSoundExtensions) &&
                   format.extensions.find(".wav") != std::string_view::npos)) {
                 refuse_name(path, extension, format.name,
                             format.extensions.substr(1, format.extensions.find(' ', 1) - 1));
@@ -224,14 +226,14 @@ void check_file_content(const std::string& path, const std::string& extension) {
         }
     }
     if (is_universal_file(head)) {
-        if (!is_among(extension, kUffExtensions)) {
+        if (!has_extension(extension, kUffExtensions)) {
             refuse_name(path, extension, "a universal file", ".uff");
         }
         return;
     }
-    const bool binary = is_among(extension, kSoundExtensions) ||
-                        is_among(extension, kHdf5Extensions) ||
-                        is_among(extension, kMatExtensions) || extension == ".tdms";
+    const bool binary = has_extension(extension, kSoundExtensions) ||
+                        has_extension(extension, kHdf5Extensions) ||
+                        has_extension(extension, kMatExtensions) || extension == ".tdms";
     if (binary && text) {
         refuse_name(path, extension, "text", ".csv if it is a table");
     }

@@ -9,7 +9,7 @@ namespace {
 
 // Lengths that mark the raw data index of DAQmx data.
 constexpr std::uint64_t kFormatChanging = 0x1269, kDigitalLine = 0x126A;
-constexpr std::uint64_t kLargest = ~std::uint64_t{0};
+constexpr std::uint64_t kLargestSize = ~std::uint64_t{0};
 
 // Types of DAQmx scalers, by their number.
 constexpr TdmsType kScalerTypes[] = {
@@ -98,11 +98,14 @@ TdmsIndex read_tdms_index(TdmsCursor& cursor, std::uint64_t length) {
                                      static_cast<std::uint32_t>(index.type)),
                          true};
     }
-    index.bytes = index.count > kLargest / width ? kLargest : index.count * width;
+    index.bytes = index.count > kLargestSize / width ? kLargestSize : index.count * width;
     return index;
 }
 
 std::vector<std::string> tdms_names(std::string_view path) {
+    if (path.find('\0') != std::string_view::npos) {
+        throw TdmsDamage{"an object has a zero byte in its path"};
+    }
     std::vector<std::string> names;
     for (std::size_t at = 0; at < path.size();) {
         if (path[at] != '/') {

@@ -77,11 +77,12 @@ constexpr const char* kFunctionKinds[] = {"general function",
 enum class Floats { dec = 1, ieee = 2, ibm = 3 };
 
 // Text without surrounding blanks; "NONE" means that a field is not used.
-std::string stated(std::string_view text) {
+std::string stated_text(std::string_view text) {
     const std::string word(uff_field(text));
     return word == "NONE" ? "" : word;
 }
-std::string part(const std::string& line, std::size_t at, std::size_t width = std::string::npos) {
+std::string record_part(const std::string& line, std::size_t at,
+                        std::size_t width = std::string::npos) {
     return at < line.size() ? line.substr(at, width) : std::string();
 }
 
@@ -155,12 +156,13 @@ class UffReader {
         return *value;
     }
     double field(const std::string& line, std::size_t at, std::size_t width) const {
-        return number(part(line, at, width));
+        return number(record_part(line, at, width));
     }
     int small_field(const std::string& line, std::size_t at, std::size_t width) const {
         const double value = field(line, at, width);
         if (!(std::abs(value) <= 1e6) || value != std::trunc(value)) {
-            refuse(fmt::format("\"{}\" is not a valid code", uff_field(part(line, at, width))));
+            refuse(
+                fmt::format("\"{}\" is not a valid code", uff_field(record_part(line, at, width))));
         }
         return static_cast<int>(value);
     }
@@ -181,7 +183,7 @@ class UffReader {
     }
 
     UffAxis axis_of(const std::string& record) const {
-        return {small_field(record, 0, 10), stated(part(record, 46, 21))};
+        return {small_field(record, 0, 10), stated_text(record_part(record, 46, 21))};
     }
 
     // `binary`: first line of the dataset if its values are binary, else "".
@@ -193,9 +195,9 @@ class UffReader {
             }
         }
         UffFunction function;
-        function.title = stated(records[0]);
+        function.title = stated_text(records[0]);
         function.function_type = small_field(records[5], 0, 5);
-        const auto direction = fortran_number(uff_field(part(records[5], 51, 4)));
+        const auto direction = fortran_number(uff_field(record_part(records[5], 51, 4)));
         function.response_direction = std::abs(direction.value_or(0.0)) <= 6.0
                                           ? static_cast<int>(direction.value_or(0.0))
                                           : 0;
@@ -216,7 +218,7 @@ class UffReader {
         if (function.even) {
             function.first = field(form, 30, 13);
             function.step = field(form, 43, 13);
-            function.step_rounding = rounding_of(uff_field(part(form, 43, 13)));
+            function.step_rounding = rounding_of(uff_field(record_part(form, 43, 13)));
         }
         function.abscissa = axis_of(records[7]);
         function.ordinate = axis_of(records[8]);
@@ -352,7 +354,7 @@ class UffReader {
     long line_ = 0;
 };
 
-std::string name_in(std::span<const char* const> names, int code, const char* what) {
+std::string code_name(std::span<const char* const> names, int code, const char* what) {
     return code >= 0 && static_cast<std::size_t>(code) < names.size()
                ? names[static_cast<std::size_t>(code)]
                : fmt::format("{} {}", what, code);
@@ -365,10 +367,10 @@ std::vector<UffFunction> read_uff(const std::string& path) {
 }
 
 std::string uff_quantity(int type) {
-    return name_in(kQuantities, type, "specific data type");
+    return code_name(kQuantities, type, "specific data type");
 }
 std::string uff_function_kind(int type) {
-    return name_in(kFunctionKinds, type, "function type");
+    return code_name(kFunctionKinds, type, "function type");
 }
 
 }  // namespace gearpod::mc

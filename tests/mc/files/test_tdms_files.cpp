@@ -274,6 +274,11 @@ TEST_CASE("a damaged TDMS file is refused with the place") {
         tdms_error(folder, to.segment(kAll, {to.object("/'g'/'a'", to.index(10, 1ULL << 61))},
                                       to.reals({1}))),
         Contains("not a whole number of chunks"));
+    CHECK_THAT(
+        tdms_error(folder,
+                   to.segment(kAll, {to.object(std::string("/'g'/'a\0b'", 10), to.index(10, 1))},
+                              to.reals({1}))),
+        Contains("has a zero byte in its path"));
     CHECK_THAT(tdms_error(folder, to.segment(kTdmsMeta, {to.object("/'g'", to.no_index())}, "")),
                Contains("has no channel with numbers"));
 }

@@ -1,4 +1,5 @@
 // Checks universal files: values, units, and functions other than time histories.
+#include "mc/files/signal_units.hpp"
 #include "tests/mc/files/recorded.hpp"
 #include "tests/mc/recording_bytes.hpp"
 
@@ -146,6 +147,15 @@ TEST_CASE("a label that contradicts dataset 164 is not taken as a unit") {
     set.unit = "g";
     CHECK(unit(1.0) == "g");
     CHECK_THAT(unit(1000.0), Contains("g by the function's label, but mm/s^2 by dataset 164"));
+    for (const char* label : {"m/s^2", "g", "m/s2 (peak)"}) {
+        set.unit = label;
+        CHECK_FALSE(mc::unit_factor(mc::Quantity::acceleration, unit(1000.0)));
+    }
+    set.unit = "NONE";
+    for (const int quantity : {0, 1, 12}) {
+        set.quantity = quantity;
+        CHECK_FALSE(mc::unit_factor(mc::Quantity::acceleration, unit(17.0)));
+    }
 }
 
 TEST_CASE("quantities other than acceleration are named instead of a unit of acceleration") {
@@ -166,8 +176,15 @@ TEST_CASE("quantities other than acceleration are named instead of a unit of acc
     CHECK(unit(8, "rad") == "rad");
     CHECK(unit(11, "rad/s") == "rad/s");
     CHECK(unit(19, "NONE") == "rpm");
+    for (const int quantity : {2, 3, 5, 8, 9, 11, 13, 15, 21, 99}) {
+        for (const char* label : {"NONE", "m/s^2", "g", "m/s", "N"}) {
+            INFO(quantity << " " << label);
+            CHECK_FALSE(mc::unit_factor(mc::Quantity::acceleration, unit(quantity, label)));
+        }
+    }
     set.denominator = "N";
     CHECK(unit(12, "m/s^2") == "m/s^2 per N by the function's denominator");
+    CHECK_FALSE(mc::unit_factor(mc::Quantity::acceleration, unit(12, "m/s^2")));
 }
 
 TEST_CASE("functions other than time histories do not decide whether a file is accepted") {
