@@ -181,7 +181,7 @@ std::string hdf5_open_problem(const std::string& path) {
         }
         return "is damaged, or the program that wrote it did not close it; copy or write it again";
     }
-    return "is not an HDF5 file: it has no HDF5 signature";
+    return "is not an HDF5 file, or is damaged: it has no HDF5 signature";
 }
 
 }  // namespace gearpod::mc

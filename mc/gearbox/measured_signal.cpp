@@ -194,6 +194,10 @@ class SignalReader {
             }
             SampleTimes time = sample_times(std::move(written), factor(written_as, Quantity::time));
             reject_column(kTime, time.problem);
+            if (time.problem.empty()) {
+                compare_with_stated_rate(static_cast<double>(time.seconds.size() - 1) /
+                                         (time.seconds.back() - time.seconds.front()));
+            }
             return std::move(time.seconds);
         }
         const double rate = columns_.sampling_Hz > 0.0
@@ -206,7 +210,26 @@ class SignalReader {
                             kTime, kPhase, file_->contents()));
             return {};
         }
+        if (columns_.sampling_Hz > 0.0) {
+            compare_with_stated_rate(rate);
+        }
         return evenly_spaced(samples, rate);
+    }
+
+    // Adds a note if the file states another sampling rate than the one used.
+    void compare_with_stated_rate(double used_Hz) {
+        constexpr double kAgreement = 1e-2;
+        try {
+            const double stated_Hz = file_->sampling_Hz_of(first_).value_or(used_Hz);
+            if (!(std::abs(stated_Hz - used_Hz) <= kAgreement * used_Hz)) {
+                notes_.push_back(fmt::format(
+                    "the file states a sampling rate of {:.6g} Hz; taken as {:.6g} Hz ({})",
+                    stated_Hz, used_Hz,
+                    columns_.sampling_Hz > 0.0 ? "--sampling-Hz" : "column time"));
+            }
+        } catch (const SignalError& error) {
+            notes_.push_back(printable(error.what()));
+        }
     }
 
     // Mesh phase of every sample.

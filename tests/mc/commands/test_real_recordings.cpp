@@ -121,6 +121,27 @@ TEST_CASE("The options for the unit take precedence over the file, with a note")
     check_alike(features_of(s.write("time,sensor [m/s\xB2]", {s.time, s.sensor})), plain, 1e-9);
 }
 
+TEST_CASE("A stated sampling rate that is not used is reported") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    const std::string path = s.folder.file("r.h5");
+    {
+        const auto file = mc::create_file(path);
+        const auto run = mc::create_group(file.get(), "run");
+        mc::write_numbers(run.get(), "sensor", {s.sensor.size(), 1}, s.sensor);
+        mc::write_numbers(run.get(), "time", {s.time.size()}, s.time);
+        mc::write_number(file.get(), ".", "fs", 99.0);
+    }
+    check_alike(features_of(path), plain, 1e-9);
+    const Outcome by_time = features(path);
+    CHECK(by_time.mentions("note: column sensor is run/sensor"));
+    CHECK(by_time.mentions(
+        "the file states a sampling rate of 99 Hz; taken as 280 Hz (column time)"));
+    check_alike(features_of(path, "--sampling-Hz 280"), plain, 1e-9);
+    CHECK(features(path, "--sampling-Hz 280").mentions("taken as 280 Hz (--sampling-Hz)"));
+    CHECK(features(path, "--sensor run/acc").mentions("its columns are run/sensor ("));
+}
+
 TEST_CASE("Decimal commas are accepted if the fields are not separated by commas") {
     const Simulated s;
     const std::string path = s.write("time,sensor", {s.time, s.sensor});
