@@ -272,6 +272,14 @@ void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRan
     read_rows_as(H5T_NATIVE_INT64, parent, name, shape, range, values);
 }
 
+bool has_text(hid_t object, const std::string& name) {
+    const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, name);
+    const Hdf5Handle space(H5Aget_space(attribute.get()), H5Sclose, name);
+    const Hdf5Handle type(H5Aget_type(attribute.get()), H5Tclose, name);
+    return H5Sget_simple_extent_npoints(space.get()) == 1 &&
+           H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) > 0;
+}
+
 std::string read_text(hid_t parent, const std::string& object, const std::string& name) {
     const Hdf5Handle attribute = open_scalar(parent, object, name, {H5T_STRING});
     const Hdf5Handle stored(H5Aget_type(attribute.get()), H5Tclose, name);

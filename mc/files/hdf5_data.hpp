@@ -62,6 +62,8 @@ void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRan
                std::vector<double>& values);
 void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
                std::vector<std::int64_t>& values);
+// True for an attribute as write_text() writes it; other programs add attributes of other types.
+bool has_text(hid_t object, const std::string& name);
 std::string read_text(hid_t parent, const std::string& object, const std::string& name);
 double read_number(hid_t parent, const std::string& object, const std::string& name);
 

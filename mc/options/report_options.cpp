@@ -52,10 +52,9 @@ void add_misses(CLI::App& app, MissesOptions& misses, int& code) {
         ->required();
     command->add_option("--feature", misses.feature, "feature of the acceleration signal")
         ->required();
-    add_number(*command, "--size", misses.size, "fault size, in the unit of the study", above(0.0))
-        ->required();
+    add_number(*command, "--size", misses.size, "fault size, in the unit of the study")->required();
     add_number(*command, "--noise-level", misses.noise_level,
-               "one of sensor.noise_levels (default: 1, or the first above 0)", at_least(0.0));
+               "one of sensor.noise_levels (default: 1, or the first above 0)");
     add_number(*command, "--gearboxes", misses.gearboxes, "number of gearboxes (default: 200)");
     add_number(*command, "--records", misses.records,
                "records of each gearbox, a multiple of four (default: 64)");
@@ -78,10 +77,10 @@ void add_rare(CLI::App& app, RareOptions& rare, int& code) {
     command->add_option("--feature", rare.feature, "feature of the file")->required();
     auto* rate = add_number(*command, "--rate", rare.rate, "false-alarm rate; find its threshold");
     add_number(*command, "--size", rare.size,
-               "fault size, in the unit of the study; find its miss rate", above(0.0))
+               "fault size, in the unit of the study; find its miss rate")
         ->excludes(rate);
     add_number(*command, "--noise-level", rare.noise_level,
-               "one of sensor.noise_levels (default: 1, or the first above 0)", at_least(0.0));
+               "one of sensor.noise_levels (default: 1, or the first above 0)");
     add_number(*command, "--gearboxes", rare.gearboxes,
                "number of gearboxes of each level (default: 1000)");
     require_file_name(

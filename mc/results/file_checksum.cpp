@@ -19,10 +19,9 @@ namespace {
 constexpr std::string_view kChecksumMark = "gearpod\n";
 constexpr std::string_view kHdf5Mark = "\x89HDF\r\n\x1a\n";
 constexpr off_t kChecksumBytes = 16;  // mark and hash
-constexpr off_t kSizeBytes = 8;
-// HDF5 file format specification, superblock version 0: lowest byte of the consistency flags, and
-// its bit that stands for "open for writing".
-constexpr off_t kFlagsAt = 20;
+// HDF5 file format specification, superblock version 0: lowest byte of the consistency flags, end
+// of the file, and the bit of the flags that stands for "open for writing".
+constexpr off_t kFlagsAt = 20, kEndAt = 40, kEndBytes = 8;
 constexpr std::byte kOpenForWriting{1};
 
 std::string little_endian(std::uint64_t number) {
@@ -85,15 +84,13 @@ ChecksumState check_user_block(int fd, off_t size) {
     if (hash_fits) {
         return ChecksumState::intact;
     }
-    const std::string size_text = bytes_at(fd, kChecksumBytes, kSizeBytes);
-    std::uint64_t written = 0;
-    for (std::size_t i = size_text.size(); i > 0; --i) {
-        written = written << 8 | static_cast<unsigned char>(size_text[i - 1]);
+    const std::string end = bytes_at(fd, kUserBlockBytes + kEndAt, kEndBytes);
+    std::uint64_t whole = 0;
+    for (std::size_t i = end.size(); i > 0; --i) {
+        whole = whole << 8 | static_cast<unsigned char>(end[i - 1]);
     }
-    const auto now = static_cast<std::uint64_t>(size);
-    return now < written   ? ChecksumState::truncated
-           : now > written ? ChecksumState::extended
-                           : ChecksumState::broken;
+    const bool cut = end.size() < kEndBytes || static_cast<std::uint64_t>(size) < whole;
+    return cut ? ChecksumState::truncated : ChecksumState::broken;
 }
 
 }  // namespace
@@ -104,9 +101,6 @@ bool write_checksum(int fd) {
         return false;
     }
     if (has_user_block(fd)) {
-        if (!write_text_at(fd, little_endian(static_cast<std::uint64_t>(*size)), kChecksumBytes)) {
-            return false;
-        }
         const auto sum = sum_of(fd, kChecksumBytes, *size, kUserBlockBytes);
         return sum && write_text_at(fd, std::string(kChecksumMark) + little_endian(*sum), 0);
     }

@@ -4,7 +4,7 @@
 //
 //   0   "gearpod\n"
 //   8   FNV-1a (64 bits, little-endian) of all bytes from 16 on
-//   16  size of the file in bytes (u64), then zeros up to 512
+//   16  zeros up to 512
 //
 // Files of format version 2 have no user block. Mark and hash of all bytes before them are their
 // last 16 bytes, which HDF5 cuts when another program opens the file for writing. The bit by which
@@ -18,8 +18,9 @@ namespace gearpod::mc {
 
 inline constexpr std::size_t kUserBlockBytes = 512;
 
-// missing: a file without user block and without a mark at its end.
-enum class ChecksumState { intact, broken, truncated, extended, missing };
+// truncated: the file ends before the end that HDF5 has noted in it. missing: a file without mark
+// in a user block or at its end.
+enum class ChecksumState { intact, broken, truncated, missing };
 
 // Writes the hash of the bytes of an open file: into its user block, or behind the HDF5 part of a
 // file that has none. Replaces an older hash. Returns false and sets errno if reading or writing

@@ -77,7 +77,7 @@ class ResultsReader {
 
     void read_provenance() {
         for (const std::string& name : attribute_names(root_)) {
-            if (name != "format" && name != "format_version") {
+            if (name != "format" && name != "format_version" && has_text(root_, name)) {
                 results_.provenance.emplace_back(name, read_text(root_, ".", name));
             }
         }
@@ -270,11 +270,6 @@ void check_readable(const std::string& path, ChecksumState checksum, bool verifi
     }
     if (verified && checksum == ChecksumState::truncated) {
         refuse_file(path, "is truncated: its end is missing; copy it again, or repeat the run");
-    }
-    if (verified && checksum == ChecksumState::extended) {
-        refuse_file(path, std::string("is longer than it was written: another program has changed "
-                                      "it") +
-                              kRepairHint);
     }
     if (verified && checksum == ChecksumState::broken) {
         refuse_file(path, std::string("is damaged, or another program has changed it (wrong "

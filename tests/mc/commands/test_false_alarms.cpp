@@ -92,9 +92,10 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are 
         program("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
     CHECK(bad.code == 2);
     CHECK(bad.output ==
-          "--alarm-cost: must be a finite number >= 0, but is nan\n"
-          "--miss-cost: must be a finite number >= 0, but is -1\n"
-          "--fault-share: must be between 0 and 1, but is 2\n");
+          "--alarm-cost: nan is not a finite number\n"
+          "--miss-cost: must be at least 0, but is -1\n"
+          "--fault-share: must be 0 to 1, but is 2\n"
+          "Run with --help for more information.\n");
     const Outcome json = program("report " + results + costs + " --fault-share 0.01 --json -");
     CHECK(json.mentions("\"least_cost\""));
     CHECK(json.mentions("\"by_false_alarm_rate\""));
