@@ -7,7 +7,6 @@
 
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text_fields.hpp"
-#include "mc/files/text_layout.hpp"
 
 namespace gearpod::mc {
 namespace {

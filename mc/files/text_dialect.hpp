@@ -5,25 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/files/table_columns.hpp"
+#include "mc/files/text_layout.hpp"
 #include "mc/files/text_lines.hpp"
 
 namespace gearpod::mc {
-
-// Statement that a file makes in a line before its header.
-struct TableRemark {
-    long line = 0;
-    std::string text;
-};
-
-struct TextDialect {
-    char separator = ',';  // or kOneField, kBlanks (text_fields.hpp)
-    // Columns up to the last with a name. Columns without a name, such as the row numbers that
-    // pandas and R write, cannot be selected.
-    std::vector<TableColumn> columns;
-    long header_line = 0, last_header_line = 0;  // the latter is the line of units, if there is one
-    std::vector<TableRemark> remarks;
-};
 
 // Recognizes the form from the first lines:
 //

@@ -29,7 +29,7 @@ std::vector<std::string_view> named_fields(std::string_view line, char separator
     // A unit in brackets belongs to the name before it.
     std::vector<std::string_view> joined;
     for (const std::string_view field : fields) {
-        if (!joined.empty() && (field.front() == '[' || field.front() == '(')) {
+        if (!joined.empty() && (field.starts_with('[') || field.starts_with('('))) {
             joined.back() = std::string_view(
                 joined.back().data(),
                 static_cast<std::size_t>(field.data() + field.size() - joined.back().data()));

@@ -388,9 +388,8 @@ class SignalReader {
                     fmt::format("the mesh phase does not increase from sample {} to the next", i));
             }
         }
-        if (measured && problems_.empty()) {
-            reject_column(kPhase, signals::phase_jump_text(phase, kSmallestJump));
-        }
+        const bool check = measured && problems_.empty();
+        reject_column(kPhase, check ? signals::phase_jump_text(phase, kSmallestJump) : "");
         return phase;
     }
 

@@ -330,13 +330,12 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
     CHECK(outcome.mentions("m.csv:5: torque: \"one\" is not a finite number"));
     CHECK(refused("name\na\n").mentions("has no column file"));
     CHECK(refused("file,load,load\na.csv,1,2\n").mentions("is the name of two columns"));
-    // An index without a name is no condition; the recordings do not exist.
     write_bytes(manifest, ",file,label,load [N]\n0,a.csv,healthy,\"1,5\"\n1,=b.csv,NA,2\n");
     program("features --manifest " + manifest + " --study " + kSmall + " --csv " +
             folder.file("t.csv"));
     const std::string table = bytes_of(folder.file("t.csv"));
-    CHECK(table.rfind("file,row,gearbox,label,load [N],", 0) == 0);
-    CHECK(table.find("a.csv,,,healthy,1.5,") != std::string::npos);
+    CHECK_THAT(table, Catch::StartsWith("file,row,gearbox,label,load [N],"));
+    CHECK_THAT(table, Catch::Contains("a.csv,,,healthy,1.5,"));
     CHECK(refused("file\n").mentions("lists no recording"));
 }
 
