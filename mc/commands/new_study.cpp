@@ -7,6 +7,7 @@
 #include "mc/new_study/planetary.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
+#include "mc/scene/mesh_loads.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -15,6 +16,14 @@ namespace {
 std::string schema_line() {
     const std::string schema = schema_path().string();
     return schema.empty() ? "" : "#:schema " + schema + "\n";
+}
+
+// Prints warnings of a torque that cannot be meant.
+void warn_of_load(const NewStudy& made, const std::string& path) {
+    const StudyReading reading = read_study_text(made.text, path);
+    if (reading.study) {
+        print_problems(load_warnings(*reading.study, path == "-" ? "the study" : path));
+    }
 }
 
 }  // namespace
@@ -34,6 +43,7 @@ int new_command(const NewOptions& options) {
         !write_text_to(options.out, schema_line() + made.text)) {
         return kBadInput;
     }
+    warn_of_load(made, options.out);
     if (options.out != "-") {
         fmt::print(
             "{0}: check its values and replace those that you know, then\n"
