@@ -108,14 +108,20 @@ std::string micrometres(double metres) {
     return fmt::format("{:.3g} um", 1e6 * metres);
 }
 
+// Stress in N/mm^2 with three figures, or all figures before the decimal point.
+std::string stress_figures(double stress_Pa) {
+    const double value = stress_Pa / kMegapascal;
+    return value >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
 std::string stress_list(const MeshLoad& load) {
     std::string text;
     if (load.stress) {
         text =
-            fmt::format("contact {:.3g} N/mm2, tooth root {:.3g} ({}) and {:.3g} N/mm2 ({})",
-                        load.stress->contact_Pa / kMegapascal, load.stress->root_1_Pa / kMegapascal,
-                        member_name(load.members.member_1), load.stress->root_2_Pa / kMegapascal,
-                        member_name(load.members.member_2));
+            fmt::format("contact {} N/mm2, tooth root {} ({}) and {} N/mm2 ({})",
+                        stress_figures(load.stress->contact_Pa),
+                        stress_figures(load.stress->root_1_Pa), member_name(load.members.member_1),
+                        stress_figures(load.stress->root_2_Pa), member_name(load.members.member_2));
     }
     if (load.deflection_m > 0.0) {
         text += fmt::format("{}mean deflection {}", text.empty() ? "" : ", ",
@@ -156,7 +162,8 @@ std::vector<MeshLoad> mesh_loads(const Study& study) {
 
 std::string load_text(const MeshLoad& load) {
     const std::string stresses = stress_list(load);
-    return fmt::format("{:.4g} N{}{}", load.force_N, stresses.empty() ? "" : ": ", stresses);
+    return fmt::format("{:.4g} kN{}{}", 1e-3 * load.force_N, stresses.empty() ? "" : ": ",
+                       stresses);
 }
 
 Problems load_warnings(const Study& study, const std::string& file) {
