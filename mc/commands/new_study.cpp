@@ -8,6 +8,7 @@
 #include "mc/new_study/rexs_study.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
+#include "mc/scene/mesh_loads.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -16,6 +17,14 @@ namespace {
 std::string schema_line() {
     const std::string schema = schema_path().string();
     return schema.empty() ? "" : "#:schema " + schema + "\n";
+}
+
+// Prints warnings of a torque that cannot be meant.
+void warn_of_load(const NewStudy& made, const std::string& path) {
+    const StudyReading reading = read_study_text(made.text, path);
+    if (reading.study) {
+        print_problems(load_warnings(*reading.study, path == "-" ? "the study" : path));
+    }
 }
 
 }  // namespace
@@ -37,6 +46,7 @@ int new_command(const NewOptions& options) {
         return kBadInput;
     }
     print_problems(made.notices);
+    warn_of_load(made, options.out);
     if (options.out != "-") {
         fmt::print(
             "{0}: check its values and replace those that you know, then\n"

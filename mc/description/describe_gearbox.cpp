@@ -9,6 +9,7 @@
 
 #include "mc/description/entries.hpp"
 #include "mc/scene/drivetrain.hpp"
+#include "mc/scene/mesh_loads.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -229,6 +230,26 @@ void print_rigid_bodies(const Scene& scene) {
                             fmt::join(ratios, ", ")));
 }
 
+// Prints load and nominal stresses of each mesh, and warnings of torques that cannot be meant.
+void print_loads(const Study& study) {
+    bool stressed = false;
+    for (const MeshLoad& load : mesh_loads(study)) {
+        print_entry(mesh_name(load.members) + " load", load_text(load));
+        stressed = stressed || load.stress;
+    }
+    if (stressed) {
+        print_entry("stresses",
+                    fmt::format("nominal ones of ISO 6336, method B, at the nominal torque{}; "
+                                "without factors for application, dynamics and load distribution",
+                                study.gearbox.kind == GearboxKind::planetary
+                                    ? ", shared evenly by the planets"
+                                    : ""));
+    }
+    for (const Problem& warning : load_warnings(study, "")) {
+        print_entry("check the torque", fmt::format("{}; {}", warning.what, warning.remedy));
+    }
+}
+
 }  // namespace
 
 void print_gearbox(const Scene& scene) {
@@ -247,6 +268,7 @@ void print_gearbox(const Scene& scene) {
     print_rigid_bodies(scene);
     print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
     print_members(scene.study());
+    print_loads(scene.study());
     print_fault_sizes(scene);
 }
 

@@ -1,6 +1,7 @@
 #include "mc/gearbox/healthy_solution.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "mc/gearbox/solution_choice.hpp"
@@ -35,6 +36,13 @@ struct ChangedMeshes {
         }
     }
 };
+
+// True if mesh period k differs from the healthy one in a lane (lockstep::TileResult).
+bool changes(const lockstep::TileResult& integration, int k, std::size_t lane) {
+    const int record = integration.content[static_cast<std::size_t>(k)];
+    return record != lockstep::kUnchanged &&
+           !std::isnan(integration.records[static_cast<std::size_t>(record)].te[lane]);
+}
 
 void clear_failed(HealthySolution::Signals& all) {
     for (std::size_t lane = 0; lane < all.status.size(); ++lane) {
@@ -116,7 +124,10 @@ void HealthySolution::change_te(const GearboxTile& changed, std::vector<LaneSign
         const auto& now = changed.integration.records[static_cast<std::size_t>(record)].te;
         for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
             std::vector<double>& turn = lanes[lane].te_turn;
-            for (std::size_t p = 0; p < per_mesh && !turn.empty(); ++p) {
+            if (turn.empty() || !changes(changed.integration, static_cast<int>(k), lane)) {
+                continue;
+            }
+            for (std::size_t p = 0; p < per_mesh; ++p) {
                 const std::size_t at = p * stride + lane;
                 turn[k % teeth * per_mesh + p] += share * (now[at] - te_[k][at]);
             }
@@ -141,9 +152,11 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
             continue;
         }
         for (std::size_t i = 0; i < span.meshes.size(); ++i) {
-            std::copy_n(
-                sensor[lane].begin() + static_cast<std::ptrdiff_t>(i) * phases, phases,
-                lanes[lane].sensor.begin() + static_cast<std::ptrdiff_t>(span.meshes[i]) * phases);
+            const int k = span.meshes[i];
+            if (changes(changed.integration, k, lane)) {
+                std::copy_n(sensor[lane].begin() + static_cast<std::ptrdiff_t>(i) * phases, phases,
+                            lanes[lane].sensor.begin() + static_cast<std::ptrdiff_t>(k) * phases);
+            }
         }
     }
 }

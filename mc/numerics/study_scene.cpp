@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "lockstep/kernels/built_kernels.hpp"
+#include "mc/scene/mesh_loads.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -39,10 +40,14 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
     }
     try {
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));
-        return {std::make_unique<const Scene>(resolved.study),
-                std::move(resolved.choice),
-                {},
-                std::move(reading.notices)};
+        StudyScene made{std::make_unique<const Scene>(resolved.study),
+                        std::move(resolved.choice),
+                        {},
+                        std::move(reading.notices)};
+        for (Problem& warning : load_warnings(resolved.study, name)) {
+            made.notices.push_back(std::move(warning));
+        }
+        return made;
     } catch (const SceneError& error) {
         return refused({{name, 0, error.key(), error.what(), error.remedy(), error.kind()}});
     }

@@ -79,27 +79,6 @@ double upper_value(const Study& study, const char* key, double given) {
     return value * random->to_si;
 }
 
-// Upper estimate of the single pitch errors of a member's teeth, m: the tolerance of their grade
-// plus three times a given rms, and at least the largest measured deviation.
-double pitch_error_m(const Study& study, Member member) {
-    const MemberValues& body = study.gearbox.bodies[member];
-    double error = 3.0 * upper_value(study, "gearbox.pitch_error_um", study.errors.pitch_error_m);
-    if (has_tooth_quality(study)) {
-        const double grade = body.quality.value_or(
-            upper_value(study, "gearbox.tooth_quality", study.errors.tooth_quality.value_or(0.0)));
-        const gears::Gear gear = gear_of(study, member);
-        error += gears::tooth_tolerances(gear.module_m * normal_over_transverse(study.gearbox),
-                                         2.0 * gear.pitch_radius(), grade)
-                     .single_pitch;
-    }
-    for (const auto* measured : {&body.index_m, &body.ring_side_index_m}) {
-        for (const double deviation : *measured) {
-            error = std::max(error, std::abs(deviation));
-        }
-    }
-    return error;
-}
-
 // Largest corner gap that extended contact resolves, m: three times the nominal approach plus four
 // times the pitch errors of both gears. Contact then starts and ends smoothly also for teeth with
 // errors.
@@ -126,6 +105,29 @@ void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
 }
 
 }  // namespace
+
+double pitch_error_m(const Study& study, Member member) {
+    const MemberValues& body = study.gearbox.bodies[member];
+    double error = 3.0 * upper_value(study, "gearbox.pitch_error_um", study.errors.pitch_error_m);
+    if (has_tooth_quality(study)) {
+        const double grade = body.quality.value_or(
+            upper_value(study, "gearbox.tooth_quality", study.errors.tooth_quality.value_or(0.0)));
+        const gears::Gear gear = gear_of(study, member);
+        error += gears::tooth_tolerances(gear.module_m * normal_over_transverse(study.gearbox),
+                                         2.0 * gear.pitch_radius(), grade)
+                     .single_pitch;
+    }
+    for (const auto* measured : {&body.index_m, &body.ring_side_index_m}) {
+        for (const double deviation : *measured) {
+            error = std::max(error, std::abs(deviation));
+        }
+    }
+    return error;
+}
+
+double given_mean_stiffness(const Study& study, MeshKind mesh) {
+    return mean_total(*given_mesh(study, mesh));
+}
 
 double body_radius_m(const Study& study, Member member) {
     return 0.5 * study.gearbox.bodies[member].held_diameter_m.value_or(0.0);

@@ -29,6 +29,13 @@ struct SceneMesh {
 // Radius of the circle on which a gear's body is held, m; 0 if the study gives none.
 double body_radius_m(const Study& study, Member member);
 
+// Upper estimate of the single pitch errors of a member's teeth, m: the tolerance of their grade
+// plus three times a given rms, and at least the largest measured deviation.
+double pitch_error_m(const Study& study, Member member);
+
+// Mean stiffness of a mesh, N/m, in the transverse plane. Precondition: stiffness_given().
+double given_mean_stiffness(const Study& study, MeshKind mesh);
+
 // Makes one mesh for each of meshes_of(kind). force_N: mean force of a pair, for load-dependent
 // contact and for the flanks' gaps. Throws SceneError.
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N);

@@ -1,5 +1,8 @@
 #include "lockstep/strategies/fault_perturbation.hpp"
 
+#include <algorithm>
+#include <functional>
+
 #include "lockstep/tile/integrated_tile.hpp"
 
 namespace gearpod::lockstep {
@@ -16,47 +19,35 @@ class PerturbedTile : IntegratedTile<W> {
 
     TileResult run() {
         MeshRecord scratch = new_record(false);
-        bool perturbed = false;
+        LaneMask<W> all, perturbed{};
+        all.fill(true);
         for (int k = -healthy_.run_in_meshes; k < healthy_.span_meshes(); ++k) {
-            if (!perturbed && !schedule_.passes(k)) {
+            const LaneMask<W> unperturbed = start_perturbation(k, all, perturbed);
+            if (std::ranges::none_of(perturbed, std::identity())) {
                 continue;
             }
-            if (!perturbed) {
-                state_ = healthy_.before(k);
-            }
+            copy_lanes<W>(healthy_.before(k), state_, unperturbed);
             MeshRecord& record = k >= 0 ? add_record(k) : scratch;
             integrate_mesh(k, schedule_.all_overrides(k), record);
-            perturbed = remains_perturbed(k, record);
+            for (std::size_t l = 0; l < W; ++l) {
+                if (!perturbed[l]) {
+                    fill_lane<W>(record.acceleration, static_cast<int>(l), NAN);
+                    fill_lane<W>(record.te, static_cast<int>(l), NAN);
+                }
+            }
+            end_perturbation(k, healthy_.before(k + 1), record, perturbed);
         }
         return std::move(result_);
     }
 
   private:
     using Base = IntegratedTile<W>;
-    using Base::convergence_, Base::distance, Base::diverged, Base::integrate_mesh,
-        Base::mark_diverged, Base::new_record, Base::result_, Base::schedule_, Base::state_;
+    using Base::end_perturbation, Base::integrate_mesh, Base::new_record, Base::result_,
+        Base::schedule_, Base::start_perturbation, Base::state_;
 
     MeshRecord& add_record(int k) {
         result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
         return result_.records.emplace_back(new_record(false));
-    }
-
-    // True if, after mesh period k, a fault is still in contact or the motion of any lane differs
-    // from the healthy one. Marks diverged lanes.
-    bool remains_perturbed(int k, const MeshRecord& record) {
-        bool perturbed = schedule_.continues_after(k);
-        for (int l = 0; l < W; ++l) {
-            if (result_.status[static_cast<std::size_t>(l)] != LaneStatus::ok) {
-                continue;
-            }
-            if (diverged(l)) {
-                mark_diverged(l);
-            } else if (distance(state_, healthy_.before(k + 1), record, l) >
-                       convergence_.tolerance) {
-                perturbed = true;
-            }
-        }
-        return perturbed;
     }
 
     const SpanStates& healthy_;

@@ -1,6 +1,7 @@
 // Fault perturbation: only the mesh periods that the faults of the gearboxes change are integrated,
-// from the states of their healthy solution until the perturbation has decayed. Tooth errors are
-// those of the healthy solution, whose excitation must be constant.
+// from the states of their healthy solution until the perturbation has decayed in each lane by
+// itself. Tooth errors are those of the healthy solution, whose excitation
+// must be constant.
 #pragma once
 
 #include "lockstep/plan/tooth_errors.hpp"

@@ -26,10 +26,11 @@ class SuperposedTile : SpanTile<W> {
 
   private:
     using Base = SpanTile<W>;
-    using Base::add_record, Base::contact_, Base::convergence_, Base::distance, Base::diverged,
-        Base::faulty, Base::integrate_counting_contact, Base::integrate_mesh, Base::integrate_span,
-        Base::mark_diverged, Base::new_record, Base::periodic_orbit_, Base::plan_, Base::record_of,
-        Base::result_, Base::schedule_, Base::span_, Base::state_, Base::with_motion;
+    using Base::add_record, Base::contact_, Base::convergence_, Base::distance,
+        Base::end_perturbation, Base::faulty, Base::integrate_counting_contact,
+        Base::integrate_mesh, Base::integrate_span, Base::new_record, Base::periodic_orbit_,
+        Base::plan_, Base::record_of, Base::result_, Base::schedule_, Base::span_,
+        Base::start_perturbation, Base::state_, Base::with_motion;
 
     // Integrates mesh period k with its step states, and returns lower bounds of the contact
     // compression in it.
@@ -125,7 +126,7 @@ class SuperposedTile : SpanTile<W> {
         }
         if (!all) {
             state_ = periodic_orbit_;
-            integrate_span(false);
+            integrate_span(false, kept);
             this->clear_contact_loss(kept);
         }
         MeshRecord superposed = new_record(with_motion());
@@ -187,7 +188,7 @@ class SuperposedTile : SpanTile<W> {
         // Replaces the perturbed lanes in the record of mesh period k; `into` is null during the
         // run-in.
         void integrate_record(int k, MeshRecord* into) {
-            const LaneMask<W> unperturbed = start_perturbation(k);
+            const LaneMask<W> unperturbed = tile_.start_perturbation(k, kept_, perturbed_);
             if (std::ranges::none_of(perturbed_, std::identity())) {
                 return;
             }
@@ -199,36 +200,10 @@ class SuperposedTile : SpanTile<W> {
             if (into != nullptr) {
                 copy_lanes<W>(record_, *into, perturbed_);
             }
-            end_perturbation(k);
+            tile_.end_perturbation(k, healthy_, record_, perturbed_);
         }
 
       private:
-        // Marks lanes as perturbed if a fault passes in mesh period k. Returns the lanes that were
-        // unperturbed before.
-        LaneMask<W> start_perturbation(int k) {
-            const bool passes = tile_.schedule_.passes(k);
-            LaneMask<W> unperturbed;
-            for (std::size_t l = 0; l < W; ++l) {
-                unperturbed[l] = !perturbed_[l];
-                perturbed_[l] =
-                    perturbed_[l] || (passes && kept_[l] && tile_.faulty(static_cast<int>(l)));
-            }
-            return unperturbed;
-        }
-
-        void end_perturbation(int k) {
-            for (int l = 0; l < W; ++l) {
-                auto& own = perturbed_[static_cast<std::size_t>(l)];
-                if (own && tile_.diverged(l)) {
-                    tile_.mark_diverged(l);
-                    own = false;
-                } else if (own && !tile_.schedule_.continues_after(k)) {
-                    own = tile_.distance(tile_.state_, healthy_, record_, l) >
-                          tile_.convergence_.tolerance;
-                }
-            }
-        }
-
         SuperposedTile& tile_;
         const SuperposedMotion& whole_;
         const LaneMask<W>& kept_;

@@ -24,8 +24,8 @@ namespace gearpod::lockstep {
 template <int W>
 class IntegratedTile {
   public:
-    // The object refers to everything that `tile` refers to, and to `tooth_errors` and `excitation`;
-    // all must outlive it. The last two may be null.
+    // The object refers to everything that `tile` refers to, and to `tooth_errors` and
+    // `excitation`; all must outlive it. The last two may be null.
     IntegratedTile(const TileInputs& tile, const Convergence& convergence,
                    const ToothErrors* tooth_errors, const Excitation* excitation)
         : tile_(tile),
@@ -159,6 +159,33 @@ class IntegratedTile {
         fill_lane<W>(periodic_orbit_.q, lane, 0.0);
         fill_lane<W>(periodic_orbit_.v, lane, 0.0);
         fill_lane<W>(periodic_orbit_.filter, lane, 0.0);
+    }
+
+    // Marks the faulty lanes of `lanes` as perturbed if a fault passes in mesh period k. Returns
+    // the lanes that were unperturbed before; they start from their healthy state.
+    LaneMask<W> start_perturbation(int k, const LaneMask<W>& lanes, LaneMask<W>& perturbed) const {
+        const bool passes = schedule_.passes(k);
+        LaneMask<W> unperturbed;
+        for (std::size_t l = 0; l < W; ++l) {
+            unperturbed[l] = !perturbed[l];
+            perturbed[l] = perturbed[l] || (passes && lanes[l] && faulty(static_cast<int>(l)));
+        }
+        return unperturbed;
+    }
+
+    // Clears the mark of each lane whose motion has returned to `healthy`, the state after mesh
+    // period k. A lane's end never depends on the other lanes. Marks diverged lanes.
+    void end_perturbation(int k, const TileState& healthy, const MeshRecord& record,
+                          LaneMask<W>& perturbed) {
+        for (int l = 0; l < W; ++l) {
+            auto& own = perturbed[static_cast<std::size_t>(l)];
+            if (own && diverged(l)) {
+                mark_diverged(l);
+                own = false;
+            } else if (own && !schedule_.continues_after(k)) {
+                own = distance(state_, healthy, record, l) > convergence_.tolerance;
+            }
+        }
     }
 
     // Sets the status of lanes that did not converge to their periodic orbit within max_meshes.

@@ -80,8 +80,8 @@ class SpanTile : protected IntegratedTile<W> {
     }
 
     // Integrates the run-in and every mesh period of the span. Each goes into its own record, or to
-    // RecordedSpan::on_record if `streamed`.
-    void integrate_span(bool streamed) {
+    // RecordedSpan::on_record if `streamed`. Diverged lanes are marked unless they are `unused`.
+    void integrate_span(bool streamed, const LaneMask<W>& unused = {}) {
         MeshRecord scratch = new_record(streamed && with_motion());
         const auto keep_state = [&] {
             if (span_.options.states) {
@@ -101,7 +101,8 @@ class SpanTile : protected IntegratedTile<W> {
         }
         keep_state();
         for (int l = 0; l < W; ++l) {
-            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
+            const auto lane = static_cast<std::size_t>(l);
+            if (!unused[lane] && result_.status[lane] == LaneStatus::ok && diverged(l)) {
                 mark_diverged(l);
             }
         }

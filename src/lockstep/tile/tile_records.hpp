@@ -28,7 +28,8 @@ inline constexpr int kUnchanged = -1;
 
 // Recorded mesh periods. Record 0 is the healthy one; mesh period k of the span has
 // records[content[k mod L]]. Those of a fault perturbation are the changed mesh periods, without
-// the healthy one. With RecordedSpan::on_record, only the healthy one is kept.
+// the healthy one; lanes that do not change in such a mesh period are NaN there. With
+// RecordedSpan::on_record, only the healthy one is kept.
 struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()

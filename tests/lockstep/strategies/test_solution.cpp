@@ -93,6 +93,72 @@ TEST_CASE("Eight lanes, four and one give the same bits, on every instruction se
     }
 }
 
+namespace {
+
+constexpr int kSpan = 93;  // three passages of the faulty tooth
+
+// Perturbation of the first W gearboxes from `first` on by cracks of these depths.
+template <int W>
+TileResult perturbation(const IntegrationPlan& plan,
+                        const std::vector<dynamics::GearboxInputs>& inputs, std::size_t first) {
+    const auto& train = LiangTrain::instance();
+    const std::span<const dynamics::GearboxInputs> own = std::span(inputs).subspan(first, W);
+    const Convergence convergence{1e-5, 5000};
+    RecordedSpan span;
+    span.meshes = kSpan;
+    span.run_in_meshes = 8;
+    span.options.states = true;
+    const TileResult healthy =
+        run_tile<W>(plan, own, train.no_fault(W), FullSolution{convergence, span});
+    const auto depth = kDepths.begin() + static_cast<std::ptrdiff_t>(first);
+    return run_tile<W>(plan, own, train.ring_side_cracks({depth, depth + W}),
+                       FaultPerturbation{healthy.states, convergence});
+}
+
+// Acceleration and TE of the mesh periods that change in a lane, each after its number.
+template <int W>
+std::vector<double> changes(const TileResult& tile, std::size_t lane) {
+    std::vector<double> all;
+    for (std::size_t k = 0; k < tile.content.size(); ++k) {
+        if (tile.content[k] == kUnchanged) {
+            continue;
+        }
+        const MeshRecord& record = tile.records[static_cast<std::size_t>(tile.content[k])];
+        if (std::isnan(record.te[lane])) {
+            continue;
+        }
+        all.push_back(static_cast<double>(k));
+        for (const auto* values : {&record.acceleration, &record.te}) {
+            const auto one = lane_of(*values, lane, W);
+            all.insert(all.end(), one.begin(), one.end());
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+// The perturbations by deeper cracks last longer. A gearbox without a crack has none.
+TEST_CASE("The perturbation by a fault ends in each lane by itself") {
+    const IntegrationPlan plan = LiangTrain::instance().plan(24, 1200, kFull);
+    const auto inputs = spread_inputs();
+    const TileResult eight = perturbation<8>(plan, inputs, 0);
+    CHECK(eight.status == std::vector(8, LaneStatus::ok));
+    CHECK(changes<8>(eight, 0).empty());
+    CHECK(changes<8>(eight, 7).size() > changes<8>(eight, 1).size());
+    for (const std::size_t first : {0, 4}) {
+        const TileResult four = perturbation<4>(plan, inputs, first);
+        for (std::size_t l = 0; l < 4; ++l) {
+            INFO(first + l);
+            CHECK((changes<4>(four, l) == changes<8>(eight, first + l)));
+        }
+    }
+    for (const std::size_t lane : {1, 4, 7}) {
+        INFO(lane);
+        CHECK((changes<1>(perturbation<1>(plan, inputs, lane), 0) == changes<8>(eight, lane)));
+    }
+}
+
 TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
     const auto& train = LiangTrain::instance();
     const IntegrationPlan plan = train.plan(24, 1200, kFull);

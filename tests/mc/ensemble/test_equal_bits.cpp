@@ -1,20 +1,24 @@
-// Checks that every shipped study gives the same bits for another number of lanes. The ensembles
-// are small; their first gearboxes are healthy and their tiles both full and not, so that a lane's
-// neighbours change with the number of lanes.
+// Checks that a gearbox has the same bits in any tile, for every shipped study: whichever gearboxes
+// share its tile, however many they are, and for any number of lanes. The tiles hold several
+// gearboxes with a fault and one without.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 
+#include "mc/ensemble/batch_worker.hpp"
+#include "mc/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/gearbox_bits.hpp"
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
 
 namespace test_equal_bits {
 
 using namespace gearpod;
-using test::bits;
+using test::Bits;
 using test::shipped_study;
+using test::TileFilling;
 
 namespace {
 
@@ -35,42 +39,139 @@ bool integrates_all_meshes(const mc::Study& study) {
     return study.numerics.horizon == mc::Horizon::full || !mc::reason_not_periodic(study).empty();
 }
 
-// Overrides for a small ensemble: few gearboxes where all meshes are integrated, and a faster
-// carrier with fewer steps per mesh where it is slow.
-std::vector<std::string> small(const std::string& name) {
+// Overrides for fast tiles: a faster carrier with fewer steps per mesh where it is slow and every
+// mesh is integrated.
+std::vector<std::string> fast(const std::string& name) {
     const mc::Study study = shipped_study(name);
-    const bool integrates_all = integrates_all_meshes(study);
-    std::vector<std::string> changes{
-        integrates_all ? "ensemble.instances=2" : "ensemble.instances=9",
-        "ensemble.threshold_instances=1"};
     const double carrier_rpm = study.operation.carrier_speed_rad_s.value_or(0.0) * 30.0 / M_PI;
-    if (integrates_all && carrier_rpm > 0.0 && carrier_rpm < kFastCarrier_rpm) {
-        changes.push_back(fmt::format("operation.carrier_speed_rpm={}", kFastCarrier_rpm));
+    if (integrates_all_meshes(study) && carrier_rpm > 0.0 && carrier_rpm < kFastCarrier_rpm) {
+        return {fmt::format("operation.carrier_speed_rpm={}", kFastCarrier_rpm)};
     }
-    return changes;
+    return {};
+}
+
+// Gearboxes of a study: one with a fault, one without, and six more with faults as far as the study
+// has any.
+std::vector<mc::GearboxId> gearboxes_of(const mc::Scene& scene) {
+    constexpr std::size_t kCount = 8;
+    constexpr std::uint64_t kSearched = 64;
+    std::vector<mc::GearboxId> ids;
+    for (std::uint64_t i = 0; i < kSearched && ids.size() < kCount; ++i) {
+        const mc::GearboxId id{mc::Group::graded, i};
+        if (scene.sampler().draw(id).inputs.fault_size > 0.0) {
+            ids.push_back(id);
+        }
+        if (ids.size() == 1) {
+            ids.push_back({mc::Group::threshold, 0});
+        }
+    }
+    for (std::uint64_t i = 1; ids.size() < kCount; ++i) {
+        ids.push_back({mc::Group::threshold, i});
+    }
+    return ids;
+}
+
+// Rows of the first gearboxes of a study, bit by bit, computed in tiles of these lanes.
+class TileRows {
+  public:
+    TileRows(const std::string& name, int lanes) : scene_(study_with(name, lanes)) {}
+
+    std::vector<Bits> first(std::size_t gearboxes) {
+        const auto ids = gearboxes_of(scene_);
+        const std::size_t values = mc::row_shape(scene_.study()).values();
+        mc::Seconds seconds;
+        const mc::BatchRows computed = worker_.compute(std::span(ids).first(gearboxes), 1, seconds);
+        std::vector<Bits> rows;
+        for (std::size_t row = 0; row < computed.count(); ++row) {
+            rows.push_back(test::bits_of(std::span(computed.values).subspan(row * values, values)));
+            rows.back().push_back(static_cast<std::uint64_t>(computed.status[row]));
+        }
+        return rows;
+    }
+
+  private:
+    static mc::Study study_with(const std::string& name, int lanes) {
+        std::vector<std::string> changes = fast(name);
+        changes.push_back(fmt::format("numerics.lanes={}", lanes));
+        return shipped_study(name, changes);
+    }
+
+    const mc::Scene scene_;
+    const mc::BatchTask task_{scene_};
+    mc::BatchWorker worker_{task_};
+};
+
+void check(const std::string& name, const std::vector<TileFilling>& fillings) {
+    INFO(name);
+    std::unique_ptr<TileRows> rows;
+    test::check_same_bits(fillings, [&, lanes = 0](const TileFilling& filling) mutable {
+        if (filling.lanes != lanes) {
+            lanes = filling.lanes;
+            rows = std::make_unique<TileRows>(name, lanes);
+        }
+        return rows->first(filling.gearboxes);
+    });
+}
+
+// Checks that `simulate` gives the features of the first gearbox's row.
+void check_simulation(const std::string& name) {
+    INFO(name);
+    const mc::Scene scene(shipped_study(name, fast(name)));
+    const mc::BatchTask task(scene);
+    mc::BatchWorker worker(task);
+    mc::Seconds seconds;
+    const auto ids = gearboxes_of(scene);
+    const mc::BatchRows row = worker.compute(std::span(ids).first(5), 1, seconds);
+    if (row.status.front() != static_cast<int>(mc::Status::ok)) {
+        return;  // `simulate` refuses a gearbox that failed
+    }
+    const mc::Simulation simulation = mc::simulate(scene, ids.front(), 1);
+    const std::size_t first = mc::row_shape(scene.study()).value_of(0, 0);
+    CHECK((test::bits_of(simulation.features) ==
+           test::bits_of(std::span(row.values).subspan(first, simulation.features.size()))));
+}
+
+// Kernels of few lanes for variable excitation exist in a portable build only.
+bool any_width(const mc::Study& study) {
+    return GEARPOD_PORTABLE || !mc::has_variable_excitation(study);
 }
 
 }  // namespace
 
-// One other width suffices: tests/lockstep checks each mesh law with all. It is one lane, or four
-// where every mesh is integrated.
-TEST_CASE("Every shipped study gives the same bits by eight lanes and by one or four") {
+// The first filling is the reference. tests/lockstep checks each mesh law with all widths.
+TEST_CASE("Every shipped study gives a gearbox the same bits in any tile") {
     const auto names = studies_with_teeth();
     REQUIRE(names.size() > 30);
     for (const std::string& name : names) {
-        INFO(name);
-        const auto changes = small(name);
-        // Variable excitation has kernels of four lanes in a portable build only.
         const mc::Study study = shipped_study(name);
-        const bool any_width = GEARPOD_PORTABLE || !mc::has_variable_excitation(study);
-        const auto of_lanes = [&](int lanes) {
-            auto of_width = changes;
-            of_width.push_back(fmt::format("numerics.lanes={}", lanes));
-            return bits(test::run(shipped_study(name, of_width)));
-        };
-        const auto reference = of_lanes(8);
-        CHECK(of_lanes(any_width && integrates_all_meshes(study) ? 4 : 1) == reference);
+        const bool all_meshes = integrates_all_meshes(study);
+        std::vector<TileFilling> fillings{{8, 8}, {8, 2}};
+        if (!all_meshes) {
+            fillings.push_back({8, 5});
+        }
+        fillings.push_back(any_width(study) && all_meshes ? TileFilling{4, 4} : TileFilling{1, 2});
+        check(name, fillings);
     }
+}
+
+TEST_CASE("Every shipped study gives a gearbox the same bits in all tiles", "[.equal-bits]") {
+    for (const std::string& name : studies_with_teeth()) {
+        const mc::Study study = shipped_study(name);
+        std::vector<TileFilling> fillings{{8, 8}, {8, 1}, {8, 2}, {8, 5}, {1, 8}};
+        if (any_width(study)) {
+            fillings.insert(fillings.end(), {{4, 1}, {4, 2}, {4, 5}, {4, 8}});
+        }
+        if (study.numerics.precision == mc::Precision::single_precision) {
+            fillings.insert(fillings.end(), {{16, 1}, {16, 2}, {16, 5}, {16, 8}});
+        }
+        check(name, fillings);
+        check_simulation(name);
+    }
+}
+
+TEST_CASE("Simulated gearboxes have the bits of a run, for identical teeth and teeth with errors") {
+    check_simulation("planet-crack-ideal.toml");
+    check_simulation("real-teeth.toml");
 }
 
 }  // namespace test_equal_bits

@@ -1,0 +1,72 @@
+// Checks that the commands that compute gearboxes print the same for any number of lanes.
+// tests/mc/ensemble and tests/mc/lives check every shipped study, in tiles of any filling.
+#include <filesystem>
+
+#include "tests/mc/compared_program.hpp"
+#include "tests/mc/program.hpp"
+
+namespace test_lane_bits {
+
+using namespace gearpod;
+using test::bits;
+using test::compared_program;
+using test::Folder;
+
+namespace {
+
+// Seven milliseconds per gearbox.
+const std::string kStudy = std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
+
+std::string output_of(const std::string& arguments) {
+    const test::Outcome outcome = compared_program(arguments);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return outcome.output;
+}
+
+// Outputs of `misses` and `rare`, and bits of the points of a sweep, computed with so many lanes.
+struct LaneOutputs {
+    std::string misses, rare;
+    std::vector<std::vector<std::uint64_t>> sweep;
+    bool operator==(const LaneOutputs&) const = default;
+};
+
+LaneOutputs outputs_with(const std::string& lanes, const Folder& folder) {
+    const std::string of_lanes = " --set numerics.lanes=" + lanes;
+    const std::string results = folder.file("few.h5"), points = folder.file("sweep");
+    output_of("run " + kStudy + of_lanes +
+              " --instances 6 --set ensemble.threshold_instances=40 --force --quiet --out " +
+              results);
+    LaneOutputs outputs;
+    outputs.misses = output_of("misses " + results +
+                               " --feature window_ratio --size 1 --gearboxes 60 --records 64 "
+                               "--quiet --json -");
+    outputs.rare = output_of(
+        "rare " + results + " --feature window_ratio --rate 0.05 --gearboxes 100 --quiet --json -");
+    output_of("sweep " + kStudy + of_lanes +
+              " --vary 'sensor.noise_m_s2=[1,2]' --set ensemble.instances=5 --set "
+              "ensemble.threshold_instances=3 --quiet --out " +
+              points);
+    for (const auto& entry : std::filesystem::directory_iterator(points)) {
+        if (entry.path().extension() == ".h5") {
+            outputs.sweep.push_back(bits(entry.path().string()));
+        }
+    }
+    std::ranges::sort(outputs.sweep);
+    std::filesystem::remove_all(points);
+    return outputs;
+}
+
+}  // namespace
+
+TEST_CASE("misses, rare and sweep give the same numbers for any lanes") {
+    const Folder folder;
+    const LaneOutputs reference = outputs_with("16", folder);
+    REQUIRE(reference.sweep.size() == 2);
+    for (const char* lanes : {"8", "4", "1"}) {
+        INFO(lanes);
+        CHECK((outputs_with(lanes, folder) == reference));
+    }
+}
+
+}  // namespace test_lane_bits
