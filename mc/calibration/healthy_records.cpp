@@ -8,7 +8,7 @@
 #include <map>
 
 #include "mc/files/signal_units.hpp"
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 #include "mc/input/spelling.hpp"
 
 namespace gearpod::mc {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 #include "mc/input/document.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/noise.hpp"

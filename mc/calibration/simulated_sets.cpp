@@ -8,7 +8,7 @@
 #include "machine/team.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/gearbox/measured_features.hpp"
+#include "mc/recordings/measured_features.hpp"
 #include "mc/gearbox/realization_signals.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/noise.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/gearbox/measured_signal.hpp"
+#include "mc/recordings/measured_signal.hpp"
 #include "mc/library/inspection_table.hpp"
 #include "mc/new_study/planetary_datasheet.hpp"
 #include "mc/new_study/rexs_choices.hpp"

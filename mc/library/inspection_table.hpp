@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/report/inspection_json.hpp"
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 
 namespace gearpod::mc {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/gearbox/measured_features.hpp"
+#include "mc/recordings/measured_features.hpp"
 #include "mc/recordings/population.hpp"
 
 namespace gearpod::mc {

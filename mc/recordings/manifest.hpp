@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 #include "mc/input/problems.hpp"
 
 namespace gearpod::mc {

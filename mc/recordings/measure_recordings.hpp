@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mc/gearbox/measured_features.hpp"
 #include "mc/recordings/manifest.hpp"
+#include "mc/recordings/measured_features.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "mc/gearbox/measured_features.hpp"
+#include "mc/recordings/measured_features.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

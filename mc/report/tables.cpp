@@ -8,7 +8,7 @@
 
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 #include "mc/input/document.hpp"
 #include "mc/input/document.hpp"
 

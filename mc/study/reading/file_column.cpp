@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 #include "tests/mc/program.hpp"
 
 namespace test_text_dialects {

@@ -8,7 +8,7 @@
 
 #include "features/feature.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
-#include "mc/gearbox/measured_change.hpp"
+#include "mc/recordings/measured_change.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {

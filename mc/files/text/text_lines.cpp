@@ -1,4 +1,4 @@
-#include "mc/files/text_lines.hpp"
+#include "mc/files/text/text_lines.hpp"
 
 #include <fmt/format.h>
 

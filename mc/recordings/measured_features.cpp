@@ -1,4 +1,4 @@
-#include "mc/gearbox/measured_features.hpp"
+#include "mc/recordings/measured_features.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "mc/gearbox/recording_rate.hpp"
+#include "mc/recordings/recording_rate.hpp"
 
 #include <fmt/format.h>
 

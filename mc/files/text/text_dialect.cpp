@@ -1,4 +1,4 @@
-#include "mc/files/text_dialect.hpp"
+#include "mc/files/text/text_dialect.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text_fields.hpp"
+#include "mc/files/text/text_fields.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,4 +1,4 @@
-#include "mc/files/text_fields.hpp"
+#include "mc/files/text/text_fields.hpp"
 
 #include <fmt/format.h>
 

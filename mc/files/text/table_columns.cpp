@@ -1,4 +1,4 @@
-#include "mc/files/table_columns.hpp"
+#include "mc/files/text/table_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "mc/files/signal_file.hpp"
 #include "mc/files/signal_units.hpp"
-#include "mc/files/text_fields.hpp"
+#include "mc/files/text/text_fields.hpp"
 
 namespace gearpod::mc {
 namespace {

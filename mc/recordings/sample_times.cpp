@@ -1,4 +1,4 @@
-#include "mc/gearbox/sample_times.hpp"
+#include "mc/recordings/sample_times.hpp"
 
 #include <fmt/format.h>
 

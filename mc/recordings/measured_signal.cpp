@@ -1,4 +1,4 @@
-#include "mc/gearbox/measured_signal.hpp"
+#include "mc/recordings/measured_signal.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,10 @@
 
 #include "features/feature.hpp"
 #include "mc/files/signal_units.hpp"
-#include "mc/gearbox/recording_rate.hpp"
-#include "mc/gearbox/sample_times.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/recordings/recording_columns.hpp"
+#include "mc/recordings/recording_rate.hpp"
+#include "mc/recordings/sample_times.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "signals/rotation/shaft_motion.hpp"
 #include "signals/spectra/mesh_speed.hpp"
@@ -23,22 +24,12 @@ namespace {
 constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
-constexpr const char* kTime = "time";
 constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-    if (factor != 1.0) {
-        for (double& value : values) {
-            value *= factor;
-        }
-    }
-    return values;
-}
-
-class SignalReader {
+class SignalReader : RecordingColumns {
   public:
     SignalReader(const SignalSource& source, const SignalColumns& columns, const Scene& scene)
-        : source_(source), columns_(columns), scene_(scene) {}
+        : RecordingColumns(source, columns), scene_(scene) {}
 
     MeasuredSignal read() {
         // The libraries that read files are not thread-safe.
@@ -110,128 +101,6 @@ class SignalReader {
             measured.te = tracking.resample(te, grid, std::min(measured.te_meshes, most_meshes()));
         }
     }
-    void reject(const std::string& what) {
-        problems_ +=
-            fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", source_.name, printable(what));
-    }
-    void reject_column(const std::string& name, const std::string& why) {
-        if (!why.empty()) {
-            reject(fmt::format("column {}: {}", name, why));
-        }
-    }
-    void stop_at_problems() const {
-        if (!problems_.empty()) {
-            throw SignalError(problems_);
-        }
-    }
-    void reject_missing(const std::string& name) {
-        reject(fmt::format("no column {}; its columns are {}", name, file_->contents()));
-    }
-
-    // Full name of a column; "" if it does not exist. All columns belong to the first one.
-    std::string found(const std::string& name, bool requested) {
-        return file_->find({name, first_, requested});
-    }
-    // Factor that converts a column to the program's units.
-    double factor(const std::string& name, Quantity quantity) {
-        const ColumnFactor factor =
-            column_factor(file_->unit(name), quantity, columns_.sensor_unit);
-        reject_column(name, factor.problem);
-        if (!factor.note.empty()) {
-            notes_.push_back(printable(fmt::format("column {}: {}", name, factor.note)));
-        }
-        return factor.factor;
-    }
-
-    // Reads a column that the user requested.
-    std::vector<double> present(const std::string& name, Quantity quantity) {
-        const std::string full = found(name, true);
-        if (full.empty()) {
-            reject_missing(name);
-        }
-        return full.empty() ? std::vector<double>() : column(full, quantity);
-    }
-
-    // Reads a column and checks that it is finite and as long as the others.
-    std::vector<double> column(const std::string& name, Quantity quantity) {
-        // Times are converted after their rounding has been judged.
-        const double unit = quantity == Quantity::time ? 1.0 : factor(name, quantity);
-        std::vector<double> values = scaled(file_->read(name), unit);
-        reject_column(name, bad_values(values));
-        if (values.size() < 2) {
-            reject(fmt::format("column {} has {} sample(s)", name, values.size()));
-        } else if (samples_ != 0 && values.size() != samples_) {
-            reject(fmt::format("column {} has {} samples, but {} has {}", name, values.size(),
-                               first_, samples_));
-        } else if (samples_ == 0) {
-            samples_ = values.size();
-            first_ = name;
-        }
-        return values;
-    }
-
-    std::vector<double> chosen(const std::string& name, const std::string& usual,
-                               Quantity quantity) {
-        const std::string taken = found(name.empty() ? usual : name, !name.empty());
-        if (!taken.empty()) {
-            std::vector<double> values = column(taken, quantity);
-            reject_column(taken, clipping(values));
-            return values;
-        }
-        if (!name.empty()) {
-            reject_missing(name);
-        }
-        return {};
-    }
-
-    // Time of every sample, s.
-    std::vector<double> times(std::size_t samples) {
-        const std::string written_as = columns_.sampling_Hz > 0.0 ? "" : found(kTime, false);
-        if (!written_as.empty()) {
-            std::vector<double> written = column(written_as, Quantity::time);
-            if (!problems_.empty()) {
-                return {};
-            }
-            SampleTimes time = sample_times(std::move(written), factor(written_as, Quantity::time));
-            reject_column(kTime, time.problem);
-            if (time.problem.empty()) {
-                compare_with_stated_rate(static_cast<double>(time.seconds.size() - 1) /
-                                         (time.seconds.back() - time.seconds.front()));
-            }
-            return std::move(time.seconds);
-        }
-        const double rate = columns_.sampling_Hz > 0.0
-                                ? columns_.sampling_Hz
-                                : file_->sampling_Hz_of(first_).value_or(0.0);
-        if (!(rate > 0.0 && std::isfinite(rate))) {
-            reject(
-                fmt::format("no sampling rate: the file has neither a column {} or {} nor "
-                            "sampling_Hz; its columns are {}; give --sampling-Hz",
-                            kTime, kPhase, file_->contents()));
-            return {};
-        }
-        if (columns_.sampling_Hz > 0.0) {
-            compare_with_stated_rate(rate);
-        }
-        return evenly_spaced(samples, rate);
-    }
-
-    // Adds a note if the file states another sampling rate than the one used.
-    void compare_with_stated_rate(double used_Hz) {
-        constexpr double kAgreement = 1e-2;
-        try {
-            const double stated_Hz = file_->sampling_Hz_of(first_).value_or(used_Hz);
-            if (!(std::abs(stated_Hz - used_Hz) <= kAgreement * used_Hz)) {
-                notes_.push_back(fmt::format(
-                    "the file states a sampling rate of {:.6g} Hz; taken as {:.6g} Hz ({})",
-                    stated_Hz, used_Hz,
-                    columns_.sampling_Hz > 0.0 ? "--sampling-Hz" : "column time"));
-            }
-        } catch (const SignalError& error) {
-            notes_.push_back(printable(error.what()));
-        }
-    }
-
     // Mesh phase of every sample.
     std::vector<double> phases(std::size_t samples, std::string& how) {
         if (columns_.samples_per_mesh > 0.0) {
@@ -299,18 +168,6 @@ class SignalReader {
         how = fmt::format("angles of column {}", columns_.encoder);
         first_sample_ = angle.first;
         return scaled(std::move(angle.rad), meshes_per_rad);
-    }
-
-    // Time of a sample as text, " (1.5 s)"; "" if it is not known. Samples are numbered from 1.
-    std::string moment(std::size_t sample) {
-        const std::string time = columns_.sampling_Hz > 0.0 ? "" : found(kTime, false);
-        const double rate = columns_.sampling_Hz > 0.0
-                                ? columns_.sampling_Hz
-                                : file_->sampling_Hz_of(first_).value_or(0.0);
-        const double seconds = sample == 0 || time.empty() ? static_cast<double>(sample - 1) / rate
-                                                           : file_->read(time).at(sample - 1) *
-                                                                 factor(time, Quantity::time);
-        return sample > 0 && std::isfinite(seconds) ? fmt::format(" ({:.6g} s)", seconds) : "";
     }
 
     // Mesh periods per turn of the member whose speed the study gives.
@@ -403,13 +260,8 @@ class SignalReader {
     // Smallest jump of a measured motion that is reported, in mesh periods.
     static constexpr double kSmallestJump = 0.05;
 
-    const SignalSource& source_;
-    const SignalColumns& columns_;
     const Scene& scene_;
-    std::unique_ptr<SignalFile> file_;
-    std::string problems_, first_;
-    std::vector<std::string> notes_;
-    std::size_t samples_ = 0, first_sample_ = 0;
+    std::size_t first_sample_ = 0;
     bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/files/table_columns.hpp"
+#include "mc/files/text/table_columns.hpp"
 
 namespace gearpod::mc {
 

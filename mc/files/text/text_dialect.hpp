@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/files/text_layout.hpp"
-#include "mc/files/text_lines.hpp"
+#include "mc/files/text/text_layout.hpp"
+#include "mc/files/text/text_lines.hpp"
 
 namespace gearpod::mc {
 

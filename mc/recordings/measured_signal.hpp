@@ -1,37 +1,13 @@
 // Measured signal on the mesh-phase grid of a study.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "mc/files/column_factor.hpp"
-#include "mc/files/signal_file.hpp"
+#include "mc/recordings/recording_columns.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
-
-// Use of the speed that the mesh lines show (signals/spectra/mesh_speed.hpp).
-enum class SpeedCheck {
-    refuse,  // reject a recording whose lines fit another speed clearly better
-    follow,  // use that speed
-    ignore,
-};
-
-// Columns of a signal file to read; "" for optional ones.
-struct SignalColumns {
-    std::string sensor;                   // default "sensor", if it exists
-    std::string te;                       // default "te", if it exists
-    double sampling_Hz = 0.0;             // 0: from the file
-    double samples_per_mesh = 0.0;        // for even sampling in mesh phase; 0: sampled in time
-    std::optional<std::size_t> row = {};  // for a file with one record per row
-    SensorUnit sensor_unit = {};          // without any and without a unit in the file: m/s^2
-    std::string tachometer = {};  // pulses of the member whose speed the study gives; "": none
-    double pulses_per_turn = 1.0;
-    std::string encoder = {};  // angle of that member; "": none
-    SpeedCheck speed = SpeedCheck::refuse;
-};
 
 struct MeasuredSignal {
     // Mesh periods that features use, as far as the recording has them.

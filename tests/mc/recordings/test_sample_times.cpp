@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "mc/gearbox/sample_times.hpp"
+#include "mc/recordings/sample_times.hpp"
 
 namespace test_sample_times {
 

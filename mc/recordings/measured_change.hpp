@@ -1,7 +1,7 @@
 // Change of a measured gearbox since an earlier recording of it.
 #pragma once
 
-#include "mc/gearbox/measured_signal.hpp"
+#include "mc/recordings/measured_signal.hpp"
 
 namespace gearpod::mc {
 

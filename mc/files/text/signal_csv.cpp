@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text_dialect.hpp"
-#include "mc/files/text_fields.hpp"
+#include "mc/files/text/text_dialect.hpp"
+#include "mc/files/text/text_fields.hpp"
 
 namespace gearpod::mc {
 namespace {

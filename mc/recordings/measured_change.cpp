@@ -1,4 +1,4 @@
-#include "mc/gearbox/measured_change.hpp"
+#include "mc/recordings/measured_change.hpp"
 
 #include <fmt/format.h>
 

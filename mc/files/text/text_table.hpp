@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mc/files/table_columns.hpp"
-#include "mc/files/text_fields.hpp"
+#include "mc/files/text/table_columns.hpp"
+#include "mc/files/text/text_fields.hpp"
 
 namespace gearpod::mc {
 

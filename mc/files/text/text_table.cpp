@@ -1,9 +1,9 @@
-#include "mc/files/text_table.hpp"
+#include "mc/files/text/text_table.hpp"
 
 #include <fmt/format.h>
 
 #include "mc/files/signal_file.hpp"
-#include "mc/files/text_dialect.hpp"
+#include "mc/files/text/text_dialect.hpp"
 #include "mc/input/input_file.hpp"
 
 namespace gearpod::mc {
