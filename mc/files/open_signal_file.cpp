@@ -39,10 +39,8 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (row && !hdf5) {
         throw SignalError(path + ": has no rows to select from; only HDF5 files can have rows");
     }
-    if (!compressed) {
-        check_file_content(path, kind);
-    }
-    if (is_one_of(kind, {".csv", ".txt", ".tsv", ".dat", ".asc"})) {
+    check_file_content(path, compressed ? ".gz" : kind);
+    if (is_kind_among(kind, {".csv", ".txt", ".tsv", ".dat", ".asc"})) {
         return open_signal_csv(path);
     }
     if (compressed) {
@@ -67,8 +65,8 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
         return open_signal_uff(path);
     }
     throw SignalError(path +
-                      ": unknown file type; its name must end in .csv, .h5, .hdf5, .mat, .tdms, "
-                      ".uff, .unv, .wav, .rf64, .w64, .flac or .aiff");
+                      ": unknown file type; its name must end in .csv, .txt, .h5, .hdf5, .mat, "
+                      ".tdms, .uff, .unv, .wav, .rf64, .w64, .flac or .aiff");
 }
 
 }  // namespace gearpod::mc
