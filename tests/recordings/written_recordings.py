@@ -64,7 +64,7 @@ def csv_units(folder):
     yield write(folder, "volts_taken.csv", table("sensor [V]")), ["--sensor-unit", "m/s^2"], 1.0
     yield write(folder, "furlongs.csv", table("sensor [furlong/s^2]")), [], "furlong"
     yield write(folder, "furlongs_taken.csv", table("sensor [furlong/s^2]")), ["--sensor-unit", "g"], G
-    yield write(folder, "millivolts.csv", table("sensor [mV]", 0.01)), ["--sensor-sensitivity", "10 mV/(m/s^2)"], (0.001, "")
+    yield write(folder, "millivolts.csv", table("sensor [mV]", 0.1)), ["--sensor-sensitivity", "10 mV/(m/s^2)"], 1.0
     yield write(folder, "place.csv", table("Accelerometer (rear)")), ["--sensor", "Accelerometer (rear)"], 1.0
     yield write(folder, "place_alone.csv", table("Accelerometer (rear)")), ["--sensor", "Accelerometer"], 1.0
     yield write(folder, "parenthesis.csv", table("sensor (g)", G)), [], 1.0
