@@ -129,6 +129,12 @@ void add_hit_miss(const Inspections& data, const InspectionRequest& request,
     const double rate = result.without_flaw == 0 ? 0.0
                                                  : static_cast<double>(result.false_calls) /
                                                        static_cast<double>(result.without_flaw);
+    if (!request.floor && rate >= 1.0) {
+        result.hit_miss.refusal = fmt::format(
+            "all {} specimens without a flaw count as hits, so hits say nothing about flaws",
+            result.without_flaw);
+        return;
+    }
     pod_request.floor = request.floor.value_or(rate);
     pod_request.without_floor = !request.floor;
     pod_request.confidence = request.confidence;

@@ -17,7 +17,8 @@ constexpr std::size_t kLeastWords = 30;
 // Layout of a table on the terminal.
 class TableLines {
   public:
-    explicit TableLines(const Table& table) : table_(table) {
+    TableLines(const Table& table, std::size_t most_columns)
+        : table_(table), text_width_(most_columns) {
         for (std::size_t c = 0; c < table.columns.size(); ++c) {
             std::size_t width = table.columns[c].size();
             for (const auto& row : table.rows) {
@@ -58,7 +59,7 @@ class TableLines {
             width += space(c);
         }
         for (bool first = true;
-             next < widths_.size() && (first || width + space(next) <= text_width());
+             next < widths_.size() && (first || width + space(next) <= text_width_);
              first = false) {
             width += space(next);
             columns.push_back(next++);
@@ -79,29 +80,30 @@ class TableLines {
         }
         line.erase(line.find_last_not_of(' ') + 1);
         if (is_wordy(columns.back())) {
-            add_wrapped(out, line, indent);
+            add_wrapped(out, line, indent, text_width_);
         } else {
             out += line + '\n';
         }
     }
 
     const Table& table_;
+    const std::size_t text_width_;
     std::vector<std::size_t> widths_;
     bool wordy_ = false;
 };
 
-void add_block(std::string& out, const Statement& statement, bool& after_table) {
+void add_block(std::string& out, const Statement& statement, bool& after_table, std::size_t width) {
     out += after_table ? "\n" : "";
-    add_wrapped(out, statement.text, 2);
+    add_wrapped(out, statement.text, 2, width);
     after_table = false;
 }
 
-void add_block(std::string& out, const Table& table, bool& after_table) {
+void add_block(std::string& out, const Table& table, bool& after_table, std::size_t width) {
     out += '\n';
     if (!table.title.empty()) {
-        add_wrapped(out, table.title, 2);
+        add_wrapped(out, table.title, 2, width);
     }
-    TableLines(table).add_to(out);
+    TableLines(table, width).add_to(out);
     after_table = true;
 }
 
@@ -125,7 +127,7 @@ void Report::add(Section section) {
     }
 }
 
-std::string report_text(const Report& report) {
+std::string report_text(const Report& report, std::size_t width) {
     std::string out;
     for (const Section& section : report.sections) {
         std::string body;
@@ -134,7 +136,7 @@ std::string report_text(const Report& report) {
             std::visit(
                 [&](const auto& shown) {
                     if (!shown.detail) {
-                        add_block(body, shown, after_table);
+                        add_block(body, shown, after_table, width);
                     }
                 },
                 block);

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/report/text_lines.hpp"
+
 namespace gearpod::analysis {
 
 // A finding as one or more sentences. Plain text: "noise x 1", "2e-06 m/s^2"; a page may set the
@@ -44,8 +46,8 @@ struct Report {
     void add(Section section);
 };
 
-// Text for the terminal, at most text_width() columns wide. Tables that are wider continue in
-// further blocks. Ends with a newline.
-std::string report_text(const Report& report);
+// Text for the terminal, at most `width` columns wide. Tables that are wider continue in further
+// blocks. Ends with a newline.
+std::string report_text(const Report& report, std::size_t width = text_width());
 
 }  // namespace gearpod::analysis

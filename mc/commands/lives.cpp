@@ -15,6 +15,7 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/lives/life_rows.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"
@@ -54,7 +55,7 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
         }
     }
     if (outputs.json != "-") {
-        fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld)));
+        fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld), kLineWidth));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
         }

@@ -91,25 +91,19 @@ bool is_cut(const std::string& path) {
     return false;
 }
 
-// Kind of file that is not a MAT file although its name ends in .mat; "" if it is not known.
-std::string other_kind(const std::string& path) {
-    std::array<char, 64> head{};
+// True if a file begins with zeros, as one does that was not written to its end.
+bool begins_with_zeros(const std::string& path) {
+    std::array<char, 64> head{'x'};
     std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-    const std::string_view begin(head.data(), head.size());
-    return begin.starts_with("\x89HDF")
-               ? "is an HDF5 file without the header of MATLAB; name it .h5"
-           : begin.starts_with("# Created by Octave") || begin.starts_with("Octave-1")
-               ? "is in a format of Octave; save it with: save -v7 FILE"
-           : begin.front() == '\0' && std::ranges::count(begin, '\0') == 64
-               ? "begins with zeros, as if it had not been written to its end"
-               : "";
+    return std::ranges::count(head, '\0') == 64;
 }
 
 }  // namespace
 
 std::string mat_file_problem(const std::string& path) {
-    const std::string kind = other_kind(path);
-    return kind.empty() && is_cut(path) ? "is truncated" : kind;
+    return begins_with_zeros(path) ? "begins with zeros, as if it had not been written to its end"
+           : is_cut(path)          ? "is truncated"
+                                   : "";
 }
 
 std::vector<MatArray> mat_arrays(mat_t* file, std::vector<std::string>& repeated) {

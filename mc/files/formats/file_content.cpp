@@ -67,6 +67,8 @@ constexpr OtherFormat kOtherFormats[] = {
     {0, "\x93NUMPY"sv, "a NumPy array (.npy)",
      "in Python: numpy.savetxt(OUT, numpy.load(FILE), delimiter=',', header='sensor', "
      "comments='')"},
+    {0, "# Created by Octave"sv, "a text file of Octave", "in Octave, save it with: save -v7 FILE"},
+    {0, "Octave-1"sv, "a binary file of Octave", "in Octave, save it with: save -v7 FILE"},
     {0, "CDF\x01"sv, "a netCDF classic file", "convert it to HDF5: nccopy -k nc4 FILE OUT.h5"},
     {0, "CDF\x02"sv, "a netCDF classic file", "convert it to HDF5: nccopy -k nc4 FILE OUT.h5"},
     {0, "CDF\x05"sv, "a netCDF classic file", "convert it to HDF5: nccopy -k nc4 FILE OUT.h5"},

@@ -296,6 +296,10 @@ TEST_CASE("Inspections without a flaw determine the floor of hit/miss curves") {
     REQUIRE(result.hit_miss.candidates.size() == 2);
     CHECK(result.hit_miss.candidates[1].curve.form.floor == Approx(0.1));
     CHECK(result.false_call_bounds.lower == Approx(0.0332751).epsilon(1e-4));  // scipy's beta.ppf
+    // If all of them are hits, hits say nothing.
+    std::fill(data.value.end() - 50, data.value.end(), 1.0);
+    CHECK(inspect(data, of_hits(Link::logit, false)).hit_miss.refusal ==
+          "all 50 specimens without a flaw count as hits, so hits say nothing about flaws");
 }
 
 }  // namespace

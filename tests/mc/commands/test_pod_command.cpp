@@ -69,7 +69,7 @@ TEST_CASE("pod reads tables as pandas, R and spreadsheets write them") {
     const Folder folder;
     const std::string options = " --size \"depth, mm\" --hit y --link logit --size-scale linear";
     std::string plain, pandas, excel;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 1; i <= 40; ++i) {
         const std::string size = std::to_string(i / 4) + "." + std::to_string(25 * (i % 4));
         const std::string hit = i % 7 == 3 ? "0" : i > 15 || i % 5 == 0 ? "1" : "0";
         std::string comma = size;

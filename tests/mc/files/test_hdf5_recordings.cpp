@@ -331,7 +331,7 @@ TEST_CASE("Files that cannot be opened as HDF5 are refused with the true reason"
     CHECK(contains(refusal("PK\x03\x04" + std::string(200, 'x')), "is a ZIP archive"));
     CHECK(contains(refusal(""), "is empty"));
     CHECK(contains(refusal(std::string(2000, '\0')), "begins with zeros"));
-    CHECK(contains(refusal("time,sensor\n"), "is not an HDF5 file"));
+    CHECK(contains(refusal("time,sensor\n"), "is text, but its name ends in .h5"));
 }
 
 }  // namespace

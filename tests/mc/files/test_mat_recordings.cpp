@@ -168,8 +168,8 @@ TEST_CASE("Complex and sparse matrices, text and contradictory rates are refused
     CHECK_THROWS_WITH(file->sampling_Hz_of("sensor"),
                       Catch::Contains("fs states a sampling rate of 5120 Hz, but dt one of 5000"));
     for (const auto& [begin, why] :
-         {std::pair{"\x89HDF\r\n\x1a\n", "is an HDF5 file without the header of MATLAB"},
-          {"# Created by Octave 8.4", "is in a format of Octave"}}) {
+         {std::pair{"\x89HDF\r\n\x1a\n", "is an HDF5 file, but its name ends in .mat"},
+          {"# Created by Octave 8.4", "is a text file of Octave"}}) {
         write_bytes(folder.file("b.mat"), begin + std::string(300, ' '));
         CHECK(refusal(folder.file("b.mat"), "x").find(why) != std::string::npos);
     }

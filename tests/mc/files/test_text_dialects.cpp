@@ -164,7 +164,7 @@ TEST_CASE("a table may be compressed with gzip, and bombs and truncated files ar
         REQUIRE(gzclose(file) == Z_OK);
         return files.folder.file(name);
     };
-    for (const char* name : {"a.csv.gz", "a.txt.gz", "A.CSV.GZ", "a.csv"}) {
+    for (const char* name : {"a.csv.gz", "a.txt.gz", "A.CSV.GZ"}) {
         INFO(name);
         CHECK(mc::open_signal_file(compressed(kPlain, name))->read("sensor") == kSensor);
     }
@@ -256,7 +256,7 @@ TEST_CASE("the reason why a table is refused is named with its line") {
         {"sensor,sensor\n0,1\n1,2\n", "two columns are named sensor"},
         {"time,sensor [g]\ns,m/s^2\n0,1\n1,2\n", "but the line before states g"},
         {std::string("t\0i\0m\0e\0\n\0", 10), "is not a line of text (UTF-16"},
-        {"PK\x03\x04more", "Excel workbook"},
+        {"PK\x03\x04more", "is a ZIP archive"},
         {"\x89HDF\r\n", "is an HDF5 file"},
         {"BZh91", "bzip2"},
         {"# nothing\n\n", "is empty"}};
