@@ -139,7 +139,7 @@ TEST_CASE("Columns of a file are used in rows, and missing ones are reported") {
           std::string::npos);
     gearpod::test::write_bytes(folder.file("bad.csv"), "torque\n1\nlots\n");
     CHECK(problems_of(kTorques + "file=\"" + folder.file("bad.csv") + "\",column=\"torque\"}")
-              .find("bad.csv:3: \"lots\" is not a number") != std::string::npos);
+              .find("bad.csv:3: \"lots\" is not a finite number") != std::string::npos);
     gearpod::test::write_bytes(folder.file("empty.csv"), "torque\n");
     CHECK(problems_of(kTorques + "file=\"" + folder.file("empty.csv") + "\",column=\"torque\"}")
               .find("empty.csv: has no row below its header") != std::string::npos);
