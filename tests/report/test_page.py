@@ -300,7 +300,8 @@ class Program(unittest.TestCase):
                  ("90 % of flaws of 2.593", "hits and misses", "likelihood ratio, chi-squared 3.841")),
                 ("inspections_responses.csv", ("--response", "A", "--threshold", "6", "--left", "3"),
                  ("Responses", "threshold", "Wald, 1.645 standard errors"))):
-            made = self.gearpod("pod", str(tables / table), *options, "--html", self.html())
+            made = self.gearpod("pod", str(tables / table), *options, "--convention", "handbook",
+                                "--html", self.html())
             self.assertEqual(made.returncode, 0, made.stderr)
             html = pathlib.Path(self.html()).read_text()
             shown_text = PageHtml(html).text().replace("\u00a0", " ")
