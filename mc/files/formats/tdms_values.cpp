@@ -57,9 +57,19 @@ double tdms_number(std::string_view bytes, std::size_t at, TdmsType type, bool b
         case TdmsType::int32:
         case TdmsType::int64:
             return static_cast<double>(signed_at(bytes, at, width, big_endian));
-        default:
-            return static_cast<double>(unsigned_at(bytes, at, width, big_endian));
+        case TdmsType::uint8:
+        case TdmsType::uint16:
+        case TdmsType::uint32:
+        case TdmsType::uint64:
+        case TdmsType::boolean:
+        case TdmsType::none:
+        case TdmsType::string:
+        case TdmsType::timestamp:
+        case TdmsType::complex64:
+        case TdmsType::complex128:
+            break;
     }
+    return static_cast<double>(unsigned_at(bytes, at, width, big_endian));
 }
 
 TdmsTime tdms_time(std::string_view bytes, std::size_t at, bool big_endian) {

@@ -7,7 +7,7 @@
 #include "analysis/inspection.hpp"
 #include "analysis/pod/calibrated_bounds.hpp"
 #include "analysis/pod/cluster_effect.hpp"
-#include "tests/analysis/reference_data.hpp"
+#include "tests/analysis/pod/inspection_examples.hpp"
 
 namespace test_calibrated_bounds {
 
@@ -15,47 +15,6 @@ using namespace gearpod;
 using namespace gearpod::analysis;
 
 namespace {
-
-Inspections hits(bool repeated) {
-    const auto columns = reference_columns("inspections_hits.csv");
-    Inspections data{columns[1], columns[2], {}};
-    for (std::size_t i = 0; i < columns[0].size(); ++i) {
-        data.specimen.push_back(repeated ? std::lround(columns[0][i]) : static_cast<long>(i));
-    }
-    return data;
-}
-
-Inspections responses(bool repeated) {
-    const auto columns = reference_columns("inspections_responses.csv");
-    Inspections data;
-    for (std::size_t i = 0; i < columns[0].size(); ++i) {
-        for (std::size_t m = 2; m < (repeated ? 5 : 3); ++m) {
-            data.size.push_back(columns[1][i]);
-            data.value.push_back(columns[m][i]);
-            data.specimen.push_back(static_cast<long>(i));
-        }
-    }
-    return data;
-}
-
-InspectionRequest of_hits(Link link, bool log_size) {
-    InspectionRequest request;
-    request.simulated_tables = 0;
-    request.links = {link};
-    request.log_sizes = {log_size};
-    return request;
-}
-
-InspectionRequest of_responses() {
-    InspectionRequest request;
-    request.simulated_tables = 0;
-    request.responses = true;
-    request.threshold = 6.0;
-    request.log_sizes = {true};
-    request.powers = {0.0};
-    request.accept_failed_checks = true;
-    return request;
-}
 
 // First `count` of the responses.
 Inspections first_responses(std::size_t count) {
