@@ -11,6 +11,7 @@
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/statistics/clopper_pearson.hpp"
 #include "analysis/statistics/interval.hpp"
+#include "machine/upper_median.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -42,6 +43,11 @@ std::vector<double> column(const FeatureSample& sample, std::size_t level, std::
         values.push_back(sample.values[i * levels + level]);
     }
     return values;
+}
+
+double finite_median(std::vector<double> values) {
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values.empty() ? kNan : machine::upper_median(values);
 }
 
 // Cell of the graded gearboxes without a fault, or nullptr.
@@ -224,6 +230,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         level.threshold = threshold.value;
         level.threshold_sample = threshold.sample;
         level.threshold_alarms = threshold.alarms;
+        level.healthy_median = finite_median(thresholds.plain());
         if (threshold.tail) {
             level.tail = tail_threshold(thresholds.plain(), alarm, threshold, request);
         }

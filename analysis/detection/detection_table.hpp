@@ -76,6 +76,7 @@ struct LevelDetection {
     double healthy_rate = 0.0;
     Interval healthy_rate_bounds = {};
     Interval expected_rate = {};
+    double healthy_median = kNan;  // upper median of the healthy sample's values
 };
 
 struct FeatureDetection {

@@ -39,9 +39,8 @@ def study_parts(data, page):
     from report import Report
 
     report = Report(data)
-    body = sections.all_of(report, page)
-    return (report.title(), report.text("headline"),
-            state_banner(report) + headline.html_of(report), body)
+    summary = state_banner(report) + headline.html_of(report, page)
+    return report.title(), report.text("headline"), summary, sections.all_of(report, page)
 
 
 def page_html(data, figures=None):

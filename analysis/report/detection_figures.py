@@ -74,6 +74,38 @@ def _size(report, estimate, pod):
     return "> " + report.sizes.text(pod["largest"])
 
 
+def _found(axes, report, found):
+    """Draws the smallest fault found."""
+    x = report.sizes.shown(found["size"])
+    axes.plot([x, x], [-0.02, 0.9], color=INK, linewidth=1)
+    axes.annotate(report.sizes.text(found["size"]), (x, 0.02), xytext=(4, 0),
+                  textcoords="offset points", fontsize=9, color=INK,
+                  bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.2, "alpha": 0.85})
+
+
+def best(report):
+    """Number of the feature in the answer."""
+    found = report.smallest[report.reference]
+    return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
+
+
+def headline(report, page):
+    """POD curve with its bounds of the feature in the answer, at the reference level."""
+    n, f = report.reference, best(report)
+    figure, axes = panel(2.5)
+    axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    if report.curves:
+        level = report.reliable(f, n)
+        _curve(axes, report, level["hit_miss"], colour(0), "-", None, band=True)
+        _open(axes, report, level, colour(0))
+    _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], colour(0), "o")
+    if report.smallest[n]:
+        _found(axes, report, report.smallest[n])
+    _limits(axes, report)
+    return to_svg(figure, f"Probability of detection by {report.names[f]}", report.text("figure"),
+                  page.names)
+
+
 def _comparison(report, page):
     n = report.reference
     labels = [name + (POOR if report.reliable(f, n)["hit_miss"]["doubtful"] else "")
@@ -91,11 +123,7 @@ def _comparison(report, page):
                marker(f), None if drawn else report.names[f] + " (rates)", bars=not drawn)
     found = report.smallest[n]
     if found:
-        x = report.sizes.shown(found["size"])
-        axes.plot([x, x], [-0.02, 0.9], color=INK, linewidth=1)
-        axes.annotate(report.sizes.text(found["size"]), (x, 0.02), xytext=(4, 0),
-                      textcoords="offset points", fontsize=9, color=INK,
-                      bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.2, "alpha": 0.85})
+        _found(axes, report, found)
     _limits(axes, report)
     legend_below(axes, columns, handlelength=2.8)
     about = "; ".join(_state(report, f, n) for f in report.order(n))

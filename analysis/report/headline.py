@@ -1,12 +1,14 @@
-"""The answer at the top of the page: the smallest fault found, and what limits it."""
+"""The answer at the top of the page: the smallest fault found with its figure, the conditions for
+which it holds, and what limits it."""
 
-from blocks import bullets
+import detection_figures
+from blocks import bullets, note
 from words import escape
 
 
-def headline_texts(report):
-    """Shortage of healthy gearboxes, answer, assumptions, and epistemic uncertainty."""
-    texts = [report.text(key) for key in ("shortage", "headline", "assumptions", "unknown")]
+def conditions(report):
+    """Assumptions of the answer, and its epistemic uncertainty."""
+    texts = [report.text(key) for key in ("assumptions", "unknown")]
     return [text for text in texts if text]
 
 
@@ -38,8 +40,14 @@ def table(report):
             f"{escape(shown[2])}: {escape(shown[-1])}.</p>")
 
 
-def html_of(report):
-    parts = [f'<p class="answer">{escape(text)}</p>' for text in headline_texts(report)]
+def html_of(report, page):
+    figure = report.text("figure")
+    chart = (f'<figure>{detection_figures.headline(report, page)}<figcaption>{escape(figure)}'
+             "</figcaption></figure>" if figure else "")
+    holds = "".join(f"<p>{escape(text)}</p>" for text in conditions(report))
+    shortage = report.text("shortage")
+    parts = [f'<div class="lead"><p class="answer">{escape(report.text("headline"))}</p>{chart}'
+             f'<div class="holds">{holds}{note(shortage) if shortage else ""}</div></div>']
     if "smallest_fault" in report.findings:
         parts.append(table(report))
     if limits(report):

@@ -127,6 +127,18 @@ void Report::add(Section section) {
     }
 }
 
+std::string statement_text(const Report& report, const std::string& key) {
+    for (const Section& section : report.sections) {
+        for (const auto& block : section.blocks) {
+            const auto* statement = std::get_if<Statement>(&block);
+            if (statement != nullptr && statement->key == key) {
+                return statement->text;
+            }
+        }
+    }
+    return "";
+}
+
 std::string report_text(const Report& report, std::size_t width) {
     std::string out;
     for (const Section& section : report.sections) {

@@ -46,6 +46,9 @@ struct Report {
     void add(Section section);
 };
 
+// Text of a statement; "" if the report does not make it.
+std::string statement_text(const Report& report, const std::string& key);
+
 // Text for the terminal, at most `width` columns wide. Tables that are wider continue in further
 // blocks. Ends with a newline.
 std::string report_text(const Report& report, std::size_t width = text_width());

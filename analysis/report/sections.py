@@ -88,8 +88,8 @@ def thresholds(report, page):
         body += note("Thresholds by importance sampling (exponential tilting): in most records "
                      "part of the noise is drawn towards an alarm, and a weight corrects for it.")
     body += '<details><summary>What the features are</summary>' + table(
-        "Features", ["feature", "unit", "alarms when", "definition"],
-        [[f["name"], f["unit"], f["alarm"], f["doc"]] for f in report.data["features"]]) + "</details>"
+        "Features", ["feature", "in words", "unit", "alarms when", "definition"],
+        [[f["name"], f["title"], f["unit"], f["alarm"], f["doc"]] for f in report.data["features"]]) + "</details>"
     return page.section("thresholds", "Thresholds and false alarms", body)
 
 

@@ -152,12 +152,10 @@ def _by_noise(axes, report):
 
 
 def _figures(sheet, report, height):
-    level = report.reference
-    found = report.smallest[level]
-    best = report.feature_number(found["feature"]) if found else report.order(level)[0]
     axes = height - 0.75  # titles and labels are outside the axes
     sheet.y += 0.25
-    detection_figures.of_feature(sheet.axes(0.075, 0.48, axes), report, best)
+    detection_figures.of_feature(sheet.axes(0.075, 0.48, axes), report,
+                                 detection_figures.best(report))
     _by_noise(sheet.axes(0.6, 1.0, axes), report)
     sheet.y += height - 0.25
 
@@ -179,10 +177,11 @@ def _filled(report, scale):
     sheet = Sheet(scale)
     sheet.text(report.title(), 10, colour=MUTED)
     sheet.gap(0.06)
-    for k, text in enumerate(headline.headline_texts(report)):
-        sheet.text(text, 15 if k == 0 else 10.5, "bold", indent=0.17,
-                   bar=SERIES[0][0])
-        sheet.gap(0.05)
+    sheet.text(report.text("headline"), 15, "bold", indent=0.17, bar=SERIES[0][0])
+    sheet.gap(0.05)
+    for text in [*headline.conditions(report), report.text("shortage")]:
+        if text:
+            sheet.text(text, 9.5, indent=0.17)
     sheet.gap(0.08)
     if assessable:
         _table(sheet, report)

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "features/feature.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
@@ -100,6 +102,20 @@ std::string capitalised(std::string text) {
         text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     }
     return text;
+}
+
+std::string feature_text(const std::string& name) {
+    const features::Feature* feature = features::find_feature(name);
+    return feature == nullptr ? name : fmt::format("the {} ({})", feature->title, name);
+}
+
+std::string distinct_text(double value, double other, int digits) {
+    constexpr int kMostDigits = 15;
+    while (digits < kMostDigits && value != other && std::isfinite(other) &&
+           number_text(value, digits) == number_text(other, digits)) {
+        ++digits;
+    }
+    return number_text(value, digits);
 }
 
 std::string input_name(const std::string& name, const std::string& unit) {

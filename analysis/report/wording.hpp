@@ -30,6 +30,15 @@ std::string joined(const std::vector<std::string>& texts);
 // With the first letter as a capital.
 std::string capitalised(std::string text);
 
+// Explains the mark "*" of a size.
+inline constexpr const char* kTestedAlone =
+    "* a tested size; there is no detection curve for sizes in between.";
+// Feature for a headline, in plain language with its name: "the overall vibration level
+// (sensor_rms)"; only the name if the program does not define the feature.
+std::string feature_text(const std::string& name);
+// Number with as many significant digits, at least `digits`, as distinguish it from the other.
+std::string distinct_text(double value, double other, int digits);
+
 // Name of a random input without its unit: planet_bearing_stiffness_N_m gives planet bearing
 // stiffness.
 std::string input_name(const std::string& name, const std::string& unit);

@@ -114,10 +114,10 @@ def features(reference):
               ("Ratios to the baseline record", lambda f: f["compared"] == "baseline"))
     parts = []
     for title, chosen in groups:
-        rows = [[code(feature["name"]), cell(feature["unit"]), feature["alarm"],
+        rows = [[code(feature["name"]), cell(feature["title"]), cell(feature["unit"]), feature["alarm"],
                  cell(sentence(feature["definition"]))]
                 for feature in reference["features"] if chosen(feature)]
-        parts.append(f"## {title}\n\n" + table(["feature", "unit", "alarm side", "definition and source"], rows))
+        parts.append(f"## {title}\n\n" + table(["feature", "in headlines: the", "unit", "alarm side", "definition and source"], rows))
     return "\n".join(parts)
 
 

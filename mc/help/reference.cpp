@@ -166,6 +166,7 @@ OrderedJson key_json(const Key& key, const EmptyStudies& empty) {
 OrderedJson feature_json(const features::Feature& feature) {
     OrderedJson json = OrderedJson::object();
     json["name"] = std::string(feature.name);
+    json["title"] = std::string(feature.title);
     json["unit"] = std::string(feature.unit);
     json["alarm"] = feature.alarm == features::AlarmSide::high ? "high" : "low";
     json["basic"] = feature.basic();

@@ -88,6 +88,7 @@ Json features_json(const Results& frame) {
     for (const FeatureResult& result : frame.features) {
         const features::Feature* feature = features::find_feature(result.name);
         json.push_back({{"name", result.name},
+                        {"title", feature != nullptr ? std::string(feature->title) : ""},
                         {"unit", result.unit},
                         {"alarm", analysis::alarm_name(result.alarm)},
                         {"doc", feature != nullptr ? std::string(feature->doc) : ""}});

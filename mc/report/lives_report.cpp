@@ -64,10 +64,10 @@ std::string interpolation_text(const Campaign& campaign, const Life& life) {
 
 std::string best_text(const LifeMonitor& monitor, const MonitoredFeature& best) {
     const analysis::MonitorPerformance& a = best.performance;
-    std::string text =
-        fmt::format("{} by {} finds {} of {} cracks before the tooth fails ({} to {})",
-                    best.feature, best.detector, a.found, a.ended,
-                    percent_text(a.share_bounds.lower), percent_text(a.share_bounds.upper));
+    std::string text = fmt::format(
+        "{} by {} finds {} of {} cracks before the tooth fails ({} to {})",
+        analysis::capitalised(analysis::feature_text(best.feature)), best.detector, a.found,
+        a.ended, percent_text(a.share_bounds.lower), percent_text(a.share_bounds.upper));
     text +=
         std::isnan(a.share_by_chance)
             ? fmt::format("; alarms at random would find {}", percent_text(a.share_at_stated_rate))

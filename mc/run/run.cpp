@@ -147,13 +147,18 @@ class Run {
         }
     }
 
-    // Report text of results that have been written.
-    std::string text_of(const Results& all, const RowSource& rows) const {
+    struct Texts {
+        std::string report, headline;
+    };
+
+    // Texts of results that have been written.
+    Texts texts_of(const Results& all, const RowSource& rows) const {
         try {
-            return report_text(
-                results_report(all, rows, reliability_of(all, rows, "", idle_threads())));
+            const analysis::Report report =
+                results_report(all, rows, reliability_of(all, rows, "", idle_threads()));
+            return {report_text(report), "\n" + headline_text(report)};
         } catch (const machine::Cancelled&) {
-            return "the time limit is reached; `gearpod report` shows the results";
+            return {"the time limit is reached; `gearpod report` shows the results", ""};
         }
     }
 
@@ -169,7 +174,8 @@ class Run {
         }
         threads_ += outcome.threads();
         const std::string path = results_path(options_);
-        std::string problem = outcome.failure, text;
+        std::string problem = outcome.failure;
+        Texts texts;
         const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         Results all;
         if (problem.empty() && (whole || !options_.merges)) {
@@ -183,7 +189,7 @@ class Run {
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
                 if (whole && prints_results()) {
-                    text = text_of(all, rows);
+                    texts = texts_of(all, rows);
                 }
             } catch (const std::exception& error) {
                 problem = exception_text(error);
@@ -198,12 +204,13 @@ class Run {
         const RowCounts counts = count_rows(rows, plan_.threshold_records());
         checkpoint_->remove();
         if (prints_results()) {
-            fmt::print("{}\n", text);
+            fmt::print("{}\n", texts.report);
             print_failures(counts, scene_.max_meshes());
             print_computing_times(outcome);
             fmt::print("set-up {:.2f} s, detection and results {:.2f} s\n", setup_s_,
                        seconds_since(start));
             print_end(outcome, path);
+            fmt::print("{}", texts.headline);
         }
         return counts.failed() == 0 ? kDone : kSomeFailed;
     }

@@ -155,7 +155,9 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
     const analysis::Findings findings(
         {frame.detection, reliability ? &*reliability : nullptr, frame.request, subject_of(frame),
          study && study->fault.kind ? std::string(study->fault.kind->words()) : "a fault",
-         reference_level(frame.noise_levels), units});
+         reference_level(frame.noise_levels), units, [&study](double size) {
+             return study && study->fault.kind ? study->fault.kind->share_text(*study, size) : "";
+         }});
     const Failures failures = failures_of(frame, rows);
     const auto contributions = numerical_contributions(frame, rows, reliability);
     analysis::Report report;
@@ -184,6 +186,16 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
     report.add(numerical_section(frame, contributions));
     report.add(failures_section(frame, failures));
     return report;
+}
+
+std::string headline_text(const analysis::Report& report) {
+    std::string text;
+    for (const char* key : {"headline", "assumptions", "shortage"}) {
+        if (const std::string statement = statement_text(report, key); !statement.empty()) {
+            analysis::add_wrapped(text, statement, 2);
+        }
+    }
+    return text;
 }
 
 void print_computing_times(const EnsembleOutcome& outcome) {

@@ -15,6 +15,10 @@ namespace gearpod::mc {
 analysis::Report results_report(const Results& frame, const RowSource& rows,
                                 const std::optional<analysis::Reliability>& reliability);
 
+// The answer for the end of a run: its sentence, the conditions for which it holds, and a warning
+// of too few healthy gearboxes.
+std::string headline_text(const analysis::Report& report);
+
 // Prints the computing time by task, summed over all threads, with the least, mean and largest
 // value of a rank.
 void print_computing_times(const EnsembleOutcome& outcome);

@@ -40,95 +40,115 @@ struct Signature<kFunction> {
 };
 
 template <auto kFunction>
-constexpr Feature feature(std::string_view name, std::string_view unit, AlarmSide alarm,
-                          std::string_view doc) {
+constexpr Feature feature(std::string_view name, std::string_view title, std::string_view unit,
+                          AlarmSide alarm, std::string_view doc) {
     using Function = Signature<kFunction>;
     constexpr bool kOfTe = Function::kNeeds.within(SignalSet::of<TeTurn, TeParts>());
-    return {name, unit, alarm, doc, &Function::compute, Function::kNeeds, !kOfTe};
+    return {name, title, unit, alarm, doc, &Function::compute, Function::kNeeds, !kOfTe};
 }
 
 constexpr std::array kFeatures{
-    feature<te_rms>("te_rms", "rad", AlarmSide::high,
+    feature<te_rms>("te_rms", "rms transmission error", "rad", AlarmSide::high,
                     "rms of the averaged transmission error; Park (2016), Table II"),
     feature<te_kurtosis>(
-        "te_kurtosis", "1", AlarmSide::high,
+        "te_kurtosis", "kurtosis of the transmission error", "1", AlarmSide::high,
         "kurtosis of the averaged transmission error, normal = 3; Park (2016), Table II"),
     feature<te_fc>(
-        "te_fc", "order", AlarmSide::low,
+        "te_fc", "mean frequency of the transmission error", "order", AlarmSide::low,
         "frequency centre of the transmission error, cycles per planet turn; Park, Table II"),
     feature<te_fm0>(
-        "te_fm0", "1", AlarmSide::high,
+        "te_fm0", "peak of the transmission error over its mesh harmonics", "1", AlarmSide::high,
         "peak-to-peak over the sum of the mesh harmonics' amplitudes; Park (2016), Table II"),
-    feature<sensor_rms>("sensor_rms", "m/s^2", AlarmSide::high,
+    feature<sensor_rms>("sensor_rms", "overall vibration level", "m/s^2", AlarmSide::high,
                         "rms of the sensor signal over the span"),
     feature<window_ratio<Gear::planet>>(
-        "window_ratio", "1", AlarmSide::high,
+        "window_ratio", "vibration at the worst tooth over that at the median tooth", "1",
+        AlarmSide::high,
         "largest tooth rms over the median tooth rms; after Liang (2016), Fig. 5.8"),
     feature<window_z<Gear::planet>>(
-        "window_z", "1", AlarmSide::high,
-        "worst tooth's rms against the other teeth, robust standard score"),
+        "window_z", "vibration at the worst tooth against the scatter of its teeth", "1",
+        AlarmSide::high, "worst tooth's rms against the other teeth, robust standard score"),
     feature<te_fm4>(
-        "te_fm4", "1", AlarmSide::high,
+        "te_fm4", "kurtosis of the irregular part of the transmission error", "1", AlarmSide::high,
         "kurtosis of the transmission error without mesh harmonics and first sidebands"),
-    feature<te_m6a>("te_m6a", "1", AlarmSide::high, "sixth standardised moment of the same"),
-    feature<te_m8a>("te_m8a", "1", AlarmSide::high, "eighth standardised moment of the same"),
+    feature<te_m6a>("te_m6a", "sixth moment of the irregular part of the transmission error", "1",
+                    AlarmSide::high, "sixth standardised moment of the same"),
+    feature<te_m8a>("te_m8a", "eighth moment of the irregular part of the transmission error", "1",
+                    AlarmSide::high, "eighth standardised moment of the same"),
     feature<crest_factor>(
-        "crest_factor", "1", AlarmSide::high,
+        "crest_factor", "crest factor of the averaged vibration", "1", AlarmSide::high,
         "largest magnitude over rms of the sensor signal averaged over planet turns"),
-    feature<fm4>("fm4", "1", AlarmSide::high,
+    feature<fm4>("fm4", "kurtosis of the irregular vibration", "1", AlarmSide::high,
                  "kurtosis of the difference signal: the average without mesh harmonics and first "
                  "sidebands"),
-    feature<m6a>("m6a", "1", AlarmSide::high, "sixth standardised moment of the difference signal"),
-    feature<m8a>("m8a", "1", AlarmSide::high,
+    feature<m6a>("m6a", "sixth moment of the irregular vibration", "1", AlarmSide::high,
+                 "sixth standardised moment of the difference signal"),
+    feature<m8a>("m8a", "eighth moment of the irregular vibration", "1", AlarmSide::high,
                  "eighth standardised moment of the difference signal"),
     feature<na4>(
-        "na4", "1", AlarmSide::high,
+        "na4", "residual vibration against healthy gearboxes", "1", AlarmSide::high,
         "fourth moment of the residual signal over the square of healthy gearboxes' variance"),
-    feature<nb4>("nb4", "1", AlarmSide::high,
+    feature<nb4>("nb4", "mesh envelope against healthy gearboxes", "1", AlarmSide::high,
                  "the same of the envelope around the first mesh harmonic"),
     feature<energy_ratio>(
-        "energy_ratio", "1", AlarmSide::high,
+        "energy_ratio", "irregular over regular vibration", "1", AlarmSide::high,
         "rms of the difference signal over that of mesh harmonics and first sidebands"),
-    feature<sideband_index>("sideband_index", "m/s^2", AlarmSide::high,
+    feature<sideband_index>("sideband_index", "sidebands of the mesh frequency", "m/s^2",
+                            AlarmSide::high,
                             "mean amplitude of the first mesh harmonic's first sidebands"),
-    feature<sideband_level>("sideband_level", "1", AlarmSide::high,
-                            "sum of those amplitudes over the average's rms"),
+    feature<sideband_level>("sideband_level",
+                            "sidebands of the mesh frequency over the averaged vibration", "1",
+                            AlarmSide::high, "sum of those amplitudes over the average's rms"),
     feature<frms>(
-        "frms", "m/s^2", AlarmSide::high,
+        "frms", "vibration without its regular lines", "m/s^2", AlarmSide::high,
         "rms of the sensor signal without its average over carrier turns; after Lei (2012)"),
     feature<nsds>(
-        "nsds", "1", AlarmSide::high,
+        "nsds", "vibration spectrum above that of healthy gearboxes", "1", AlarmSide::high,
         "how far the average's spectrum stands above healthy gearboxes'; after Lei (2012)"),
-    feature<spectral_kurtosis>("spectral_kurtosis", "1", AlarmSide::high,
+    feature<spectral_kurtosis>("spectral_kurtosis",
+                               "largest spectral kurtosis of the residual vibration", "1",
+                               AlarmSide::high,
                                "largest spectral kurtosis of the residual signal in frames of a "
                                "mesh period; Antoni (2006)"),
-    feature<window_kurtosis<Gear::planet>>("window_kurtosis", "1", AlarmSide::high,
-                                           "largest planet tooth kurtosis over the median one"),
-    feature<window_crest<Gear::planet>>("window_crest", "1", AlarmSide::high,
-                                        "largest planet tooth crest factor over the median one"),
-    feature<window_m8a<Gear::planet>>("window_m8a", "1", AlarmSide::high,
-                                      "largest planet tooth M8A over the median one"),
-    feature<window_ratio<Gear::sun>>("sun_window_ratio", "1", AlarmSide::high,
-                                     "largest sun tooth rms over the median one"),
-    feature<window_z<Gear::sun>>("sun_window_z", "1", AlarmSide::high,
-                                 "worst sun tooth's rms against the others, robust standard score"),
-    feature<window_kurtosis<Gear::sun>>("sun_window_kurtosis", "1", AlarmSide::high,
-                                        "largest sun tooth kurtosis over the median one"),
-    feature<window_crest<Gear::sun>>("sun_window_crest", "1", AlarmSide::high,
-                                     "largest sun tooth crest factor over the median one"),
-    feature<window_m8a<Gear::sun>>("sun_window_m8a", "1", AlarmSide::high,
-                                   "largest sun tooth M8A over the median one"),
-    feature<window_ratio<Gear::ring>>("ring_window_ratio", "1", AlarmSide::high,
-                                      "largest ring tooth rms over the median one"),
+    feature<window_kurtosis<Gear::planet>>(
+        "window_kurtosis", "kurtosis at the worst tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest planet tooth kurtosis over the median one"),
+    feature<window_crest<Gear::planet>>(
+        "window_crest", "crest factor at the worst tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest planet tooth crest factor over the median one"),
+    feature<window_m8a<Gear::planet>>(
+        "window_m8a", "eighth moment at the worst tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest planet tooth M8A over the median one"),
+    feature<window_ratio<Gear::sun>>(
+        "sun_window_ratio", "vibration at the worst sun tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest sun tooth rms over the median one"),
+    feature<window_z<Gear::sun>>(
+        "sun_window_z", "vibration at the worst sun tooth against the scatter of its teeth", "1",
+        AlarmSide::high, "worst sun tooth's rms against the others, robust standard score"),
+    feature<window_kurtosis<Gear::sun>>(
+        "sun_window_kurtosis", "kurtosis at the worst sun tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest sun tooth kurtosis over the median one"),
+    feature<window_crest<Gear::sun>>(
+        "sun_window_crest", "crest factor at the worst sun tooth over that at the median tooth",
+        "1", AlarmSide::high, "largest sun tooth crest factor over the median one"),
+    feature<window_m8a<Gear::sun>>(
+        "sun_window_m8a", "eighth moment at the worst sun tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest sun tooth M8A over the median one"),
+    feature<window_ratio<Gear::ring>>(
+        "ring_window_ratio", "vibration at the worst ring tooth over that at the median tooth", "1",
+        AlarmSide::high, "largest ring tooth rms over the median one"),
     feature<window_z<Gear::ring>>(
-        "ring_window_z", "1", AlarmSide::high,
-        "worst ring tooth's rms against the others, robust standard score"),
-    feature<window_kurtosis<Gear::ring>>("ring_window_kurtosis", "1", AlarmSide::high,
-                                         "largest ring tooth kurtosis over the median one"),
-    feature<window_crest<Gear::ring>>("ring_window_crest", "1", AlarmSide::high,
-                                      "largest ring tooth crest factor over the median one"),
-    feature<window_m8a<Gear::ring>>("ring_window_m8a", "1", AlarmSide::high,
-                                    "largest ring tooth M8A over the median one"),
+        "ring_window_z", "vibration at the worst ring tooth against the scatter of its teeth", "1",
+        AlarmSide::high, "worst ring tooth's rms against the others, robust standard score"),
+    feature<window_kurtosis<Gear::ring>>(
+        "ring_window_kurtosis", "kurtosis at the worst ring tooth over that at the median tooth",
+        "1", AlarmSide::high, "largest ring tooth kurtosis over the median one"),
+    feature<window_crest<Gear::ring>>(
+        "ring_window_crest", "crest factor at the worst ring tooth over that at the median tooth",
+        "1", AlarmSide::high, "largest ring tooth crest factor over the median one"),
+    feature<window_m8a<Gear::ring>>(
+        "ring_window_m8a", "eighth moment at the worst ring tooth over that at the median tooth",
+        "1", AlarmSide::high, "largest ring tooth M8A over the median one"),
 };
 
 // Features computed from the change since the baseline record: its energy, and its location on the
@@ -144,12 +164,14 @@ class Catalogue {
             Feature own = *std::find_if(kFeatures.begin(), kFeatures.end(),
                                         [&](const Feature& f) { return f.name == name; });
             own.name = text("change_", own.name, "");
+            own.title = text("", own.title, " in the change since the baseline record");
             own.doc = text("", own.doc, ", of the record less the gearbox's own baseline record");
             own.baseline_use = BaselineUse::change;
             all_.push_back(own);
         }
         for (Feature own : kFeatures) {
             own.name = text("own_", own.name, "");
+            own.title = text("", own.title, " relative to the baseline record");
             own.doc =
                 text("", own.name.substr(4), " over that of the gearbox's own baseline record");
             own.unit = "1";

@@ -21,6 +21,8 @@ enum class BaselineUse { nothing, change, baseline };
 
 struct Feature {
     std::string_view name;
+    // Name in plain language, for headlines: a noun phrase that follows "the".
+    std::string_view title;
     std::string_view unit;  // "1" for a ratio
     AlarmSide alarm = AlarmSide::high;
     std::string_view doc;

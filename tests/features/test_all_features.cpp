@@ -1,6 +1,7 @@
 // Checks the table of features: its entries, and the signals that follow from their parameters.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,14 @@ namespace {
 
 TEST_CASE("Every feature is registered once, with its unit, alarm side and definition") {
     int basic = 0;
+    std::set<std::string_view> titles;
     for (const Feature& feature : all_features()) {
         basic += feature.basic() ? 1 : 0;
         CHECK(find_feature(feature.name) == &feature);
         CHECK(!feature.unit.empty());
         CHECK(!feature.doc.empty());
+        CHECK(titles.insert(feature.title).second);  // says which feature it is
+        CHECK(feature.title.find('_') == std::string_view::npos);
         const bool falls = feature.name == "te_fc" || feature.name == "own_te_fc";
         CHECK((feature.alarm == AlarmSide::low) == falls);
     }

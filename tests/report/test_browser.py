@@ -124,9 +124,21 @@ class InBrowser(unittest.TestCase):
             ".filter(n => !n.startsWith('data:'))"), [])
 
     def the_headline_is_on_the_first_screen(self, _):
-        bottom = self.script("return document.querySelector('.answer')"
-                             ".getBoundingClientRect().bottom")
+        # With its figure and the conditions for which it holds, where the page has them.
+        bottom = self.script("return Math.max(...[...document.querySelectorAll("
+                             "'.answer, .lead svg, .lead figcaption, .holds > p:first-child')]"
+                             ".map(e => e.getBoundingClientRect().bottom))")
         self.assertLess(bottom, self.script("return innerHeight"))
+
+    def test_a_warning_is_not_larger_than_the_headline(self):
+        self.open("usual", DESKTOP)
+        headline, note = self.script("""
+            const note = document.createElement('p');
+            note.className = 'note';
+            document.querySelector('.holds').append(note);
+            return [document.querySelector('.answer'), note].map(
+                e => parseFloat(getComputedStyle(e).fontSize));""")
+        self.assertGreater(headline, 1.2 * note)
 
     def every_chart_is_drawn_and_its_text_stays_on_it(self, name):
         charts = self.script(OVERLAPS + """

@@ -88,10 +88,11 @@ class Headlines(unittest.TestCase):
         data = case("usual")
         n = data["noise"]["reference"]
         found = data["smallest_fault"][n]
+        titles = {feature["name"]: feature["title"] for feature in data["features"]}
         self.assertEqual(
             headline_text("usual"),
             f"A fault of {words.number(1e3 * found['size'])} mm is found with 90 % probability at "
-            f"95 % confidence by {found['feature']} at noise × 1.")
+            f"95 % confidence by the {titles[found['feature']]} ({found['feature']}) at noise × 1.")
 
     def test_nothing_is_made_up(self):
         for name, page_text in (("no_rows", "cannot be assessed"), ("no_features", "computes no feature"),

@@ -62,7 +62,7 @@ class Sheets(unittest.TestCase):
                                 min(area.y1, other_area.y1) - max(area.y0, other_area.y0))
                         self.assertFalse(min(over) > 1.5, (text, other, over))
                 words = " ".join(text for text, _ in placed)
-                for text in headline.headline_texts(report) + headline.limits(report):
+                for text in [report.text("headline"), *headline.conditions(report), *headline.limits(report)]:
                     for word in text.split(" "):
                         self.assertIn(word[:12], words)
                 seen += 1

@@ -54,11 +54,7 @@ Table threshold_table(const Findings& findings, std::size_t n) {
         const FeatureDetection& feature = findings.detection[f];
         const LevelDetection& level = feature.levels[n];
         std::vector<std::string> row{
-            feature.feature,
-            std::isnan(level.threshold)
-                ? "none"
-                : fmt::format("{} {}", alarm_symbol(feature.alarm),
-                              quantity_text(level.threshold, findings.unit(f), 5)),
+            feature.feature, findings.alarm_if(f, n, 5),
             fmt::format("{}/{}", level.threshold_alarms, level.threshold_sample),
             rate_interval_text(level.threshold_rate),
             rate_text(level.healthy_rate, level.healthy_rate_bounds)};

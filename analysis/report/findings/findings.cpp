@@ -127,6 +127,16 @@ std::string Findings::size(const SizeEstimate& estimate, const HitMissPod& pod) 
     return size_estimate_text(estimate, pod.smallest, pod.largest, request.size);
 }
 
+std::string Findings::alarm_if(std::size_t feature, std::size_t level, int digits) const {
+    const LevelDetection& at = detection[feature].levels[level];
+    const std::string shown = quantity_unit(unit(feature));
+    return std::isnan(at.threshold)
+               ? "none"
+               : fmt::format("{} {}{}{}", alarm_symbol(detection[feature].alarm),
+                             distinct_text(at.threshold, at.healthy_median, digits),
+                             shown.empty() ? "" : " ", shown);
+}
+
 Section level_section(const Findings& findings, std::size_t level) {
     Section section{fmt::format("level.{}", level), capitalised(findings.noise(level)), {}};
     add_detection(section, findings, level);

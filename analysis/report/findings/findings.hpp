@@ -2,6 +2,7 @@
 // and influences by noise level.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,8 @@ struct AssessedDetection {
     std::string fault = "a fault";        // with its article, if it has one: "a crack", "pitting"
     std::size_t reference = 0;            // noise level shown first
     std::vector<std::string> units = {};  // of the features; may be empty
+    // A size as a share of the tooth in words, or ""; may be empty.
+    std::function<std::string(double)> share = {};
 };
 
 // The results with the numbers that several sections need.
@@ -53,10 +56,15 @@ struct Findings : AssessedDetection {
     std::string bound() const;                      // "a90/95"
     std::string percent() const;                    // "95 %": the confidence
     std::string size(const SizeEstimate& estimate, const HitMissPod& pod) const;
+    // "> 1.0003": alarm condition, with at least that many digits and as many as distinguish the
+    // threshold from the healthy median; "none" without a threshold.
+    std::string alarm_if(std::size_t feature, std::size_t level, int digits) const;
 };
 
 // Sentence on the smallest fault found at a noise level, or why there is none.
 std::string headline_text(const Findings& findings, std::size_t level);
+// Description of the figure next to the answer.
+std::string figure_text(const Findings& findings);
 // Misses of a feature: number, and the inputs that influence them significantly. "" where they
 // cannot be analysed.
 std::string misses_text(const Findings& findings, std::size_t feature, std::size_t level);

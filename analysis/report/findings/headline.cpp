@@ -49,6 +49,12 @@ std::string silent_text(const Findings& findings, std::size_t level) {
                              silent, findings.detection.size(), silent == 1 ? "has" : "have");
 }
 
+// "28.3 mm, 70 % of the tooth section,"
+std::string size_and_share(const Findings& findings, double size) {
+    const std::string share = findings.share ? findings.share(size) : "";
+    return with_unit(size, findings.request.size) + (share.empty() ? "" : ", " + share + ",");
+}
+
 Table smallest_table(const Findings& findings) {
     const DetectionRequest& request = findings.request;
     const bool noise = findings.subject == Subject::gearboxes;
@@ -70,16 +76,11 @@ Table smallest_table(const Findings& findings) {
         }
         const std::size_t f = findings.feature(found->feature);
         const LevelDetection& level = findings.detection[f].levels[n];
-        table.rows.push_back(
-            {label,
-             number_text(found->size / request.size.per_unit()) + (found->from_curve ? "" : "*") +
-                 (found->own ? "" : "+"),
-             found->feature,
-             std::isnan(level.threshold)
-                 ? "none"
-                 : fmt::format("{} {}", alarm_symbol(findings.detection[f].alarm),
-                               quantity_text(level.threshold, findings.unit(f), 4)),
-             rate_text(request.false_alarm_rate, level.threshold_rate)});
+        table.rows.push_back({label,
+                              number_text(found->size / request.size.per_unit()) +
+                                  (found->from_curve ? "" : "*") + (found->own ? "" : "+"),
+                              found->feature, findings.alarm_if(f, n, 4),
+                              rate_text(request.false_alarm_rate, level.threshold_rate)});
     }
     return table;
 }
@@ -95,9 +96,7 @@ void add_notes(Section& section, const Findings& findings) {
             carried.push_back(source_text(findings, *found));
         }
     }
-    section.state(
-        "note.tested",
-        tested ? "* a tested size; there is no detection curve for sizes in between." : "");
+    section.state("note.tested", tested ? kTestedAlone : "");
     section.state("note.carried",
                   carried.empty() ? ""
                                   : fmt::format("+ the bound of {}, which finds no more faults of "
@@ -182,9 +181,9 @@ std::string headline_text(const Findings& findings, std::size_t level) {
     if (const auto& found = findings.smallest[level]) {
         return fmt::format("{} found with {} by {}{}.",
                            sized ? fmt::format("{} of {} is", capitalised(findings.fault),
-                                               with_unit(found->size, findings.request.size))
+                                               size_and_share(findings, found->size))
                                  : "The faulty " + many(findings.subject) + " are",
-                           findings.probability(), found->feature, at);
+                           findings.probability(), feature_text(found->feature), at);
     }
     if (without_threshold(findings.detection, level)) {
         return capitalised((at.empty() ? "" : at.substr(1) + " ") +
@@ -196,11 +195,29 @@ std::string headline_text(const Findings& findings, std::size_t level) {
                            "no feature has a detection rate.");
     }
     return fmt::format("No tested {} is found with {}{}. The best is {}, which finds {} of {}.{}",
-                       findings.fault_name(), findings.probability(), at, best.feature,
+                       findings.fault_name(), findings.probability(), at,
+                       feature_text(best.feature),
                        rate_text(best.cell->pd, best.cell->lower, best.cell->upper),
                        sized ? "those of " + range_text(best.cell->size, findings.request.size)
                              : "the faulty " + many(findings.subject),
                        silent_text(findings, level));
+}
+
+std::string figure_text(const Findings& findings) {
+    if (!findings.unassessable.empty() || !has_sizes(findings.request)) {
+        return "";
+    }
+    const std::size_t level = findings.reference, best = findings.best(level);
+    const std::string marks =
+        fmt::format("detection rates with their intervals at {}", findings.percent());
+    const bool curve =
+        findings.has_curves() && findings.reliable(best, level).hit_miss.refusal.empty();
+    return fmt::format(
+        "Probability of detection by {}{}. {}.", findings.name(best), findings.at_noise(level),
+        curve ? fmt::format("Line: fitted curve; shaded: its bounds, each one-sided at "
+                            "{}; marks: {}",
+                            findings.percent(), marks)
+              : "Marks: " + marks);
 }
 
 std::string unknown_text(const Findings& findings, std::size_t level) {
@@ -234,9 +251,10 @@ Section headline_section(const Findings& findings, const std::string& assumption
     Section section{"headline", "", {}};
     const std::string shortage =
         sample_shortage(findings.detection, findings.request, findings.subject);
-    section.state("shortage", findings.unassessable.empty() ? shortage : "");
     section.state("headline", headline_text(findings, reference));
+    section.state("figure", figure_text(findings), true);
     section.state("assumptions", assumptions);
+    section.state("shortage", findings.unassessable.empty() ? shortage : "");
     if (findings.unassessable.empty()) {
         section.state("unknown", unknown_text(findings, reference));
         if (has_sizes(findings.request)) {

@@ -58,6 +58,10 @@ class ChipKind final : public FaultKind {
         return "width measured from one end of the tip, height from the tip circle down the flank";
     }
 
+    std::string share_text(const Study& study, double size) const override {
+        return face_share_text(study, size);
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Chip& chip = study.fault.shapes.get<Chip>();

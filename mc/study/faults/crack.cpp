@@ -36,6 +36,10 @@ class CrackKind final : public FaultKind {
         return crack_origin(study, sizes);
     }
 
+    std::string share_text(const Study& study, double size) const override {
+        return crack_share_text(study, size);
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         return std::make_unique<const stiffness::ToothCrack>(

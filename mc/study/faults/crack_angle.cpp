@@ -37,6 +37,10 @@ std::string_view start_name(const Study& study) {
                : "the fillet's surface at its 30 deg tangent (the critical section)";
 }
 
+double section_share(const Study& study, double depth_m) {
+    return depth_m * std::sin(crack_angle_rad(study)) / critical_section_m(study);
+}
+
 }  // namespace
 
 double crack_angle_rad(const Study& study) {
@@ -61,17 +65,21 @@ double critical_section_m(const Study& study) {
                : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
 }
 
+std::string crack_share_text(const Study& study, double depth_m) {
+    return fmt::format("{:.0f} % of the tooth section", 100.0 * section_share(study, depth_m));
+}
+
 std::string crack_origin(const Study& study, std::span<const double> depths_m) {
-    const double section_m = critical_section_m(study), sine = std::sin(crack_angle_rad(study));
     std::vector<std::string> depths, shares;
     for (const double depth_m : depths_m) {
         depths.push_back(fmt::format("{:.4g}", depth_m * kMmPerM));
-        shares.push_back(fmt::format("{:.3g}", 100.0 * depth_m * sine / section_m));
+        shares.push_back(fmt::format("{:.3g}", 100.0 * section_share(study, depth_m)));
     }
     return fmt::format(
         "depth along the crack from {}, where the tooth is {:.4g} mm thick; {} mm is {} % of that "
         "section",
-        start_name(study), section_m * kMmPerM, fmt::join(depths, ", "), fmt::join(shares, ", "));
+        start_name(study), critical_section_m(study) * kMmPerM, fmt::join(depths, ", "),
+        fmt::join(shares, ", "));
 }
 
 std::string deeper_than_tooth_text(const Study& study) {

@@ -2,6 +2,10 @@
 
 namespace gearpod::mc {
 
+std::string FaultKind::share_text(const Study& /*study*/, double /*size*/) const {
+    return "";
+}
+
 std::vector<FaultKey> FaultKind::keys() const {
     const FaultSize& s = size();
     std::vector<FaultKey> all{{s.name, s.access, s.unit, s.range, Need::required, "", s.doc}};

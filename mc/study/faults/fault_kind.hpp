@@ -69,6 +69,10 @@ class FaultKind {
     // (SI) are measured. Precondition: the tooth geometry is given if the kind shapes the tooth.
     virtual std::string origin(const Study& study, std::span<const double> sizes) const = 0;
 
+    // Size (SI) as a share of the tooth, for the user: "70 % of the tooth section"; "" if the size
+    // is no part of a tooth dimension. Precondition: as for origin().
+    virtual std::string share_text(const Study& study, double size) const;
+
     // All keys of the kind, the size first.
     std::vector<FaultKey> keys() const;
 

@@ -36,6 +36,10 @@ void check_on_face(StudyDraft& draft) {
     check_size(draft, {face_mm, fmt::format("wider than the face, {:.6g} mm", face_mm)});
 }
 
+std::string face_share_text(const Study& study, double size_m) {
+    return fmt::format("{:.0f} % of the face width", 100.0 * size_m / *study.gearbox.face_width_m);
+}
+
 void check_helical(StudyDraft& draft, const std::string& key) {
     if (draft.is_given(key) && draft.all_usable({key, "gearbox.helix_angle_deg"}) &&
         draft.study.gearbox.helix_angle_rad == 0.0) {

@@ -24,6 +24,9 @@ void check_size(StudyDraft& draft, const SizeLimit& limit);
 // The same with the face width as the limit.
 void check_on_face(StudyDraft& draft);
 
+// "12 % of the face width": part of the face width that a size along it takes.
+std::string face_share_text(const Study& study, double size_m);
+
 // Rejects a key that gives a position along the face width if the teeth are spur teeth, which touch
 // along the whole face at once.
 void check_helical(StudyDraft& draft, const std::string& key);

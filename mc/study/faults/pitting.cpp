@@ -119,6 +119,10 @@ class PittingKind final : public FaultKind {
         return "a rectangle on the working flank, its depth measured from the flank";
     }
 
+    std::string share_text(const Study& study, double size) const override {
+        return face_share_text(study, size);
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Pits& pits = study.fault.shapes.get<Pits>();

@@ -150,14 +150,58 @@ TEST_CASE("The headline names the fault as the study does, or what finds most") 
           std::tuple{"a chip", "A chip of ", "No tested chip is found"},
           std::tuple{"pitting", "Pitting of ", "No tested pitting is found"}}) {
         Findings findings({features, nullptr, requested, Subject::gearboxes, fault});
-        CHECK(headline_text(findings, 0) == std::string(found) +
-                                                "2 mm is found with 90 % probability at 95 % "
-                                                "confidence by window_z at noise x 1.");
+        CHECK(headline_text(findings, 0) ==
+              std::string(found) +
+                  "2 mm is found with 90 % probability at 95 % "
+                  "confidence by the vibration at the worst planet "
+                  "tooth against the scatter of its teeth (window_z) at "
+                  "noise x 1.");
         findings.smallest[0].reset();
         CHECK_THAT(headline_text(findings, 0),
                    Catch::StartsWith(none) && Catch::EndsWith("which finds 1.00 [0.97, 1.00] of "
                                                               "those of 4.3 mm."));
     }
+}
+
+TEST_CASE(
+    "The headline comes first, with the size as a share of the tooth and the figure's "
+    "description") {
+    const auto features = examples();
+    const DetectionRequest requested = request();
+    const auto share = [](double size) {
+        return size > 1e-3 ? std::string("70 % of the tooth section") : std::string();
+    };
+    const Findings findings(
+        {features, nullptr, requested, Subject::gearboxes, "a crack", 0, {}, share});
+    const Section section = headline_section(findings, "Holds for steady torque.", "");
+    std::vector<std::string> keys;
+    for (const auto& block : section.blocks) {
+        std::visit([&](const auto& shown) { keys.push_back(shown.key); }, block);
+    }
+    CHECK(std::vector<std::string>(keys.begin(), keys.begin() + 3) ==
+          std::vector<std::string>{"headline", "figure", "assumptions"});
+    const Report report{{section}};
+    CHECK_THAT(statement_text(report, "headline"),
+               Catch::StartsWith("A crack of 2 mm, 70 % of the tooth section, is found with 90 %"));
+    CHECK_THAT(statement_text(report, "figure"),
+               Catch::Contains("by window_z at noise x 1. Marks: detection rates"));
+    CHECK_THAT(report_text(report), !Catch::Contains("Marks:"));
+    CHECK(statement_text(report, "no such key") == "");
+}
+
+TEST_CASE("A threshold has the digits that distinguish it from the healthy median") {
+    auto features = examples();
+    LevelDetection& level = features[5].levels[0];
+    level.threshold = 1.0003;
+    level.healthy_median = 1.0001;
+    features[2].levels[0].threshold = 0.99999998;
+    features[2].levels[0].healthy_median = 1.0;
+    const DetectionRequest requested = request();
+    const Findings findings({features, nullptr, requested});
+    CHECK(findings.alarm_if(5, 0, 4) == "> 1.0003");
+    CHECK(findings.alarm_if(2, 0, 4) == "< 0.99999998");
+    level.healthy_median = 1.0003;  // healthy records equal the threshold
+    CHECK(findings.alarm_if(5, 0, 4) == "> 1");
 }
 
 TEST_CASE("The headline counts features without a threshold") {
