@@ -80,7 +80,7 @@ std::string smallest_text(const ComparedResults& results, const ComparedFile& fi
         return "-";
     }
     if (const auto& found = file.smallest[n]) {
-        return with_unit(found->size, results.size) + " by " + found->feature;
+        return with_unit(found->size, results.size) + " by " + feature_text(found->feature);
     }
     return file.without_threshold[n] ? "no threshold" : "no tested size";
 }
@@ -94,13 +94,16 @@ Section headline(const ComparedResults& results) {
         found +=
             fmt::format("{}{}: {}", f > 0 ? "; " : "", letter(f), smallest_text(results, file));
         table.rows.push_back({letter(f), file.path, file.title, std::to_string(file.gearboxes)});
-        section.state(fmt::format("shortage.{}", f),
-                      file.shortage.empty() ? "" : letter(f) + ": " + file.shortage);
     }
     section.state("headline", fmt::format("Smallest fault found with 90 % probability at {} "
                                           "confidence, {}: {}.",
                                           percent_text(results.confidence),
                                           noise_text(results.noise_level), found));
+    for (std::size_t f = 0; f < results.files.size(); ++f) {
+        const std::string& shortage = results.files[f].shortage;
+        section.state(fmt::format("shortage.{}", f),
+                      shortage.empty() ? "" : letter(f) + ": " + shortage);
+    }
     table.labels = 2;
     section.add(std::move(table));
     section.state("first_records", results.first_records

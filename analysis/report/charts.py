@@ -68,6 +68,14 @@ def panel(height=3.2):
     return plt.subplots(figsize=(4.4, height), layout="constrained")
 
 
+def open_end(axes, at, direction, paint):
+    """Draws an arrow from a mark in the direction (right, up) in which its interval is open."""
+    axes.annotate("", xy=at, xytext=(34 * direction[0], 34 * direction[1]),
+                  textcoords="offset points", annotation_clip=False,
+                  arrowprops={"arrowstyle": "<-", "color": paint, "linewidth": 1.6, "shrinkA": 0,
+                              "shrinkB": 0})
+
+
 def legend_below(axes, columns, **options):
     """Legend below the numbers and the name of the axis, extending to the left from the axes' right
     edge, because row labels leave more room there."""

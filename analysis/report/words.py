@@ -80,10 +80,6 @@ def p_value(value):
     return "< 0.0001" if value < 1e-4 else number(value, 2)
 
 
-def plural(amount, singular, many=None):
-    return f"{count(amount)} {singular if amount == 1 else many or singular + 's'}"
-
-
 def joined(texts):
     """Enumeration: "a", "a and b", "a, b and c"."""
     texts = list(texts)
@@ -110,8 +106,6 @@ def input_name(name, unit):
         name = name[:-len(suffix)]
     return name.replace("_", " ")
 
-
-TESTED_ALONE = "* a tested size; there is no detection curve for sizes in between."
 
 _SHOWN = {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": "", "N/m": "N/m"}
 

@@ -171,30 +171,26 @@ class Sweep {
         std::vector<std::string> results;  // results files
     };
 
-    SweepSummary summary_of_runs(const std::string& title) const {
-        std::vector<PointSummary> summaries;
-        SweepSummary sweep_summary;
+    SweepSummary summary_of(const std::string& title) const {
+        SweepSummary summary;
         for (const SweepPoint& point : points_) {
-            sweep_summary.results.push_back(results_path(run_of(options_, point)));
-            summaries.push_back(summarise(point, sweep_summary.results.back(), thread_count()));
-            sweep_summary.failed = sweep_summary.failed || summaries.back().failed > 0;
+            summary.results.push_back(results_path(run_of(options_, point)));
         }
-        sweep_summary.text = sweep_text(keys_, summaries);
-        sweep_summary.json = sweep_json(title, keys_, summaries);
-        return sweep_summary;
-    }
-
-    SweepSummary summary_of_lives(const std::string& title) const {
-        std::vector<LivesPoint> summaries;
-        SweepSummary sweep_summary;
-        for (const SweepPoint& point : points_) {
-            sweep_summary.results.push_back(results_path(run_of(options_, point)));
-            summaries.push_back(summarise_lives(point, sweep_summary.results.back()));
-            sweep_summary.failed = sweep_summary.failed || summaries.back().failed > 0;
+        const auto take = [&](const auto& sweep, const analysis::Report& report, auto json) {
+            summary.text = analysis::report_text(report);
+            summary.json = std::move(json);
+            summary.failed = std::ranges::any_of(
+                sweep.points, [](const auto& point) { return point.failed > 0; });
+        };
+        if (options_.lives) {
+            const LivesSweep sweep = summarise_lives(title, keys_, points_, summary.results);
+            take(sweep, lives_sweep_report(sweep), lives_sweep_json(sweep));
+        } else {
+            const RunSweep sweep =
+                summarise_runs(title, keys_, points_, summary.results, thread_count());
+            take(sweep, sweep_report(sweep), sweep_json(sweep));
         }
-        sweep_summary.text = lives_sweep_text(keys_, summaries);
-        sweep_summary.json = lives_sweep_json(title, keys_, summaries);
-        return sweep_summary;
+        return summary;
     }
 
     // Writes JSON and page if requested. Returns false after printing a problem.
@@ -209,7 +205,7 @@ class Sweep {
         try {
             const auto study = read_study(options_.study.path, options_.study.overrides).study;
             const std::string title = study ? printable(study->title) : "";
-            sweep_summary = options_.lives ? summary_of_lives(title) : summary_of_runs(title);
+            sweep_summary = summary_of(title);
             if (!write_files(sweep_summary.json)) {
                 return kBadInput;
             }
@@ -218,12 +214,12 @@ class Sweep {
             return kBadInput;
         }
         if (options_.json != "-") {
-            fmt::print("{}results: {}\n", sweep_summary.text, folder_of(options_));
+            fmt::print("{}\nresults: {}\n", sweep_summary.text, folder_of(options_));
             if (!options_.html.empty()) {
                 fmt::print("page: {}\n", options_.html);
             }
             if (sweep_summary.results.size() > 1 && !options_.lives) {
-                fmt::print("differences with intervals: gearpod compare {} {}\n",
+                fmt::print("all differences of two points: gearpod compare {} {}\n",
                            sweep_summary.results[0], sweep_summary.results[1]);
             }
         }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <regex>
 
 #include "mc/input/document.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/random/fnv.hpp"
 
 namespace gearpod::mc {
@@ -93,6 +95,90 @@ void name_point(const std::vector<VariedKey>& keys, SweepPoint& point) {
 std::string short_key(const std::string& key) {
     const std::size_t dot = key.find_last_of('.');
     return dot == std::string::npos ? key : key.substr(dot + 1);
+}
+
+std::string value_text(const std::string& toml) {
+    constexpr std::size_t kLongest = 18;
+    static const std::regex decoration("[{}\"]|\\w+ *= *");
+    std::string text = std::regex_replace(toml, decoration, "");
+    const std::size_t first = text.find_first_not_of(' ');
+    text = first == std::string::npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+    return printable(text.size() <= kLongest ? text : text.substr(0, kLongest - 3) + "...");
+}
+
+std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& point) {
+    std::string text;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        text += fmt::format("{}{} = {}", k > 0 ? ", " : "", short_key(keys[k].key),
+                            value_text(point.values[k]));
+    }
+    return text;
+}
+
+std::vector<std::string> key_columns(const std::vector<VariedKey>& keys) {
+    std::vector<std::string> columns;
+    for (const VariedKey& key : keys) {
+        columns.push_back(short_key(key.key));
+    }
+    return columns;
+}
+
+std::vector<std::string> value_cells(const SweepPoint& point) {
+    std::vector<std::string> cells;
+    for (const std::string& value : point.values) {
+        cells.push_back(value_text(value));
+    }
+    return cells;
+}
+
+std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
+                                const std::vector<std::string>& within) {
+    constexpr std::size_t kMostNamed = 5;
+    const std::size_t compared = count + within.size(), named = std::min(within.size(), kMostNamed);
+    if (within.empty()) {
+        return fmt::format("{} It is {} beyond scatter at {}.", begin, beyond,
+                           count == 1 ? "the other point" : fmt::format("all {} others", count));
+    }
+    const std::string names = fmt::format(
+        "{}{}",
+        fmt::join(within.begin(), within.begin() + static_cast<std::ptrdiff_t>(named), "; "),
+        named < within.size() ? fmt::format("; and {} more", within.size() - named) : "");
+    return count == 0
+               ? fmt::format(
+                     "{} No point differs from it beyond scatter ({} compared), so the "
+                     "points cannot be ranked.",
+                     begin, compared)
+               : fmt::format("{} It is {} beyond scatter at {} of {} others; within scatter: {}.",
+                             begin, beyond, count, compared, names);
+}
+
+analysis::Section files_section(const std::vector<VariedKey>& keys,
+                                const std::vector<SweepPoint>& points,
+                                const std::vector<std::string>& results) {
+    constexpr std::size_t kMostNamed = 50;
+    analysis::Section section{"files", "", {}};
+    section.state("common",
+                  "Every study draws the same gearboxes (common random numbers), so the points are "
+                  "correlated: their intervals may overlap although the points differ.",
+                  true);
+    std::vector<std::string> varied;
+    for (const VariedKey& key : keys) {
+        std::vector<std::string> values;
+        for (std::size_t i = 0; i < std::min(kMostNamed, key.values.size()); ++i) {
+            values.push_back(value_text(key.values[i]));
+        }
+        varied.push_back(fmt::format("{} = {}", key.key, fmt::join(values, ", ")));
+    }
+    section.state("varied", fmt::format("Varied: {}.", fmt::join(varied, "; ")), true);
+    analysis::Table table{"files", "Results files", key_columns(keys), {}, true};
+    table.columns.emplace_back("file");
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        table.rows.push_back(value_cells(points[p]));
+        table.rows.back().push_back(results[p]);
+    }
+    section.add(std::move(table));
+    return section;
 }
 
 std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Problems& problems) {

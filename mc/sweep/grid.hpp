@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/report/report.hpp"
 #include "mc/input/problems.hpp"
 
 namespace gearpod::mc {
@@ -32,5 +33,20 @@ std::vector<SweepPoint> grid_of(const std::vector<VariedKey>& keys);
 
 // Returns the key without its section.
 std::string short_key(const std::string& key);
+// Value for tables: "uniform, 1, 2" for { distribution = "uniform", low = 1, high = 2 }; clipped.
+std::string value_text(const std::string& toml);
+// "noise_m_s2 = 2, gain = 1".
+std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& point);
+// Columns of a table with a row for each point: the keys, and the values of a point.
+std::vector<std::string> key_columns(const std::vector<VariedKey>& keys);
+std::vector<std::string> value_cells(const SweepPoint& point);
+// The beginning, and at how many of the other points the result is larger or smaller (`beyond`)
+// than at the best one by more than scatter; `within`: names of those where it is not.
+std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
+                                const std::vector<std::string>& within);
+// Section with what all points have in common, and their results files.
+analysis::Section files_section(const std::vector<VariedKey>& keys,
+                                const std::vector<SweepPoint>& points,
+                                const std::vector<std::string>& results);
 
 }  // namespace gearpod::mc

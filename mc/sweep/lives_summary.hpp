@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/report/report.hpp"
 #include "mc/lives/life_monitor.hpp"
 #include "mc/sweep/grid.hpp"
 
@@ -15,6 +16,9 @@ struct LivesPoint {
     std::string results;  // file
     Study study;
     std::size_t cracked = 0;
+    // Lives with a crack by gearbox: 1 if the tooth fails within the records, 0 if not, -1 without
+    // values.
+    std::vector<int> ended;
     long failed = 0;
     std::string record;  // description of a record
     InterpolationErrors interpolation;
@@ -25,16 +29,27 @@ struct LivesPoint {
 // Summarises a results file of `lives`. Throws std::runtime_error if it is not one, or damaged.
 LivesPoint summarise_lives(const SweepPoint& point, const std::string& results);
 
-// Returns the feature and detector that find most cracks net of chance over all points where they
-// have a rank; with equal shares, those that find the smallest cracks. Null if none has a rank.
-const MonitoredFeature* best_over(const std::vector<LivesPoint>& points);
+struct LivesSweep {
+    std::string title;  // of the study
+    std::vector<VariedKey> keys;
+    std::vector<LivesPoint> points;
+    // Results of every feature, with the detector that is best over all points: that which finds
+    // most cracks net of chance; with equal shares, the one that finds the smallest cracks. The
+    // best feature first; empty if none has a rank at any point.
+    std::vector<MonitoredFeature> order;
+};
 
-// Table with a line for each point: the results of best_over(), and the best detector at the point.
-std::string lives_sweep_text(const std::vector<VariedKey>& keys,
-                             const std::vector<LivesPoint>& points);
+// Summarises the results files of `lives`, one for each point. Throws std::runtime_error if one is
+// not such a file, or damaged.
+LivesSweep summarise_lives(const std::string& title, const std::vector<VariedKey>& keys,
+                           const std::vector<SweepPoint>& points,
+                           const std::vector<std::string>& results);
 
-// `title`: title of the study. docs/reference/report-json.md lists the keys.
-nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
-                                const std::vector<LivesPoint>& points);
+// Sections: the headline with the table of all points for the best feature and detector, and
+// details.
+analysis::Report lives_sweep_report(const LivesSweep& sweep);
+
+// docs/reference/report-json.md lists the keys.
+nlohmann::json lives_sweep_json(const LivesSweep& sweep);
 
 }  // namespace gearpod::mc

@@ -6,34 +6,36 @@
 #include <string>
 #include <vector>
 
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/report/report.hpp"
 #include "analysis/smallest_fault.hpp"
 #include "mc/sweep/grid.hpp"
 
 namespace gearpod::mc {
 
-// Results of a feature at a noise level.
+// Results of a feature at a noise level. Sizes are in the unit of the file (SI).
 struct FeatureSummary {
     std::string feature;
     double noise_level = 0.0;
     analysis::Auc auc;
-    // In the unit of the study file; NaN where the curve does not reach it or there is none.
-    double a50 = 0.0, a90 = 0.0, a90_lower = 0.0, a90_bound = 0.0;
-    std::vector<double> pd;  // detection rates of the sizes above 0, by ascending size
+    bool has_curve = false;
+    analysis::SizeBounds a50, a90;         // of the curve; the bounds are one-sided
+    double smallest = 0.0, largest = 0.0;  // tested sizes
+    std::vector<double> pd;                // detection rates of the sizes above 0, ascending
 };
 
 // Smallest fault found at a noise level.
 struct LevelSummary {
     double noise_level = 0.0;
     bool has_threshold = true;
-    std::optional<analysis::SmallestFault> smallest;  // in the unit of the study file
+    std::optional<analysis::SmallestFault> smallest;
 };
 
 struct PointSummary {
     SweepPoint point;
     std::string results;  // file
     std::size_t gearboxes = 0, failed = 0;
-    std::string size_name;  // input that is the fault size
-    std::string unit;       // unit of sizes; "": a pure number
+    analysis::SizeUnit size;
     double false_alarm_rate = 0.0, confidence = 0.0;
     std::string shortage;       // warning of too few healthy gearboxes; "" if they suffice
     std::size_t reference = 0;  // index of the noise level that is shown first
@@ -42,14 +44,35 @@ struct PointSummary {
     std::vector<FeatureSummary> features;
 };
 
-// Summarises a results file of `run`. Throws std::runtime_error if it is not one, or damaged.
-PointSummary summarise(const SweepPoint& point, const std::string& results, int threads);
+// Differences of a90 between the point where it is smallest and the others, gearbox by gearbox
+// where they have the same ones.
+struct SweepDifferences {
+    std::string feature;                          // that finds the smallest fault at most points
+    std::optional<std::size_t> best;              // point; empty if no point has its a90
+    bool paired = true;                           // the points have the same gearboxes
+    int resamples = 0;                            // bootstrap samples of each difference
+    std::vector<analysis::NumberDifference> a90;  // by point, minus the best point's
+};
 
-// Table with a line for each point; its width is not limited.
-std::string sweep_text(const std::vector<VariedKey>& keys, const std::vector<PointSummary>& points);
+struct RunSweep {
+    std::string title;  // of the study
+    std::vector<VariedKey> keys;
+    std::vector<PointSummary> points;
+    std::vector<std::string>
+        order;  // features, those first that find the smallest fault most often
+    SweepDifferences differences;
+};
 
-// `title`: title of the study. docs/reference/report-json.md lists the keys.
-nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
-                                  const std::vector<PointSummary>& points);
+// Summarises the results files of `run`, one for each point. Throws std::runtime_error if one is
+// not such a file, or damaged.
+RunSweep summarise_runs(const std::string& title, const std::vector<VariedKey>& keys,
+                        const std::vector<SweepPoint>& points,
+                        const std::vector<std::string>& results, int threads);
+
+// Sections: the headline with the table of all points, and details.
+analysis::Report sweep_report(const RunSweep& sweep);
+
+// docs/reference/report-json.md lists the keys.
+nlohmann::ordered_json sweep_json(const RunSweep& sweep);
 
 }  // namespace gearpod::mc

@@ -40,12 +40,25 @@ def point(names, values, number, nothing):
     return of
 
 
+def findings(varied, points, *more):
+    """Findings with a sentence, a table with a row for each point, and further statements."""
+    names = [name.rpartition(".")[2] for name, _ in varied]
+    table = {"title": "All points", "columns": [*names, "size"],
+             "rows": [[*p["values"].values(), "1.06 [0.98, > 4.28]"] for p in points]}
+    return [{"key": "headline", "title": "", "blocks": [
+        {"key": "headline", "text": "Smallest fault found <b> at noise x 1."},
+        {"key": "differences", "text": "No point differs."}, *more,
+        *({"key": key, **table} for key in ("points", "features", "records", "files")),
+        {"key": "varied", "text": f"Varied: {names[0]}."}]}]
+
+
 def sweep(varied, nothing=False):
     names = [name for name, _ in varied]
     grid = itertools.product(*(values for _, values in varied))
-    return {"kind": "sweep", "title": "Ideal gearbox <b> & \"sons\"",
+    points = [point(names, values, k, nothing) for k, values in enumerate(grid)]
+    return {"kind": "sweep", "title": "Ideal gearbox <b> & \"sons\"", "order": FEATURES,
             "varied": [{"key": name, "values": values} for name, values in varied],
-            "points": [point(names, values, k, nothing) for k, values in enumerate(grid)]}
+            "findings": findings(varied, points), "points": points}
 
 
 LIVES = {
@@ -97,22 +110,25 @@ def lives_sweep(varied, threshold=True):
                                        key=lambda i: -monitored[i]["net_share"])
     return {"kind": "lives-sweep", "title": "Lives <b> & \"sons\"",
             "varied": [{"key": name, "values": values} for name, values in varied],
-            "best": {"feature": "change_window_ratio", "detector": "single"} if threshold else None,
-            "points": points}
+            "order": [{"feature": feature, "detector": "single"}
+                      for feature in ("change_window_ratio", "window_z", "fused")] if threshold else [],
+            "findings": findings(varied, points), "points": points}
 
 
 def all_of():
     made = {name: sweep(varied) for name, varied in VARIED.items()}
     made["sweep_nothing"] = sweep(VARIED["sweep_one"], nothing=True)
     unknown = sweep(VARIED["sweep_one"], nothing=True)
+    unknown["findings"] = findings(VARIED["sweep_one"], unknown["points"], {
+        "key": "shortage.0", "text": "Too few healthy gearboxes for a false-alarm rate of 0.001."})
     for at in unknown["points"]:
-        at["shortage"] = "Too few healthy gearboxes for a false-alarm rate of 0.001."
         for level in at["smallest_fault"]:
             level["has_threshold"] = False
     made["sweep_unknown"] = unknown
     silent = sweep(VARIED["sweep_one"])
     for at in silent["points"]:
         at.update(features=[], smallest_fault=[], shown_level=None)
+    silent["order"] = []
     made["sweep_silent"] = silent
     for name, varied in LIVES.items():
         made[name] = lives_sweep(varied)

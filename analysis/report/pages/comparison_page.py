@@ -1,7 +1,7 @@
 """Page of gearpod compare: effect of a change on detection."""
 
 import blocks
-from charts import INK, MUTED, colour, marker, panel, to_svg
+from charts import INK, MUTED, colour, marker, open_end, panel, to_svg
 from report import Findings
 from words import Sizes, escape
 
@@ -32,9 +32,7 @@ def _interval(axes, y, at, ends, k):
     axes.plot([low, high], [y, y], color=colour(k), linewidth=1.6)
     for end, direction in zip(ends, (-1, 1)):
         if end is None:
-            axes.annotate("", xy=(at, y), xytext=(34 * direction, 0), textcoords="offset points",
-                          arrowprops={"arrowstyle": "<-", "color": colour(k), "linewidth": 1.6,
-                                      "shrinkA": 0, "shrinkB": 0})
+            open_end(axes, (at, y), (direction, 0), colour(k))
     axes.plot([at], [y], marker=marker(k), color=colour(k), markersize=5.5, markeredgewidth=0)
 
 
@@ -97,8 +95,8 @@ def _rates(compared, page, k):
 def parts(data, page):
     """Title, headline sentence, HTML of the answer, HTML of the sections."""
     compared = Compared(data)
-    verdict = "".join(f'<p class="answer">{escape(text)}</p>'
-                      for text in [*compared.texts("shortage."), compared.text("headline")])
+    verdict = (f'<p class="answer">{escape(compared.text("headline"))}</p>'
+               + compared.notes("shortage."))
     verdict += compared.table("files")
     verdict += "".join(f'<p class="small">{escape(text)}</p>'
                        for text in compared.texts("first_records"))

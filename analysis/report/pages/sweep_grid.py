@@ -8,8 +8,9 @@ import re
 from matplotlib.ticker import MaxNLocator
 
 import blocks
-from charts import INK, colour, dash, legend_above, marker, panel, to_svg
-from words import count, number
+from charts import INK, colour, dash, legend_above, marker, open_end, panel, to_svg
+from report import Findings
+from words import count, escape, number
 
 MOST_LINES = 5  # in a chart
 MOST_CHARTS = 24  # in a figure
@@ -78,19 +79,16 @@ class Key:
             axes.xaxis.set_major_locator(MaxNLocator(5))
 
 
-class Grid:
-    """Points of a sweep over the values of its keys."""
+class Grid(Findings):
+    """Findings and points of a sweep over the values of its keys."""
 
     def __init__(self, data):
-        self.data = data
+        super().__init__(data)
         self.points = data["points"]
         self.keys = [Key(entry) for entry in data["varied"]]
         # Key along the axis: the numeric key with most values.
         self.along = max(self.keys, key=lambda k: (k.scaled, len(k.values)))
         self.others = [key for key in self.keys if key is not self.along]
-
-    def name(self, point):
-        return ", ".join(f"{short(k)} = {clipped(v)}" for k, v in point["values"].items())
 
     def panels(self):
         """Title and points of every combination of the other keys' values."""
@@ -103,13 +101,14 @@ class Grid:
 
 
 def _series(swept, points, value):
-    """Place, value, lower and upper end of every point; NaN where there is no value."""
+    """Place, value, lower and upper end of every point. The value is NaN where there is none; an open
+    end is infinite."""
     out = []
     for point in points:
         at, lower, upper = value(point) or (None, None, None)
-        at = math.nan if at is None else at
-        out.append((swept.along.place(point["values"][swept.along.key]), at,
-                    at if lower is None else lower, at if upper is None else upper))
+        out.append((swept.along.place(point["values"][swept.along.key]),
+                    math.nan if at is None else at,
+                    -math.inf if lower is None else lower, math.inf if upper is None else upper))
     return out
 
 
@@ -130,8 +129,8 @@ def charts_of(swept, page, title, axis, lines, limits=None):
     panels = list(swept.panels())
     drawn = [(text, points, [_series(swept, points, value) for _, value in lines])
              for text, points in panels[:MOST_CHARTS]]
-    ends = [end for *_, series in drawn for line in series for point in line for end in point[1:]
-            if math.isfinite(end)]
+    ends = [end for *_, series in drawn for line in series for point in line
+            if math.isfinite(point[1]) for end in point[1:] if math.isfinite(end)]
     if not ends:
         return [], ""
     pad = 0.06 * ((max(ends) - min(ends)) or abs(max(ends)) or 1.0)
@@ -141,14 +140,19 @@ def charts_of(swept, page, title, axis, lines, limits=None):
     for text, chosen, series in drawn:
         figure, axes = panel(3.0 + 0.22 * ((len(lines) + 1) // 2))
         for i, ((name, _), line) in enumerate(zip(lines, series)):
-            bounded = any(point[2] < point[3] for point in line)
+            bounded = any(point[2] < point[3] for point in line if math.isfinite(point[1]))
             x = [_shifted(swept, point[0], i, len(lines) if bounded else 1) for point in line]
             axes.plot(x, [point[1] for point in line], color=colour(i),
                       linestyle=dash(i) if swept.along.scaled else "none",
                       marker=marker(i), markersize=5, markeredgewidth=0, label=name)
             if bounded:
-                axes.vlines(x, [point[2] for point in line], [point[3] for point in line],
-                            color=colour(i), linewidth=1.1)
+                for place, (_, at, *ends) in zip(x, line):
+                    if math.isfinite(at):
+                        axes.vlines(place, *(end if math.isfinite(end) else at for end in ends),
+                                    color=colour(i), linewidth=1.1)
+                        for end, direction in zip(ends, (-1, 1)):
+                            if math.isinf(end):
+                                open_end(axes, (place, at), (0, direction), colour(i))
         swept.along.set_axis(axes)
         axes.set_ylim(low, high)
         axes.set_ylabel(axis)
@@ -167,26 +171,27 @@ def charts_of(swept, page, title, axis, lines, limits=None):
                     else "")
 
 
-def table(swept, caption, head, rows):
-    cut = rows[:MOST_ROWS]
-    html = blocks.table(caption, head, cut)
-    if len(cut) < len(rows):
-        html += blocks.paragraph(f"The first {count(len(cut))} of {count(len(rows))} lines; all are "
+def table_of(swept, key):
+    """HTML of a table of the findings, cut if it is very long."""
+    if key not in swept.findings:
+        return ""
+    head, rows = swept.rows(key)
+    html = blocks.table(swept.heading(key), head, rows[:MOST_ROWS])
+    if len(rows) > MOST_ROWS:
+        html += blocks.paragraph(f"The first {count(MOST_ROWS)} of {count(len(rows))} lines; all are "
                                  "in the JSON.")
     return html
 
 
-def values(swept, point):
-    return [clipped(point["values"][key.key]) for key in swept.keys]
+def verdict(swept):
+    """HTML of the answer: its sentence, whether the points differ, and the table of all points."""
+    return (f'<p class="answer">{escape(swept.text("headline"))}</p>'
+            + "".join(blocks.paragraph(text) for text in swept.texts("differences"))
+            + swept.notes("shortage.") + table_of(swept, "points")
+            + "".join(f'<p class="small">{escape(text)}</p>' for text in swept.texts("note.")))
 
 
-def files(grid, page, how_to_compare):
+def files(swept, page):
     """Section with the results files and the properties common to all points."""
-    listed = blocks.table("Results files", [key.name for key in grid.keys] + ["file"],
-                          [values(grid, p) + [p["results"]] for p in grid.points[:MOST_ROWS]])
-    return page.section("files", "The studies", blocks.bullets([
-        "Every study draws the same gearboxes (common random numbers), so the points are "
-        "correlated. Each interval is for one point; intervals may overlap although two points "
-        f"differ significantly{how_to_compare}.",
-        "Varied: " + "; ".join(f"{k.key} = {', '.join(map(clipped, k.values[:50]))}"
-                               for k in grid.keys) + "."]) + listed)
+    return page.section("files", "The studies", blocks.bullets(
+        swept.texts("common") + swept.texts("varied")) + table_of(swept, "files"))
