@@ -20,7 +20,8 @@ TEST_CASE("Every feature is registered once, with its unit, alarm side and defin
         CHECK(find_feature(feature.name) == &feature);
         CHECK(!feature.unit.empty());
         CHECK(!feature.doc.empty());
-        const bool falls = feature.name == "te_fc" || feature.name == "own_te_fc";
+        const bool falls = feature.name == "te_fc" || feature.name == "own_te_fc" ||
+                           feature.name == "baseline_correlation";
         CHECK((feature.alarm == AlarmSide::low) == falls);
     }
     CHECK(basic == 7);
