@@ -36,8 +36,9 @@ void keep_healthy(RecordingList& list) {
 std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
                                             const RecordingList& list, const Scene& scene,
                                             Problems& problems) {
-    const auto measured = measure_recordings(list, options.columns, scene, {}, nullptr,
-                                             thread_count(scene.study()), [] {});
+    const auto measured =
+        measure_recordings(list, options.columns, scene, {}, {}, thread_count(scene.study()), [] {
+        }).recordings;
     print_notes(list, measured);
     std::vector<HealthyRecord> records;
     for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "mc/recordings/measured_signal.hpp"
 #include "mc/library/inspection_table.hpp"
 #include "mc/new_study/planetary_datasheet.hpp"
 #include "mc/new_study/rexs_choices.hpp"
+#include "mc/recordings/recording_baselines.hpp"
 #include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
@@ -56,7 +56,7 @@ struct ReportOptions {
     // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     std::optional<double> alarm_cost, miss_cost, fault_share;
     bool shows_withheld = false;  // of lives with too large an interpolation error
-    bool force = false;  // replaces outputs of another kind
+    bool force = false;           // replaces outputs of another kind
 };
 int report_command(const ReportOptions& options);
 
@@ -161,12 +161,14 @@ struct FeaturesOptions {
     SignalColumns columns;
     std::vector<std::string> healthy;  // recordings of healthy gearboxes
     std::string baseline;              // earlier recording of the same gearbox, "": none
-    double noise_level = 1.0;          // of simulated healthy gearboxes, used without `healthy`
-    std::string json;                  // "": none; "-": standard output
-    std::string out, csv;              // results file and table, for many recordings
-    std::string against;               // results file of healthy gearboxes to compare with
-    std::string feature;               // decides the alarm; "": the best ranked one in `against`
-    bool force = false;                // replaces outputs of another kind
+    // Of many recordings; average 0: monitoring.average_records.
+    BaselineOptions baselines{0, {}, false, 0};
+    double noise_level = 1.0;  // of simulated healthy gearboxes, used without `healthy`
+    std::string json;          // "": none; "-": standard output
+    std::string out, csv;      // results file and table, for many recordings
+    std::string against;       // results file of healthy gearboxes to compare with
+    std::string feature;       // decides the alarm; "": the best ranked one in `against`
+    bool force = false;        // replaces outputs of another kind
     bool quiet = false;
 };
 // Prints the features of one recording. For many recordings it calls recordings_command().

@@ -89,6 +89,13 @@ int features_command(const FeaturesOptions& options) {
     if (many) {
         return recordings_command(options);
     }
+    if (options.baselines.records > 0 || options.baselines.average != 0 ||
+        !options.baselines.conditions.empty() || options.baselines.scaled) {
+        fmt::print(stderr,
+                   "--baseline-records, --baseline-by, --baseline-scale, --average: are only used "
+                   "with many signals (--manifest)\n");
+        return kBadInput;
+    }
     std::vector<FileRole> read{{"the study", options.study.path},
                                {"the signal", options.signals.front()}};
     for (const std::string& path : options.healthy) {

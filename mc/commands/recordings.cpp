@@ -132,6 +132,16 @@ int recordings_command(const FeaturesOptions& options) {
     if (!scene || !writable) {
         return kBadInput;
     }
+    RecordingComparison comparison{nullptr, options.baselines};
+    if (comparison.options.average == 0) {
+        comparison.options.average = scene->study().monitoring.average_records;
+    }
+    problems =
+        baseline_problems(comparison.options, list, options.manifest, !options.baseline.empty());
+    if (!problems.empty()) {
+        print_problems(problems);
+        return kBadInput;
+    }
     try {
         std::optional<Population> population;
         if (!options.against.empty()) {
@@ -150,21 +160,27 @@ int recordings_command(const FeaturesOptions& options) {
         for (const std::string& note : notes) {
             fmt::print(stderr, "{}\n", wrapped_text("note: " + note, 2));
         }
-        const MeasuredBaseline* const earlier = baseline ? &*baseline : nullptr;
-        const auto features = measurable(earlier);
+        comparison.given = baseline ? &*baseline : nullptr;
+        const bool compared = comparison.any(list);
+        const auto features = measurable(compared);
         const int threads = thread_count(scene->study());
         Progress progress(static_cast<long>(list.recordings.size()),
                           options.quiet || options.csv == "-", 0, Progress::Form::text,
                           "recordings");
-        const auto measured = measure_recordings(list, options.columns, *scene, healthy, earlier,
-                                                 threads, [&] { progress.advance(1); });
+        const auto [measured, baseline_notes] =
+            measure_recordings(list, options.columns, *scene, healthy, comparison, threads,
+                               [&] { progress.advance(1); });
         progress.finish();
+        for (const std::string& note : baseline_notes) {
+            fmt::print(stderr, "{}\n", wrapped_text("note: " + printable(note), 2));
+        }
         print_notes(list, measured);
-        const bool csv_good = options.csv.empty() ||
-                              write_text_to(options.csv, recordings_csv(list, measured, features));
+        const bool csv_good =
+            options.csv.empty() ||
+            write_text_to(options.csv, recordings_csv(list, measured, features, compared));
         if (!options.out.empty()) {
             write_results(options.out,
-                          recordings_results(list, measured, features, *scene, threads));
+                          recordings_results(list, measured, features, *scene, threads, compared));
         }
         if (population) {
             print_verdicts(options, *population, list, measured);

@@ -171,9 +171,9 @@ OrderedJson feature_json(const features::Feature& feature) {
     json["alarm"] = feature.alarm == features::AlarmSide::high ? "high" : "low";
     json["basic"] = feature.basic();
     json["from_sensor"] = feature.from_sensor;
-    json["compared"] = feature.baseline_use == features::BaselineUse::nothing  ? "nothing"
-                       : feature.baseline_use == features::BaselineUse::change ? "change"
-                                                                               : "baseline";
+    json["compared"] = feature.baseline_use == features::BaselineUse::nothing    ? "nothing"
+                       : feature.baseline_use == features::BaselineUse::baseline ? "baseline"
+                                                                                 : "change";
     json["definition"] = std::string(feature.doc);
     return json;
 }

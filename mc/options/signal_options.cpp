@@ -73,6 +73,29 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
         "--baseline", features.baseline,
         "earlier recording of the same gearbox in healthy condition, the reference of own_... and "
         "change_... features"));
+    add_number(*command, "--baseline-records", features.baselines.records,
+               "instead, many signals: the baseline of each gearbox is the mean of its first N "
+               "healthy recordings, aligned by circular correlation (or of those with yes in the "
+               "manifest's column baseline)",
+               from_to(1, 1000000));
+    command
+        ->add_option("--baseline-by", features.baselines.conditions,
+                     "operating condition of the manifest; recordings with equal values share a "
+                     "baseline; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("COLUMN");
+    command
+        ->add_option_function<std::string>(
+            "--baseline-scale",
+            [&features](const std::string& value) { features.baselines.scaled = value == "fit"; },
+            "fit: scale the baseline to each recording before it is subtracted (least squares), so "
+            "that a drifting gain leaves no change; the part of a fault that resembles the "
+            "baseline is then lost, too (default: none)")
+        ->check(CLI::IsMember({"none", "fit"}));
+    add_number(*command, "--average", features.baselines.average,
+               "number of consecutive recordings of a gearbox, aligned with its baseline, that are "
+               "averaged before features (default: monitoring.average_records)",
+               from_to(1, 1000));
     add_number(*command, "--noise-level", features.noise_level,
                "noise level of the simulated gearboxes (default: 1)", at_least(0.0));
     require_file_name(command->add_option(

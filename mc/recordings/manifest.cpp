@@ -46,8 +46,8 @@ class Reading {
 
   private:
     void choose_inputs() {
-        static const std::vector<std::string> known{"file", "row",   "gearbox",
-                                                    "time", "label", "size"};
+        static const std::vector<std::string> known{"file",  "row",  "gearbox", "time",
+                                                    "label", "size", "baseline"};
         for (std::size_t c = 0; c < table_.columns.size(); ++c) {
             const TableColumn& column = table_.columns[c];
             if (column.name == "time") {
@@ -94,6 +94,21 @@ class Reading {
             recording.condition = size > 0.0 ? Condition::faulty : Condition::healthy;
         }
         read_label(recording);
+        read_mark(recording);
+    }
+
+    void read_mark(Recording& recording) {
+        const std::string* mark = field("baseline");
+        if (mark == nullptr) {
+            return;
+        }
+        recording.in_baseline = *mark == "yes";
+        if (!recording.in_baseline && *mark != "no") {
+            reject("baseline", fmt::format("\"{}\" is neither yes nor no", *mark),
+                   "leave it empty for recordings that are not of the baseline");
+        } else if (recording.in_baseline && recording.condition == Condition::faulty) {
+            reject("baseline", "is yes for a faulty recording", "choose healthy recordings");
+        }
     }
 
     void read_label(Recording& recording) {

@@ -19,6 +19,7 @@ struct Recording {
     double time = 0.0;
     Condition condition = Condition::unknown;
     std::optional<double> size;  // fault size, in SI units if it is a length
+    bool in_baseline = false;    // chosen for the gearbox's baseline
     std::vector<double> inputs;  // in the order of RecordingList::inputs
 
     std::string name() const;  // "file", "file row 3"
@@ -37,6 +38,7 @@ struct RecordingList {
 //   time      a number, in any unit
 //   label     healthy or faulty; empty: unknown
 //   size      fault size, 0 for a healthy gearbox; its unit in brackets
+//   baseline  yes for the recordings that form the gearbox's baseline; no or empty for others
 //   others    operating conditions, must be numbers
 // Problems name the line. Throws SignalError if the table cannot be read.
 RecordingList read_manifest(const std::string& path, Problems& problems);

@@ -6,12 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <set>
 
 #include "analysis/detection/feature_alarm.hpp"
-#include "machine/team.hpp"
-#include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/input/wrapped_text.hpp"
 #include "mc/results/provenance.hpp"
@@ -19,38 +16,6 @@
 
 namespace gearpod::mc {
 namespace {
-
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-
-MeasuredRecording measure_one(const Recording& recording, SignalColumns columns, const Scene& scene,
-                              const HealthyReference& healthy, const MeasuredBaseline* baseline) {
-    MeasuredRecording measured;
-    try {
-        columns.row = recording.row;
-        const MeasuredSignal signal = read_measured_signal(recording.file, columns, scene);
-        measured.notes = signal.notes;
-        measured.sensor_meshes = signal.sensor_meshes;
-        measured.planet_turns = planet_turns(signal, scene);
-        bool any = false;
-        std::string why;
-        Measurement all = measure(scene, signal, healthy, baseline);
-        measured.teeth = std::move(all.teeth);
-        for (const MeasuredFeature& feature : all.features) {
-            measured.values.push_back(feature.missing.empty() ? feature.value : kNotMeasured);
-            any = any || feature.missing.empty();
-            const bool there = feature.feature->from_sensor ? signal.has_sensor : signal.has_te;
-            why = why.empty() && there ? feature.missing : why;
-        }
-        if (!any) {
-            measured.problem =
-                fmt::format("{}: no feature can be computed: {}", recording.name(), why);
-        }
-    } catch (const std::exception& error) {
-        measured.problem = exception_text(error);
-    }
-    std::replace(measured.problem.begin(), measured.problem.end(), '\n', ';');
-    return measured;
-}
 
 // Quotes a field that contains any common separator.
 std::string quoted_field(const std::string& text) {
@@ -130,21 +95,6 @@ std::vector<analysis::SizeGroup> groups_of(const std::set<double>& sizes) {
 
 }  // namespace
 
-std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
-                                                  const SignalColumns& columns, const Scene& scene,
-                                                  const HealthyReference& healthy,
-                                                  const MeasuredBaseline* baseline, int threads,
-                                                  const std::function<void()>& done) {
-    std::vector<MeasuredRecording> measured(list.recordings.size());
-    std::mutex one_at_a_time;
-    machine::for_each_index(measured.size(), threads, [&](std::size_t i) {
-        measured[i] = measure_one(list.recordings[i], columns, scene, healthy, baseline);
-        const std::lock_guard lock(one_at_a_time);
-        done();
-    });
-    return measured;
-}
-
 void print_notes(const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
     std::vector<std::pair<std::string, std::size_t>> notes;  // in order, with the first recording
     std::map<std::string, int> times;
@@ -184,7 +134,7 @@ Problems condition_name_problems(const std::string& manifest, const RecordingLis
 
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature> features) {
+                           std::span<const features::Feature> features, bool compared) {
     std::string out = "file,row,gearbox,label";
     for (const auto& column : {list.time, list.size}) {
         out += column ? "," + quoted_field(header_of(*column)) : "";
@@ -196,7 +146,8 @@ std::string recordings_csv(const RecordingList& list,
         out += feature.unit == "1" ? fmt::format(",{}", feature.name)
                                    : fmt::format(",{} [{}]", feature.name, feature.unit);
     }
-    out += ",planet_turns,problem\n";
+    out += compared ? ",planet_turns,alignment,averaged,worst_tooth,problem\n"
+                    : ",planet_turns,problem\n";
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const Recording& recording = list.recordings[i];
         out += fmt::format("{},{},{},{}", quoted_field(recording.file),
@@ -213,7 +164,12 @@ std::string recordings_csv(const RecordingList& list,
             out += "," +
                    (measured[i].values.empty() ? std::string() : field_text(measured[i].values[f]));
         }
-        out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted_field(measured[i].problem));
+        out += fmt::format(",{}", measured[i].planet_turns);
+        if (compared) {
+            out += fmt::format(",{},{},{}", field_text(measured[i].alignment), measured[i].averaged,
+                               field_text(measured[i].map.worst()));
+        }
+        out += "," + quoted_field(measured[i].problem) + "\n";
     }
     return out;
 }
@@ -221,7 +177,7 @@ std::string recordings_csv(const RecordingList& list,
 Results recordings_results(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
                            std::span<const features::Feature> features, const Scene& scene,
-                           int threads) {
+                           int threads, bool compared) {
     const Grading grading = grading_of(list);
     Results results;
     results.noise_levels = {1.0};
@@ -243,7 +199,7 @@ Results recordings_results(const RecordingList& list,
                                         {}});
         }
     }
-    std::string names, gearboxes;
+    std::string names, gearboxes, alignments, maps;
     std::set<double> sizes;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const Recording& recording = list.recordings[i];
@@ -269,6 +225,12 @@ Results recordings_results(const RecordingList& list,
         }
         names += recording.name() + "\n";
         gearboxes += recording.gearbox + "\n";
+        alignments += fmt::format("{:.4f}\n", measured[i].alignment);
+        maps += fmt::format("{:.3f}", measured[i].map.first);
+        for (const double rms : measured[i].map.rms) {
+            maps += fmt::format(",{:.4g}", rms);
+        }
+        maps += "\n";
     }
     const Study& study = scene.study();
     results.request = {study.detection.false_alarm_rate,
@@ -283,6 +245,10 @@ Results recordings_results(const RecordingList& list,
     results.provenance.emplace_back("kind", kRecordingsKind);
     results.provenance.emplace_back("recordings", names);
     results.provenance.emplace_back("recorded_gearboxes", gearboxes);
+    if (compared) {
+        results.provenance.emplace_back("recorded_alignments", alignments);
+        results.provenance.emplace_back("recorded_teeth", maps);
+    }
     results.detection = detect_all(results, ColumnRows(results));
     return results;
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <span>
 
 #include "mc/files/signal_file.hpp"
 #include "signals/spectra/alignment.hpp"
@@ -11,12 +13,22 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kLeastCorrelation = 0.2;
+// Factor on `before` that leaves the least squares of now - factor before.
+double best_scale(std::span<const double> now, std::span<const double> before) {
+    double both = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        both += now[i] * before[i];
+        squares += before[i] * before[i];
+    }
+    return both / squares;
+}
 
 }  // namespace
 
 MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
-                               const MeasuredSignal& baseline, const std::string& baseline_file) {
+                               const MeasuredBaseline& from) {
+    const MeasuredSignal& baseline = from.signal;
+    const std::string& baseline_file = from.file;
     const int teeth = scene.span().planet_teeth, of_span = scene.span().ring_teeth;
     const int turns =
         std::min({record.sensor_meshes / teeth, baseline.sensor_meshes / teeth, of_span});
@@ -49,7 +61,15 @@ MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
                               "of {} mesh periods or of one averaged planet turn",
                               scene.span_meshes())));
     }
+    if (from.scaled) {
+        change.scale = best_scale(now, before);
+        for (double& value : before) {
+            value *= change.scale;
+        }
+    }
     std::transform(now.begin(), now.end(), before.begin(), before.begin(), std::minus<>());
+    change.signal.sensor_rounding =
+        std::hypot(record.sensor_rounding, change.scale * baseline.sensor_rounding);
     change.signal.sensor = std::move(before);
     change.signal.has_sensor = true;
     change.signal.sensor_meshes = static_cast<int>(meshes);

@@ -13,11 +13,25 @@ struct MeasuredChange {
     // recordings of the whole span or of one averaged planet turn are periodic and can be shifted.
     double meshes = 0.0;
     double correlation = 0.0;  // of both signals after alignment
+    double scale = 1.0;        // factor on the baseline before the subtraction
+};
+
+// Least correlation of a recording with its baseline.
+inline constexpr double kLeastCorrelation = 0.2;
+
+// Earlier recording of the gearbox in healthy condition, or the mean of several.
+struct MeasuredBaseline {
+    std::string file;  // its name in messages
+    MeasuredSignal signal;
+    // True if the baseline is multiplied by the factor that leaves the least change (least
+    // squares). A gain that drifts then leaves no change; the part of a fault that resembles the
+    // baseline does not either.
+    bool scaled = false;
 };
 
 // Throws SignalError if a recording has less than one planet turn of sensor signal, or if the
-// correlation is below 0.2. `baseline_file` is the baseline's name in messages.
+// correlation is below kLeastCorrelation.
 MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
-                               const MeasuredSignal& baseline, const std::string& baseline_file);
+                               const MeasuredBaseline& baseline);
 
 }  // namespace gearpod::mc

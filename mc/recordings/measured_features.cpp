@@ -10,6 +10,7 @@
 #include "features/worst_tooth.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/span_analysis.hpp"
+#include "mc/recordings/quantisation.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/spectra/synchronous_average.hpp"
@@ -70,6 +71,9 @@ class MeasuredInput {
         return input;
     }
 
+    // First sample of the best window of the planets' teeth.
+    int tooth_offset() const { return tooth_offset_; }
+
   private:
     // Averages over all available planet turns, at most those of the span.
     void add_te(const MeasuredSignal& signal, features::FeatureInput& input) {
@@ -116,10 +120,10 @@ class MeasuredInput {
         signals::Windowing windowing(scene_.span(), phases, scene_.study().features.tukey_taper);
         tooth_rms_.resize(static_cast<std::size_t>(scene_.span().planet_teeth));
         windowing.load(folded);
-        const int offset = windowing.search(0.0, tooth_rms_);
+        tooth_offset_ = windowing.search(0.0, tooth_rms_);
         input.get<PlanetRms>() = {tooth_rms_};
         input.get<features::SensorPower>() = {windowing.mean_square(0.0)};
-        analysis_.sensor(signal.sensor, turns, offset, input);
+        analysis_.sensor(signal.sensor, turns, tooth_offset_, input);
     }
 
     static constexpr double kRounding = 1e-13;
@@ -127,6 +131,7 @@ class MeasuredInput {
     const Scene& scene_;
     SpanAnalysis analysis_;
     std::vector<double> te_, amplitude_, tooth_rms_;
+    int tooth_offset_ = 0;
 };
 
 // Reason why a feature has no finite value although its signal exists.
@@ -154,7 +159,53 @@ WorstTooth worst_tooth(const char* gear, std::span<const double> rms) {
             features::worst_to_median(rms)};
 }
 
+// Teeth of the signal whose best window begins `offset` samples and `shift` mesh periods after the
+// start of the map.
+ToothMap tooth_map(std::span<const double> rms, double offset_meshes, double shift) {
+    ToothMap map{{rms.begin(), rms.end()}, 0.0};
+    if (!map.rms.empty()) {
+        const double first = offset_meshes + shift;
+        const double whole = std::floor(first);
+        map.first = first - whole;
+        // Tooth j of the signal passes `whole` + j periods after the start.
+        const auto teeth = static_cast<long>(rms.size());
+        const long by = ((static_cast<long>(whole) % teeth) + teeth) % teeth;
+        std::rotate(map.rms.begin(), map.rms.end() - by, map.rms.end());
+    }
+    return map;
+}
+
+// Reason why the value is one of rounding, of the record, of its change or of the baseline.
+std::string why_rounding(const Feature& feature, const features::FeatureInput& input,
+                         const MeasuredSignal& signal, const MeasuredBaseline* baseline,
+                         const std::optional<MeasuredChange>& change) {
+    const auto of = [&](const features::FeatureInput& one, double rounding, const char* what) {
+        const std::string why = rounding_reason(feature, one, rounding);
+        return why.empty() ? why : what + why;
+    };
+    switch (feature.baseline_use) {
+        case features::BaselineUse::change:
+            return of(*input.change, change->signal.sensor_rounding, "of the change, ");
+        case features::BaselineUse::baseline: {
+            const std::string own = of(input, signal.sensor_rounding, "");
+            return own.empty()
+                       ? of(*input.baseline, baseline->signal.sensor_rounding, "of the baseline, ")
+                       : own;
+        }
+        case features::BaselineUse::nothing:
+        case features::BaselineUse::record_and_change:
+            break;
+    }
+    return of(input, signal.sensor_rounding, "");
+}
+
 }  // namespace
+
+double ToothMap::worst() const {
+    return rms.empty() ? std::numeric_limits<double>::quiet_NaN()
+                       : first + static_cast<double>(std::max_element(rms.begin(), rms.end()) -
+                                                     rms.begin());
+}
 
 int planet_turns(const MeasuredSignal& signal, const Scene& scene) {
     return signal.has_sensor
@@ -175,11 +226,11 @@ std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
     if (source.empty()) {
         return std::nullopt;
     }
-    return MeasuredBaseline{source.name, read_measured_signal(source, columns, scene)};
+    return MeasuredBaseline{source.name, read_measured_signal(source, columns, scene), false};
 }
 
-std::span<const Feature> measurable(const MeasuredBaseline* baseline) {
-    return baseline != nullptr ? features::all_features() : features::record_features();
+std::span<const Feature> measurable(bool with_baseline) {
+    return with_baseline ? features::all_features() : features::record_features();
 }
 
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,
@@ -189,15 +240,16 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
     std::string no_change;
     if (baseline != nullptr) {
         try {
-            measurement.change = measured_change(scene, signal, baseline->signal, baseline->file);
+            measurement.change = measured_change(scene, signal, *baseline);
         } catch (const SignalError& error) {
             no_change = error.what();
         }
     }
     std::vector<MeasuredFeature>& all = measurement.features;
     std::vector<const Feature*> available;
-    for (const Feature& feature : measurable(baseline)) {
-        const bool of_change = feature.baseline_use == features::BaselineUse::change;
+    for (const Feature& feature : measurable(baseline != nullptr)) {
+        const bool of_change = feature.baseline_use == features::BaselineUse::change ||
+                               feature.baseline_use == features::BaselineUse::record_and_change;
         std::string why = why_unavailable(feature, scene, signal, has_reference);
         if (why.empty() && of_change) {
             why = measurement.change
@@ -233,10 +285,17 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
             one.value = one.feature->value(input);
             if (!std::isfinite(one.value)) {
                 one.missing = why_no_value(*one.feature, input, scene);
+            } else {
+                one.missing =
+                    why_rounding(*one.feature, input, signal, baseline, measurement.change);
             }
         }
     }
     const features::FeatureInput& shown = measurement.change ? change : input;
+    const double per_mesh = scene.samples_per_mesh();
+    measurement.map = tooth_map(shown.get<PlanetRms>().rms,
+                                (measurement.change ? changed : own).tooth_offset() / per_mesh,
+                                measurement.change ? measurement.change->meshes : 0.0);
     const std::pair<const char*, std::span<const double>> gears[] = {
         {"planet", shown.get<PlanetRms>().rms},
         {"sun", shown.get<features::ToothRms<features::Gear::sun>>().rms},

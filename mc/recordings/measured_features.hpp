@@ -34,24 +34,29 @@ int planet_turns(const MeasuredSignal& signal, const Scene& scene);
 // Smallest number of mesh periods of its signal that a feature needs.
 int meshes_of(const features::Feature& feature, const Scene& scene);
 
-// Earlier recording of the gearbox in healthy condition.
-struct MeasuredBaseline {
-    std::string file;
-    MeasuredSignal signal;
-};
-
 // Empty if `source` is empty. Throws SignalError.
 std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
                                                   const SignalColumns& columns, const Scene& scene);
 
 // Features that can be measured: all of them with a baseline, only those of one record without it.
-std::span<const features::Feature> measurable(const MeasuredBaseline* baseline);
+std::span<const features::Feature> measurable(bool with_baseline);
+
+// RMS of every tooth of the planet, from the tooth that passes `first` mesh periods after the
+// start. A record with a change has those of the change, and its start is the baseline's.
+struct ToothMap {
+    std::vector<double> rms;  // m/s^2; empty without a sensor signal
+    double first = 0.0;       // in [0, 1)
+
+    // Position of the tooth with the largest RMS, in mesh periods from the start; NaN if empty.
+    double worst() const;
+};
 
 // Features in the order of measurable(), and the loudest tooth of every gear that features use.
 // With a baseline, the teeth are those of the change. `healthy` may be empty and `baseline` null.
 struct Measurement {
     std::vector<MeasuredFeature> features;
     std::vector<WorstTooth> teeth;
+    ToothMap map;
     std::optional<MeasuredChange> change;
 };
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,

@@ -10,6 +10,7 @@
 #include "features/feature.hpp"
 #include "mc/files/signal_units.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/recordings/quantisation.hpp"
 #include "mc/recordings/recording_columns.hpp"
 #include "mc/recordings/recording_rate.hpp"
 #include "mc/recordings/sample_times.hpp"
@@ -70,6 +71,7 @@ class SignalReader : RecordingColumns {
             extend_periodically({&sensor, &te}, phase,
                                 columns_.samples_per_mesh * scene_.span().planet_teeth);
         }
+        measured.sensor_rounding = rounding_rms(sensor);
         keep(sensor, phase.size());
         keep(te, phase.size());
         resample(sensor, te, phase, measured);

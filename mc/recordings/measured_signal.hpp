@@ -15,6 +15,7 @@ struct MeasuredSignal {
     std::vector<double> te;                   // rad, P_te values per mesh period
     bool has_sensor = false, has_te = false;  // true if the column exists, however short
     int sensor_meshes = 0, te_meshes = 0;     // whole mesh periods of the recording
+    double sensor_rounding = 0.0;             // rms rounding error of a sample, m/s^2
     std::string tracking;                     // source of the mesh phase of the samples
     // True if lost samples would have been detected even if the times do not show them.
     bool losses_detectable = true;

@@ -97,8 +97,7 @@ std::vector<double> RecordingColumns::chosen(const std::string& name, const std:
 }
 
 std::vector<double> RecordingColumns::times(std::size_t samples) {
-    const std::string written_as =
-        columns_.sampling_Hz > 0.0 ? "" : found(kTimeColumn, false);
+    const std::string written_as = columns_.sampling_Hz > 0.0 ? "" : found(kTimeColumn, false);
     if (!written_as.empty()) {
         std::vector<double> written = column(written_as, Quantity::time);
         if (!problems_.empty()) {

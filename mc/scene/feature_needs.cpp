@@ -49,6 +49,12 @@ ComparedNeeds compared_needs(std::span<const features::Feature* const> features)
                 needs.baseline |= SignalSet::of<features::SensorSamples>();
                 needs.change |= feature->needs;
                 break;
+            case features::BaselineUse::record_and_change:
+                needs.record |= feature->needs;
+                needs.record |= SignalSet::of<features::SensorSamples>();
+                needs.baseline |= SignalSet::of<features::SensorSamples>();
+                needs.change |= feature->needs;
+                break;
             case features::BaselineUse::baseline:
                 needs.record |= feature->needs;
                 needs.baseline |= feature->needs;

@@ -291,6 +291,10 @@ struct Monitoring {
     bool torque_regression = false;      // the normal state depends linearly on the records' torque
     std::vector<std::string> detectors;  // as in the file; by default the usual ones
     double false_alarms_per_1000_h = 5.0;  // allowed rate of false alarms in lives
+    int average_records = 1;  // consecutive measured recordings that are averaged before features
+    // An alarm is sustained if at least this share of the next records alarms, too.
+    int sustained_records = 10;
+    double sustained_share = 0.8;
 
     bool operator==(const Monitoring&) const = default;
 };

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
-#include "analysis/report/json_values.hpp"
-#include "analysis/report/wording.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -123,9 +121,44 @@ analysis::HealthyLife healthy_life(const GearboxRecords& gearbox,
     return life;
 }
 
-GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const std::vector<double>& deviations,
-                              const analysis::Detector& detector, double threshold) {
-    GearboxAlarms watched{gearbox.name, 0, 0, {}, 0.0};
+FirstAlarm first_alarm(const GearboxRecords& gearbox, std::size_t i) {
+    return {gearbox.rows[i], gearbox.time[i], static_cast<long>(gearbox.rows.size() - 1 - i),
+            gearbox.time.back() - gearbox.time[i]};
+}
+
+// Worst tooth of a recording in mesh periods from the baseline's start; NaN if unknown.
+double worst_position(const GearboxSeries& series, std::size_t i) {
+    if (series.teeth.empty() || series.teeth[i].empty()) {
+        return analysis::kNan;
+    }
+    const auto& rms = series.teeth[i];
+    return series.first_tooth[i] +
+           static_cast<double>(std::max_element(rms.begin(), rms.end()) - rms.begin());
+}
+
+std::optional<AlarmTooth> alarm_tooth(const GearboxSeries& series,
+                                      const analysis::SustainedAlarm& alarm) {
+    const double at = worst_position(series, alarm.first);
+    if (std::isnan(at)) {
+        return std::nullopt;
+    }
+    const auto teeth = static_cast<double>(series.teeth[alarm.first].size());
+    AlarmTooth tooth{static_cast<int>(std::fmod(std::round(at), teeth)) + 1, 0, 0};
+    for (std::size_t i = alarm.first; i <= alarm.confirmed; ++i) {
+        const double away = std::abs(worst_position(series, i) - at);
+        if (!std::isnan(away)) {
+            ++tooth.recordings;
+            tooth.same += std::min(away, teeth - away) <= 1.0 ? 1 : 0;
+        }
+    }
+    return tooth;
+}
+
+GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const GearboxSeries& series,
+                              const std::vector<double>& deviations,
+                              const analysis::Detector& detector, double threshold,
+                              const analysis::SustainedRule& rule, long& healthy_sustained) {
+    GearboxAlarms watched{gearbox.name, 0, 0, {}, {}, {}, {}};
     for (std::size_t i = 0; i < deviations.size(); ++i) {
         watched.recordings += gearbox.healthy[i] == 0 && !std::isnan(deviations[i]) ? 1 : 0;
     }
@@ -133,9 +166,18 @@ GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const std::vector<d
         if (gearbox.healthy[i] == 0) {
             ++watched.alarms;
             if (!watched.first) {
-                watched.first = gearbox.rows[i];
-                watched.first_time = gearbox.time[i];
+                watched.first = first_alarm(gearbox, i);
             }
+        }
+    }
+    const auto alarms = analysis::record_alarms(detector, deviations, threshold);
+    for (const analysis::SustainedAlarm& one : analysis::sustained_alarms(alarms, rule)) {
+        if (gearbox.healthy[one.first] != 0) {
+            ++healthy_sustained;
+        } else if (!watched.sustained) {
+            watched.sustained = first_alarm(gearbox, one.first);
+            watched.confirmed = gearbox.rows[one.confirmed];
+            watched.tooth = alarm_tooth(series, one);
         }
     }
     return watched;
@@ -150,15 +192,55 @@ std::optional<std::size_t> parameter_place(const Results& frame, const std::stri
     return std::nullopt;
 }
 
+std::vector<double> numbers_of(const std::string& line) {
+    std::istringstream stream(line);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(stream, field, ',');) {
+        numbers.push_back(std::strtod(field.c_str(), nullptr));
+    }
+    return numbers;
+}
+
+// Alignments and tooth maps of the recordings as features stores them, and the drift of the level.
+GearboxSeries series_of(const Results& frame, const GearboxRecords& gearbox) {
+    GearboxSeries series{
+        gearbox.name, gearbox.rows, gearbox.time, gearbox.healthy, {}, {}, {}, {}, {}};
+    const auto alignments = lines_of(frame.provenance_value("recorded_alignments"));
+    const auto maps = lines_of(frame.provenance_value("recorded_teeth"));
+    for (const std::size_t row : gearbox.rows) {
+        if (row < alignments.size() && row < maps.size()) {
+            series.alignment.push_back(std::strtod(alignments[row].c_str(), nullptr));
+            const std::vector<double> map = numbers_of(maps[row]);
+            series.first_tooth.push_back(map.empty() ? analysis::kNan : map.front());
+            series.teeth.emplace_back(map.begin() + (map.empty() ? 0 : 1), map.end());
+        }
+    }
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
+        if (frame.features[f].name == "sensor_rms") {
+            std::vector<double> levels;
+            for (std::size_t i = 0; i < gearbox.rows.size(); ++i) {
+                if (gearbox.healthy[i] != 0 && std::isfinite(gearbox.values[f][i])) {
+                    levels.push_back(gearbox.values[f][i]);
+                }
+            }
+            series.level = analysis::drift_of(levels);
+        }
+    }
+    return series;
+}
+
 // Monitors every feature separately, and the study's features combined ("fused").
 class RecordingMonitor {
   public:
     RecordingMonitor(const Results& frame, const Study& study,
-                     const std::vector<GearboxRecords>& gearboxes)
-        : frame_(frame), study_(study), gearboxes_(gearboxes) {}
+                     const std::vector<GearboxRecords>& gearboxes, MonitoringOverTime& monitoring)
+        : frame_(frame), study_(study), gearboxes_(gearboxes), monitoring_(monitoring) {}
 
-    std::vector<RecordingMonitorResult> all() const {
+    std::vector<RecordingMonitorResult> all() {
         std::vector<RecordingMonitorResult> watched;
+        for (const GearboxRecords& gearbox : gearboxes_) {
+            monitoring_.gearboxes.push_back(series_of(frame_, gearbox));
+        }
         for (std::size_t f = 0; f < frame_.features.size(); ++f) {
             add(frame_.features[f].name, {f}, watched);
         }
@@ -196,23 +278,41 @@ class RecordingMonitor {
     }
 
     void add(const std::string& name, const std::vector<std::size_t>& features,
-             std::vector<RecordingMonitorResult>& watched) const {
+             std::vector<RecordingMonitorResult>& watched) {
         std::vector<std::vector<double>> of_gearbox;
         std::vector<analysis::HealthyLife> lives;
         for (const GearboxRecords& gearbox : gearboxes_) {
             of_gearbox.push_back(deviations(gearbox, features));
             lives.push_back(healthy_life(gearbox, of_gearbox.back()));
         }
+        const auto& use = study_.features.use;
+        if (name == kFused || std::find(use.begin(), use.end(), name) != use.end()) {
+            monitoring_.shown.push_back(name);
+            for (std::size_t g = 0; g < gearboxes_.size(); ++g) {
+                monitoring_.gearboxes[g].deviations.push_back(of_gearbox[g]);
+            }
+        }
+        long records = 0;
+        for (const analysis::HealthyLife& life : lives) {
+            records += static_cast<long>(life.values.size());
+        }
+        const double stated = frame_.request.false_alarm_rate;
+        const double rate = std::max(stated, analysis::smallest_rate(records));
+        const double confidence = frame_.request.confidence;
         for (const std::string& text : study_.monitoring.detectors) {
             const analysis::Detector detector = *analysis::parse_detector(text);
-            RecordingMonitorResult one{
-                name,
-                text,
-                monitor_threshold(detector, lives, 1000.0 * frame_.request.false_alarm_rate),
-                {}};
+            RecordingMonitorResult one{name,
+                                       text,
+                                       monitor_threshold(detector, lives, 1000.0 * rate),
+                                       rate,
+                                       analysis::threshold_rate_interval(records, rate, confidence),
+                                       0,
+                                       held_out_alarms(detector, lives, stated, confidence),
+                                       {}};
             for (std::size_t g = 0; g < gearboxes_.size(); ++g) {
-                one.gearboxes.push_back(
-                    monitor_gearbox(gearboxes_[g], of_gearbox[g], detector, one.threshold.value));
+                one.gearboxes.push_back(monitor_gearbox(
+                    gearboxes_[g], monitoring_.gearboxes[g], of_gearbox[g], detector,
+                    one.threshold.value, monitoring_.sustained, one.healthy_sustained));
             }
             watched.push_back(std::move(one));
         }
@@ -221,26 +321,25 @@ class RecordingMonitor {
     const Results& frame_;
     const Study& study_;
     const std::vector<GearboxRecords>& gearboxes_;
+    MonitoringOverTime& monitoring_;
 };
 
+// Fewest healthy recordings that set a threshold: with fewer, more than one in ten alarms.
+constexpr long kFewestHealthy = 10;
+
 // Reason why these gearboxes cannot be monitored; "" if they can.
-std::string refusal_of(const std::vector<GearboxRecords>& gearboxes, int baseline, double rate) {
+std::string refusal_of(const std::vector<GearboxRecords>& gearboxes, int baseline, long healthy) {
     if (gearboxes.empty()) {
         return fmt::format(
             "no gearbox has more than {0} recordings of which the first {0} are without a fault",
             baseline);
     }
-    long healthy = 0;
-    for (const GearboxRecords& gearbox : gearboxes) {
-        healthy += std::count(gearbox.healthy.begin() + baseline, gearbox.healthy.end(), char{1});
-    }
-    const auto needed = analysis::sample_for_threshold(rate);
-    return healthy >= needed
+    return healthy >= kFewestHealthy
                ? ""
                : fmt::format(
-                     "{} healthy recordings after the first {} of a gearbox are too few for a "
-                     "false-alarm rate of {:g}: at least {} are needed",
-                     healthy, baseline, rate, needed);
+                     "{} healthy recordings after the first {} of a gearbox are too few to set a "
+                     "threshold: at least {} are needed",
+                     healthy, baseline, kFewestHealthy);
 }
 
 }  // namespace
@@ -258,6 +357,8 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     MonitoringOverTime monitoring;
     monitoring.baseline_records = requested.baseline_records;
     monitoring.false_alarm_rate = frame.request.false_alarm_rate;
+    monitoring.confidence = frame.request.confidence;
+    monitoring.sustained = {requested.sustained_records, requested.sustained_share};
     monitoring.torque_regression = torque.has_value();
     monitoring.names = lines_of(frame.provenance_value("recordings"));
     const std::string& unit = frame.parameters[*time].unit;
@@ -277,98 +378,15 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     std::erase_if(gearboxes, [&](const GearboxRecords& one) {
         return !one.has_baseline(static_cast<std::size_t>(requested.baseline_records));
     });
-    monitoring.refusal =
-        refusal_of(gearboxes, requested.baseline_records, frame.request.false_alarm_rate);
+    for (const GearboxRecords& gearbox : gearboxes) {
+        monitoring.healthy += std::count(gearbox.healthy.begin() + requested.baseline_records,
+                                         gearbox.healthy.end(), char{1});
+    }
+    monitoring.refusal = refusal_of(gearboxes, requested.baseline_records, monitoring.healthy);
     if (monitoring.refusal.empty()) {
-        monitoring.watched = RecordingMonitor(frame, *study, gearboxes).all();
+        monitoring.watched = RecordingMonitor(frame, *study, gearboxes, monitoring).all();
     }
     return monitoring;
-}
-
-analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
-                                     const std::vector<std::string>& features) {
-    analysis::Section section{"monitoring", "Monitoring over time", {}};
-    if (!monitoring.refusal.empty()) {
-        section.state("monitoring.refusal",
-                      "Monitoring over time is not possible: " + monitoring.refusal + ".");
-        return section;
-    }
-    const std::string baseline = fmt::format(
-        "Recordings in time order, compared with each gearbox's first {} recordings{}; "
-        "thresholds: {} of the later healthy recordings alarm",
-        monitoring.baseline_records,
-        monitoring.torque_regression ? ", with a linear regression on the torque" : "",
-        analysis::percent_text(monitoring.false_alarm_rate));
-    section.state("monitoring.how",
-                  (monitoring.baseline_records > 0
-                       ? baseline
-                       : fmt::format("Recordings in time order; thresholds: {} of the healthy "
-                                     "recordings alarm",
-                                     analysis::percent_text(monitoring.false_alarm_rate))) +
-                      "; the detector restarts after every alarm.");
-    section.state("monitoring.note",
-                  monitoring.note.empty() ? "" : analysis::capitalised(monitoring.note) + ".");
-    analysis::Table table{
-        "monitoring",
-        "",
-        {"feature", "detector", "threshold", "healthy alarms", "later alarms", "first alarm"},
-        {}};
-    for (const RecordingMonitorResult& one : monitoring.watched) {
-        if (one.feature != kFused &&
-            std::find(features.begin(), features.end(), one.feature) == features.end()) {
-            continue;
-        }
-        for (const GearboxAlarms& gearbox : one.gearboxes) {
-            if (gearbox.recordings == 0 || std::isnan(one.threshold.value)) {
-                continue;
-            }
-            std::string first = "none";
-            if (gearbox.first) {
-                const std::string& name = monitoring.names.at(*gearbox.first);
-                first = fmt::format(
-                    "{}, {}", analysis::quantity_text(gearbox.first_time, monitoring.time_unit),
-                    name.substr(name.rfind('/') + 1));
-            }
-            table.rows.push_back(
-                {one.feature, one.detector, analysis::number_text(one.threshold.value),
-                 fmt::format("{} of {}", one.threshold.alarms, one.threshold.records),
-                 fmt::format("{} of {}", gearbox.alarms, gearbox.recordings),
-                 (gearbox.name.empty() ? "" : gearbox.name + ": ") + first});
-        }
-    }
-    section.add(std::move(table));
-    return section;
-}
-
-nlohmann::json monitoring_json(const MonitoringOverTime& monitoring) {
-    nlohmann::json watched = nlohmann::json::array();
-    for (const RecordingMonitorResult& one : monitoring.watched) {
-        nlohmann::json gearboxes = nlohmann::json::array();
-        for (const GearboxAlarms& gearbox : one.gearboxes) {
-            nlohmann::json first = nullptr;
-            if (gearbox.first) {
-                first = {{"row", *gearbox.first},
-                         {"time", gearbox.first_time},
-                         {"recording", monitoring.names.at(*gearbox.first)}};
-            }
-            gearboxes.push_back({{"name", gearbox.name},
-                                 {"recordings", gearbox.recordings},
-                                 {"alarms", gearbox.alarms},
-                                 {"first", first}});
-        }
-        watched.push_back(
-            {{"feature", one.feature},
-             {"detector", one.detector},
-             {"threshold", analysis::number(one.threshold.value)},
-             {"healthy", {{"recordings", one.threshold.records}, {"alarms", one.threshold.alarms}}},
-             {"gearboxes", gearboxes}});
-    }
-    return {{"baseline_records", monitoring.baseline_records},
-            {"false_alarm_rate", monitoring.false_alarm_rate},
-            {"torque_regression", monitoring.torque_regression},
-            {"note", monitoring.note},
-            {"refusal", monitoring.refusal},
-            {"watched", watched}};
 }
 
 }  // namespace gearpod::mc

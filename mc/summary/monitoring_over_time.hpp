@@ -8,18 +8,36 @@
 #include <string>
 #include <vector>
 
-#include "analysis/monitoring/false_alarms.hpp"
+#include "analysis/monitoring/sustained_alarms.hpp"
 #include "analysis/report/report.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
 
+// First alarm of a kind in one gearbox's recordings that are not known to be healthy.
+struct FirstAlarm {
+    std::size_t row = 0;
+    double time = 0.0;
+    // Recordings and time from the alarm to the gearbox's last recording.
+    long recordings_left = 0;
+    double time_left = 0.0;
+};
+
+// Worst tooth of a gearbox at its sustained alarm, in the baseline's numbering.
+struct AlarmTooth {
+    int tooth = 0;  // from 1
+    // Number of the recordings that decide whether the alarm is sustained, and of those of them
+    // whose worst tooth lies within one tooth of it.
+    long recordings = 0, same = 0;
+};
+
 // Alarms of a detector in one gearbox's recordings that are not known to be healthy.
 struct GearboxAlarms {
     std::string name;  // "": unknown
     long recordings = 0, alarms = 0;
-    std::optional<std::size_t> first;  // row of the first alarm
-    double first_time = 0.0;
+    std::optional<FirstAlarm> first, sustained;
+    std::optional<std::size_t> confirmed;  // row at which the sustained alarm is confirmed
+    std::optional<AlarmTooth> tooth;       // known if the recordings are aligned
 };
 
 struct RecordingMonitorResult {
@@ -27,15 +45,40 @@ struct RecordingMonitorResult {
     std::string detector;
     // Here the rate is per 1000 recordings, and `hours` counts recordings.
     analysis::MonitorThreshold threshold;
+    double rate = 0.0;  // false-alarm rate of the threshold: the stated one, or the smallest
+                        // that the healthy recordings can set
+    analysis::Interval rate_bounds;  // of the rate of this threshold
+    long healthy_sustained = 0;      // sustained alarms of healthy recordings
+    analysis::HeldOutAlarms held_out;
     std::vector<GearboxAlarms> gearboxes;
+};
+
+// Recordings of one gearbox in time order, for figures.
+struct GearboxSeries {
+    std::string name;
+    std::vector<std::size_t> rows;
+    std::vector<double> time;
+    std::vector<char> healthy;
+    std::vector<double> alignment;  // of each recording; empty if unknown
+    // RMS of every tooth, m/s^2, and position of the first one (ToothMap); empty if unknown
+    std::vector<std::vector<double>> teeth;
+    std::vector<double> first_tooth;
+    analysis::Drift level;  // of sensor_rms over the healthy recordings
+    // Deviations from the gearbox's own first recordings, by feature of MonitoringOverTime::shown.
+    std::vector<std::vector<double>> deviations;
 };
 
 struct MonitoringOverTime {
     int baseline_records = 0;
     double false_alarm_rate = 0.0;  // per recording
+    double confidence = 0.0;
+    analysis::SustainedRule sustained;
+    long healthy = 0;  // healthy recordings after the baselines
     bool torque_regression = false;
     std::vector<RecordingMonitorResult>
         watched;                     // each feature of the frame, then fused; by detector
+    std::vector<std::string> shown;  // features that the study uses, and "fused"
+    std::vector<GearboxSeries> gearboxes;
     std::vector<std::string> names;  // recording names, by row
     std::string time_unit;           // "": none
     std::string note;                // assumption made; else empty
@@ -45,14 +88,13 @@ struct MonitoringOverTime {
 // Returns nothing unless the rows are recordings with times.
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, const RowSource& rows);
 
-// Section with a row for each gearbox and detector of the given features and of "fused", or the
+// Section with a row for each gearbox and detector of the given features, of those that the study
+// uses and of "fused", with statements on the healthy sample and on a drift of their level; or the
 // reason why there is no monitoring.
 analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
                                      const std::vector<std::string>& features);
 
-// {"baseline_records", "false_alarm_rate", "torque_regression", "note", "refusal", "watched":
-// [{"feature", "detector", "threshold", "healthy": {"recordings", "alarms"}, "gearboxes": [{"name",
-// "recordings", "alarms", "first": {"row", "time", "recording"} or null}]}]}
+// docs/reference/report-json.md lists its keys.
 nlohmann::json monitoring_json(const MonitoringOverTime& monitoring);
 
 }  // namespace gearpod::mc

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "features/baseline_correlation.hpp"
 #include "features/crest_factor.hpp"
 #include "features/energy_ratio.hpp"
 #include "features/feature.hpp"
@@ -21,6 +22,7 @@
 #include "features/te_fm0.hpp"
 #include "features/te_kurtosis.hpp"
 #include "features/te_rms.hpp"
+#include "features/turn_kurtosis.hpp"
 #include "features/window_crest.hpp"
 #include "features/window_kurtosis.hpp"
 #include "features/window_m8a.hpp"
@@ -151,11 +153,34 @@ constexpr std::array kFeatures{
         "1", AlarmSide::high, "largest ring tooth M8A over the median one"),
 };
 
-// Features computed from the change since the baseline record: its energy, and its location on the
-// gears.
-constexpr std::string_view kChangeFeatures[] = {
-    "sensor_rms",   "window_ratio",      "window_z",     "sun_window_ratio",
-    "sun_window_z", "ring_window_ratio", "ring_window_z"};
+// Features computed from the change since the baseline record: its energy, its location on the
+// gears, and how far it concentrates in few samples.
+constexpr std::string_view kChangeFeatures[] = {"sensor_rms",    "window_ratio",
+                                                "window_z",      "sun_window_ratio",
+                                                "sun_window_z",  "ring_window_ratio",
+                                                "ring_window_z", "crest_factor",
+                                                "fm4",           "m6a"};
+
+// Features of the change that no single record has, and of the record and its change together.
+constexpr Feature kurtosis_of_change() {
+    Feature own = feature<turn_kurtosis>(
+        "change_kurtosis", "kurtosis of the change since the baseline record", "1", AlarmSide::high,
+        "kurtosis, normal = 3, of the average of the record less "
+        "the gearbox's own baseline record");
+    own.baseline_use = BaselineUse::change;
+    return own;
+}
+constexpr Feature correlation_with_baseline() {
+    Feature own = feature<turn_kurtosis>(
+        "baseline_correlation", "correlation with the baseline record", "1", AlarmSide::low,
+        "correlation coefficient of the averages of the record "
+        "and of the gearbox's own baseline record");
+    own.baseline_use = BaselineUse::record_and_change;
+    own.compute = [](const FeatureInput& input) {
+        return baseline_correlation(input.get<SensorTurn>(), input.change->get<SensorTurn>());
+    };
+    return own;
+}
 
 class Catalogue {
   public:
@@ -169,6 +194,8 @@ class Catalogue {
             own.baseline_use = BaselineUse::change;
             all_.push_back(own);
         }
+        all_.push_back(kurtosis_of_change());
+        all_.push_back(correlation_with_baseline());
         for (Feature own : kFeatures) {
             own.name = text("own_", own.name, "");
             own.title = text("", own.title, " relative to the baseline record");
@@ -198,6 +225,7 @@ double Feature::value(const FeatureInput& input) const {
         case BaselineUse::baseline:
             return compute(input) / compute(*input.baseline);
         case BaselineUse::nothing:
+        case BaselineUse::record_and_change:
             break;
     }
     return compute(input);

@@ -17,7 +17,8 @@ enum class AlarmSide { high, low };
 // - nothing: the feature of the record.
 // - change: the feature of the change since the baseline record.
 // - baseline: the feature of the record divided by that of the baseline record.
-enum class BaselineUse { nothing, change, baseline };
+// - record_and_change: the feature of both signals together.
+enum class BaselineUse { nothing, change, baseline, record_and_change };
 
 struct Feature {
     std::string_view name;
@@ -41,8 +42,8 @@ struct Feature {
     double value(const FeatureInput& input) const;
 };
 
-// All features: those of a single record, then those of its change, then those relative to the
-// baseline.
+// All features: those of a single record, then those of its change (and of both), then those
+// relative to the baseline.
 std::span<const Feature> all_features();
 
 // Features of a single record only.

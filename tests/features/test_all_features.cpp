@@ -24,7 +24,8 @@ TEST_CASE("Every feature is registered once, with its unit, alarm side and defin
         CHECK(!feature.doc.empty());
         CHECK(titles.insert(feature.title).second);  // says which feature it is
         CHECK(feature.title.find('_') == std::string_view::npos);
-        const bool falls = feature.name == "te_fc" || feature.name == "own_te_fc";
+        const bool falls = feature.name == "te_fc" || feature.name == "own_te_fc" ||
+                           feature.name == "baseline_correlation";
         CHECK((feature.alarm == AlarmSide::low) == falls);
     }
     CHECK(basic == 7);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/monitoring/detector.hpp"
 #include "features/feature.hpp"
@@ -173,6 +174,20 @@ void check_detectors(StudyDraft& draft) {
     }
 }
 
+// One bad recording is in as many averages as there are recordings in an average.
+void check_sustained(StudyDraft& draft) {
+    const Monitoring& watch = draft.study.monitoring;
+    const double needed = watch.sustained_share * watch.sustained_records;
+    if (!(needed > watch.average_records)) {
+        draft.reject("monitoring.sustained_records",
+                     fmt::format("{:g} of the {} next recordings sustain an alarm, but one bad "
+                                 "recording is in the averages of {} (average_records)",
+                                 needed, watch.sustained_records, watch.average_records),
+                     fmt::format("give at least {:.0f}",
+                                 std::floor(watch.average_records / watch.sustained_share) + 1));
+    }
+}
+
 void check_uncertain_inputs(StudyDraft& draft) {
     const std::vector<std::string> named = draft.study.detection.uncertain_inputs;
     for (auto key = named.begin(); key != named.end(); ++key) {
@@ -213,6 +228,7 @@ void check_consistency(StudyDraft& draft) {
     check_sampling(draft);
     check_features(draft);
     check_detectors(draft);
+    check_sustained(draft);
     check_uncertain_inputs(draft);
 }
 

@@ -66,6 +66,13 @@ void check_watch(StudyDraft& draft) {
                         watch.torque_regression ? " about a line in the torque" : ""),
             fmt::format("use at least {}, or 0 to monitor the features without a baseline", least));
     }
+    if (watch.average_records > 1) {
+        draft.reject(
+            "monitoring.average_records",
+            "averages measured recordings, but a life's records are not averaged after "
+            "one another",
+            "remove it; life.recordings is the number of recordings that a record averages");
+    }
     const double most = 1000.0 / *life.interval_h;
     if (watch.false_alarms_per_1000_h >= most) {
         draft.reject(

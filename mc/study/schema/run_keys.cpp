@@ -78,6 +78,9 @@ const Key kRunKeys[] = {
     {"monitoring", "baseline_records", integer<&Monitoring::baseline_records>, kNone, from_to(0, 1e6), may, kShared, "number of a gearbox's first records, from which its normal state is estimated; 0: features are monitored without a baseline"},
     {"monitoring", "torque_regression", boolean<&Monitoring::torque_regression>, kNone, kAny, may, kShared, "the normal state of a gearbox depends linearly on the torque of its records"},
     {"monitoring", "detectors", list<&Monitoring::detectors>, kNone, kAny, may, kShared, "detectors that monitor a gearbox's records: single, 2 of 3, ewma 0.1 (weight of the latest record), cusum 0.5 (reference value), trend 100 (number of records); append two-sided to detect changes in both directions"},
+    {"monitoring", "average_records", integer<&Monitoring::average_records>, kNone, from_to(1, 1000), may, kShared, "number of consecutive measured recordings of a gearbox, aligned with its baseline, that features averages before it computes features"},
+    {"monitoring", "sustained_records", integer<&Monitoring::sustained_records>, kNone, from_to(1, 1000), may, kShared, "number of next recordings that decide whether an alarm of measured recordings is sustained"},
+    {"monitoring", "sustained_share", number<&Monitoring::sustained_share>, kNone, kShare, may, kShared, "least fraction of these recordings that must alarm, too"},
 
     {"monitoring", "false_alarms_per_1000_h", number<&Monitoring::false_alarms_per_1000_h>, kNone, kPositive, with_life, kShared, "false alarms in 1000 operating hours of healthy gearboxes for which the thresholds of lives are set"},
 

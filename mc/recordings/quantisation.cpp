@@ -1,0 +1,137 @@
+#include "mc/recordings/quantisation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "features/median.hpp"
+#include "features/sideband_index.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kClearFactor = 4.0;  // RMS of a part over that of its rounding error
+constexpr double kNumerical = 1e-12;  // of the signal's RMS
+constexpr std::size_t kStepSamples = 65536;
+
+double rms_of(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += value * value;
+    }
+    return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double rms_about_mean(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    const double mean = sum / static_cast<double>(values.size());
+    return std::sqrt(std::max(0.0, rms_of(values) * rms_of(values) - mean * mean));
+}
+
+// RMS of the rounding error in the regular signal: its orders have two of the N degrees of freedom
+// each. The orders are the multiples of the mesh order below N / 2 and their two neighbours.
+double rounding_of_regular(const features::SensorTurn& turn, double rounding) {
+    const auto n = static_cast<double>(turn.turn.size());
+    const double orders = 3.0 * std::floor(0.5 * n / turn.mesh_order);
+    return rounding * std::sqrt(2.0 * orders / n);
+}
+
+std::string comparison(const char* what, double value, double rounding, const char* unit) {
+    return fmt::format(
+        "{} {:.2g} {} is at the level of the recording's rounding, which alone gives {:.2g} {}",
+        what, value, unit, rounding, unit);
+}
+
+template <features::Gear kGear>
+std::string of_teeth(const features::FeatureInput& input, double rounding) {
+    const std::span<const double> rms = input.get<features::ToothRms<kGear>>().rms;
+    const double middle = features::median({rms.begin(), rms.end()});
+    return middle < kClearFactor * rounding
+               ? comparison("the median tooth rms", middle, rounding, "m/s^2")
+               : "";
+}
+
+// Reason for features of the averaged turn.
+std::string of_turn(const features::Feature& feature, const features::SensorTurn& turn,
+                    double rounding) {
+    constexpr const char* kUnit = "m/s^2";
+    if (feature.name.ends_with("sideband_index") || feature.name.ends_with("sideband_level")) {
+        const double amplitude = 0.5 * features::both_sidebands(turn);
+        const double error = 2.0 * rounding / std::sqrt(static_cast<double>(turn.turn.size()));
+        return amplitude < kClearFactor * error
+                   ? comparison("the sideband amplitude", amplitude, error, kUnit)
+                   : "";
+    }
+    if (feature.name.ends_with("energy_ratio")) {
+        const double regular = rms_of(turn.regular), error = rounding_of_regular(turn, rounding);
+        return regular < kClearFactor * error
+                   ? comparison("the rms of the mesh lines", regular, error, kUnit)
+                   : "";
+    }
+    const bool whole = feature.name.ends_with("crest_factor") ||
+                       feature.name == "change_kurtosis" || feature.name == "baseline_correlation";
+    const double rms = whole ? rms_about_mean(turn.turn) : rms_of(turn.difference);
+    return rms < kClearFactor * rounding
+               ? comparison(whole ? "the rms of the average" : "the rms of the difference signal",
+                            rms, rounding, kUnit)
+               : "";
+}
+
+}  // namespace
+
+double quantisation_step(std::span<const double> samples) {
+    const auto used = samples.first(std::min(samples.size(), kStepSamples));
+    std::vector<double> values(used.begin(), used.end());
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    constexpr std::size_t kFewest = 3;  // values, of which two always have a step
+    if (values.size() < kFewest) {
+        return 0.0;
+    }
+    const double largest = std::max(std::abs(values.front()), std::abs(values.back()));
+    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest;
+    double step = values.back() - values.front();
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        if (const double apart = values[i] - values[i - 1]; apart > rounding) {
+            step = std::min(step, apart);
+        }
+    }
+    constexpr double kOff = 0.01;  // of a step
+    const bool all = std::ranges::all_of(values, [&](double value) {
+        const double steps = (value - values.front()) / step;
+        return std::abs(steps - std::round(steps)) < kOff;
+    });
+    return all ? step : 0.0;
+}
+
+double rounding_rms(std::span<const double> samples) {
+    return samples.empty() ? 0.0
+                           : std::max(quantisation_step(samples) / std::sqrt(12.0),
+                                      kNumerical * rms_of(samples));
+}
+
+std::string rounding_reason(const features::Feature& feature, const features::FeatureInput& input,
+                            double rounding) {
+    using features::Gear;
+    if (!feature.from_sensor) {
+        return "";
+    }
+    if (feature.needs.has<features::SensorTurn>()) {
+        return of_turn(feature, input.get<features::SensorTurn>(), rounding);
+    }
+    if (feature.needs.has<features::ToothRms<Gear::planet>>()) {
+        return of_teeth<Gear::planet>(input, rounding);
+    }
+    if (feature.needs.has<features::ToothRms<Gear::sun>>()) {
+        return of_teeth<Gear::sun>(input, rounding);
+    }
+    return "";  // ring teeth are divided by their trend, and have no unit
+}
+
+}  // namespace gearpod::mc
