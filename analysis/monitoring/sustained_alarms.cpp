@@ -67,14 +67,14 @@ double smallest_rate(long healthy_records) {
 
 HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyLife> lives,
                               double rate, double confidence) {
-    std::vector<HealthyLife> setting, judged;
+    std::vector<HealthyLife> setting, tested;
     long records = 0;
     HeldOutAlarms held_out;
     for (const HealthyLife& life : lives) {
         const auto half = life.values.begin() + static_cast<std::ptrdiff_t>(life.values.size() / 2);
         setting.push_back(
             {{life.values.begin(), half}, static_cast<double>(half - life.values.begin())});
-        judged.push_back(
+        tested.push_back(
             {{half, life.values.end()}, static_cast<double>(life.values.end() - half)});
         const auto with_value = [](double value) { return !std::isnan(value); };
         records += std::count_if(life.values.begin(), half, with_value);
@@ -85,7 +85,7 @@ HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyL
     }
     held_out.rate = std::max(rate, smallest_rate(records));
     const double threshold = monitor_threshold(detector, setting, 1000.0 * held_out.rate).value;
-    for (const HealthyLife& life : judged) {
+    for (const HealthyLife& life : tested) {
         held_out.alarms +=
             static_cast<long>(detector_alarms(detector, life.values, threshold).alarms.size());
     }

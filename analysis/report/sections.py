@@ -3,6 +3,7 @@
 import detection_figures
 import influence_figures
 import input_figures
+import monitoring_figures
 import numerical_figures
 import signal_figures
 from blocks import bullets, note, paragraph, table
@@ -104,7 +105,8 @@ def failures(report, page):
 
 
 # Entries too long for a table.
-_LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes"]
+_LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes",
+         "recorded_alignments", "recorded_teeth"]
 
 
 def over_time(report, page):
@@ -113,7 +115,8 @@ def over_time(report, page):
     if not groups:
         return ""
     body = detection_figures.over_time(report, page, groups)
-    body += "".join(map(paragraph, report.texts("monitoring."))) + report.table("monitoring")
+    body += "".join(map(paragraph, report.texts("monitoring.")))
+    body += monitoring_figures.figures(report, page) or report.table("monitoring")
     return page.section("over-time", "Alarms over time", body)
 
 

@@ -29,7 +29,7 @@ struct MeasuredList {
     std::vector<std::string> notes;  // on the baselines
 };
 
-// What recordings are compared with.
+// Baselines with which recordings are compared.
 struct RecordingComparison {
     const MeasuredBaseline* given = nullptr;  // an earlier recording that all share; may be null
     BaselineOptions options;

@@ -47,7 +47,7 @@ std::string baseline_text(const MonitoringOverTime& monitoring) {
                : "Recordings in time order; thresholds from the healthy recordings";
 }
 
-// What the healthy recordings can support.
+// Rates that the healthy recordings can set.
 std::string sample_text(const MonitoringOverTime& monitoring) {
     const double smallest = analysis::smallest_rate(monitoring.healthy);
     std::string text = fmt::format("{} healthy recordings", monitoring.healthy);

@@ -2,6 +2,7 @@
 """Every feature of the gearbox of small.toml from its definition, with numpy alone.
 
     features.py SIGNAL.csv HEALTHY.csv ... > expected.json
+    features.py --change SIGNAL.csv BASELINE.csv > expected-change.json
 
 Columns mesh_phase, sensor (m/s^2) and te (rad); P samples per mesh period.
 """
@@ -183,6 +184,57 @@ def spectral_kurtosis(residual, teeth):
     return np.max(kurtosis[mean > 1e-12 * np.max(mean)])
 
 
+def shifted(x, shift):
+    """The periodic signal x at i + shift, band-limited."""
+    n = len(x)
+    order = np.fft.rfftfreq(n) * n
+    spectrum = np.fft.rfft(x) * np.exp(2j * np.pi * order * shift / n)
+    if n % 2 == 0:
+        spectrum[-1] = np.fft.rfft(x)[-1] * np.cos(np.pi * shift)
+    return np.fft.irfft(spectrum, n)
+
+
+def best_shift(x, other):
+    """Shift of `other` with the largest circular correlation with x: the best sample, then
+    bisection of the correlation's slope between its neighbours."""
+    n = len(x)
+    product = np.fft.rfft(other - np.mean(other)) * np.conj(np.fft.rfft(x - np.mean(x)))
+    start = int(np.argmax(np.fft.irfft(product, n)))
+    order = np.arange(len(product))
+    inner = (order > 0) & (2 * order < n)
+
+    def slope(shift):
+        turned = product[inner] * np.exp(2j * np.pi * order[inner] * shift / n)
+        return -np.sum(order[inner] * turned.imag)
+
+    low, high = start - 1.0, start + 1.0
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if slope(middle) > 0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def change_features(y, baseline):
+    """Features of the change of a recording of the whole span since its baseline."""
+    span = ZP * ZR * P
+    now, before = y[:span], baseline[:span]
+    before = shifted(before, best_shift(now, before))
+    change = now - before
+    turn = averaged(change)
+    parts = separate(turn, ZP)
+    about_mean = turn - np.mean(turn)
+    out = {
+        "change_sensor_rms": rms(change),
+        "change_kurtosis": moment(turn, 4),
+        "change_crest_factor": np.max(np.abs(about_mean)) / rms(about_mean),
+        "change_fm4": moment(parts["difference"], 4),
+        "change_m6a": moment(parts["difference"], 6),
+        "baseline_correlation": np.corrcoef(averaged(now), averaged(before))[0, 1],
+    }
+    teeth = windows("change_", best_teeth(change, ZP, ZR), False)
+    return out | {name: teeth[name] for name in ("change_window_ratio", "change_window_z")}
+
+
 def columns(path):
     with open(path, newline="") as file:
         rows = list(csv.reader(file))
@@ -192,6 +244,10 @@ def columns(path):
 
 
 def main(arguments):
+    if arguments[0] == "--change":
+        now, before = (columns(path)["sensor"] for path in arguments[1:])
+        print(json.dumps(change_features(now, before), indent=1))
+        return
     signal, healthy = columns(arguments[0]), [columns(path)["sensor"] for path in arguments[1:]]
     out = te_features(signal["te"]) | sensor_features(signal["sensor"], healthy)
     print(json.dumps(out, indent=1))

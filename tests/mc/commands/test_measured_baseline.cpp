@@ -93,6 +93,25 @@ TEST_CASE("A measured baseline gives the result of the simulated one, for any st
     }
 }
 
+// Definitions in numpy on stored signals: tests/features/reference/README.md.
+TEST_CASE("Features of the change equal the numpy result for the same signals") {
+    const std::string reference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
+    const Outcome outcome =
+        program("features " + reference + "faulty.csv --study " + reference +
+                "small.toml --baseline " + reference + "healthy-1.csv --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto result = nlohmann::json::parse(outcome.output)["features"];
+    std::ifstream stream(reference + "expected-change.json");
+    const auto expected = nlohmann::json::parse(stream);
+    CHECK(expected.size() == 8);
+    for (const auto& [name, numpy] : expected.items()) {
+        INFO(name);
+        REQUIRE(result.contains(name));
+        CHECK(std::abs(result[name].get<double>() / numpy.get<double>() - 1.0) < 1e-12);
+    }
+}
+
 TEST_CASE("A file that is no baseline of a recording is reported") {
     const Folder folder;
     const auto healthy = recorded(folder, "");

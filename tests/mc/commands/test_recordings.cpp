@@ -1,7 +1,6 @@
 // Checks gearpod features of many recordings, and the report on them.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -337,62 +336,6 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
     CHECK_THAT(table, Catch::StartsWith("file,row,gearbox,label,load [N],"));
     CHECK_THAT(table, Catch::Contains("a.csv,,,healthy,1.5,"));
     CHECK(refused("file\n").mentions("lists no recording"));
-}
-
-// Data: the recordings of the HUMS 2023 challenge, if present
-// (docs/validation/measured-machines.md).
-TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
-    const char* file = std::getenv("GEARPOD_HUMS_DATA");
-    if (file == nullptr || !std::filesystem::exists(file)) {
-        WARN("HUMS data not there: set GEARPOD_HUMS_DATA to hums2023.h5");
-        return;
-    }
-    const Folder folder;
-    const mc::Hdf5Handle data(H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file);
-    const auto days = mc::read_integers(data.get(), "day", 1000000);
-    std::string table = "file,row,time [day],label\n";
-    for (std::size_t i = 0; i < days.size(); ++i) {
-        table += std::string(file) + "," + std::to_string(i) + "," + std::to_string(days[i]) + "," +
-                 (days[i] <= 20 ? "healthy" : "faulty") + "\n";
-    }
-    write_bytes(folder.file("m.csv"), table);
-    REQUIRE(program("features --manifest " + folder.file("m.csv") + " --study " +
-                    study("bell-206b.toml") + " --samples-per-mesh 117 --out " +
-                    folder.file("f.h5"))
-                .code == 0);
-    const auto json =
-        nlohmann::json::parse(program("report " + folder.file("f.h5") + " --json -").output);
-    double best = 0.0;
-    for (const auto& feature : json["features"]) {
-        const std::string name = feature["name"];
-        long healthy = 0, alarms = 0;
-        double day_26 = 0.0, day_27 = 0.0;
-        for (const auto& group : json["over_time"]) {
-            const long here = group["alarms"][name], all = group["recordings"];
-            const double share = static_cast<double>(here) / static_cast<double>(all);
-            healthy += group["last"] <= 20 ? all : 0;
-            alarms += group["last"] <= 20 ? here : 0;
-            day_26 = group["last"] == 26 ? share : day_26;
-            day_27 = group["last"] == 27 ? share : day_27;
-        }
-        CHECK(100 * alarms <= healthy);
-        best = day_27 == 1.0 ? std::max(best, day_26) : best;
-    }
-    CHECK(best >= 0.6);
-    // Monitored in sequence, with the alarm set up to day 20: both later days alarm. The windowed
-    // teeth do so from the first half of day 26 on.
-    REQUIRE(json["monitoring"]["refusal"] == "");
-    for (const auto& one : json["monitoring"]["watched"]) {
-        CHECK(one["healthy"]["alarms"].get<long>() * 100 <=
-              one["healthy"]["recordings"].get<long>());
-        if (one["feature"] == "window_ratio" || one["feature"] == "fused") {
-            INFO(one.dump());
-            const auto& first = one["gearboxes"][0]["first"];
-            REQUIRE(!first.is_null());
-            CHECK(first["time"] == 26);
-            CHECK(first["row"].get<int>() < 282 + 45);
-        }
-    }
 }
 
 }  // namespace

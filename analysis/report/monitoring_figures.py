@@ -1,0 +1,107 @@
+"""Figures on recordings monitored one after another: indicators, teeth and alarms over the records."""
+
+import math
+
+from charts import INK, MUTED, PAPER, colour, dash, legend_below, panel, to_svg
+from words import number
+
+MOST = 4  # features in a chart
+
+
+def _first_faulty(series):
+    """Number of recordings before the first one that is not known as healthy."""
+    return next((i for i, healthy in enumerate(series["healthy"]) if not healthy),
+                len(series["healthy"]))
+
+
+def _single(watched, name):
+    """Result of the detector `single`, or of the first one, for a feature."""
+    own = [one for one in watched if one["feature"] == name]
+    return next((one for one in own if one["detector"] == "single"), own[0])
+
+
+def _boundary(axes, series, paint):
+    at = _first_faulty(series)
+    if at < len(series["healthy"]):
+        axes.axvline(at + 0.5, color=paint, linewidth=0.9, linestyle=(0, (2, 2)))
+
+
+def _title(text, series):
+    return f"{text} of {series['name']}" if series["name"] else text
+
+
+def _indicators(page, monitoring, series, names):
+    figure, axes = panel(3.8)
+    about = []
+    places = {row: i for i, row in enumerate(series["rows"])}
+    for position, name in enumerate(names):
+        values = [math.nan if value is None else value for value in series["deviations"][name]]
+        axes.plot(range(1, len(values) + 1), values, color=colour(position),
+                  linestyle=dash(position), linewidth=1, label=name)
+        one = _single(monitoring["watched"], name)
+        if one["threshold"] is not None:
+            axes.axhline(one["threshold"], color=colour(position), linewidth=0.7)
+        gearbox = next((its for its in one["gearboxes"] if its["name"] == series["name"]), None)
+        if gearbox and gearbox["sustained"]:
+            at = places[gearbox["sustained"]["row"]]
+            axes.plot([at + 1], [values[at]], marker="v", markersize=8, color=colour(position),
+                      markeredgecolor=INK, linestyle="none")
+            about.append(f"{name}: sustained alarm at recording {at + 1}")
+    axes.set_yscale("symlog", linthresh=3)
+    _boundary(axes, series, MUTED)
+    axes.set_xlabel("Recording, in time order")
+    axes.set_ylabel("Deviation from the first recordings,\nstandard deviations")
+    legend_below(axes, 1)
+    title = _title("Indicators over the recordings", series)
+    return to_svg(figure, title, "; ".join(about) or "no sustained alarm", page.names)
+
+
+def _teeth(page, series):
+    """Image of tooth by recording; empty without tooth maps."""
+    teeth = max((len(rms) for rms in series["tooth_rms"]), default=0)
+    if teeth == 0:
+        return ""
+    columns = []
+    for rms, first in zip(series["tooth_rms"], series["first_tooth"]):
+        column = [math.nan] * teeth
+        if len(rms) == teeth and None not in rms:
+            middle = sorted(rms)[teeth // 2]
+            for tooth, value in enumerate(rms):
+                column[(tooth + round(first)) % teeth] = value / middle if middle else math.nan
+        columns.append(column)
+    figure, axes = panel(3.8)
+    image = axes.imshow(list(zip(*columns)), origin="lower", aspect="auto", cmap="viridis",
+                        interpolation="nearest", vmin=1,
+                        extent=(0.5, len(columns) + 0.5, 0.5, teeth + 0.5))
+    figure.colorbar(image, ax=axes, label="Tooth RMS over the median tooth's")
+    _boundary(axes, series, PAPER)
+    axes.grid(False)
+    axes.set_xlabel("Recording, in time order")
+    axes.set_ylabel("Tooth, from the baseline's start")
+    last = columns[-1]
+    known = [value for value in last if not math.isnan(value)]
+    about = (f"in the last recording tooth {last.index(max(known)) + 1} stands out, "
+             f"{number(max(known))} times the median") if known else "no value at the end"
+    return to_svg(figure, _title("Teeth over the recordings", series), about, page.names)
+
+
+def figures(report, page):
+    """HTML of the figures of every gearbox that is monitored."""
+    monitoring = report.data.get("monitoring")
+    if not monitoring or not monitoring["watched"]:
+        return ""
+    body = ""
+    for series in monitoring["recordings"]:
+        names = [name for name in series["deviations"] if name != "fused"][:MOST]
+        if not names:
+            continue
+        charts = [_indicators(page, monitoring, series, names)]
+        teeth = _teeth(page, series)
+        charts += [teeth] if teeth else []
+        body += page.figure(
+            _title("Recordings in time order", series), charts,
+            "Thin lines are the thresholds of single recordings, triangles the first sustained "
+            "alarms. The dashed line separates the healthy recordings from the later ones. In the "
+            "image of the teeth a horizontal line is one tooth that stays the worst one: a fault "
+            "stays on its tooth, noise does not.", report.table("monitoring"))
+    return body
