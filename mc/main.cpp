@@ -104,6 +104,11 @@ int run_program(int argc, char** argv) {
                "also forecast a run with this many MPI ranks: time, memory per rank, disk, and the "
                "number of ranks from which rank 0 limits the speed",
                from_to(1, 1e6));
+    add_number(
+        *describe_app, "--seconds", describe.seconds,
+        "processor seconds of each thread for the description, 10 by default; if they do not "
+        "suffice, the forecast is from the number of time steps alone",
+        from_to(0.1, 1e5));
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
             throw CLI::RequiredError("study");

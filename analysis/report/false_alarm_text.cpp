@@ -11,6 +11,7 @@
 #include "analysis/detection/importance_sample.hpp"
 #include "analysis/detection/tail.hpp"
 #include "analysis/report/json_values.hpp"
+#include "analysis/report/wording.hpp"
 #include "features/feature.hpp"
 
 namespace gearpod::analysis {
@@ -176,6 +177,21 @@ std::string record_shortage(long gearboxes, long records, double false_alarm_rat
 }
 
 }  // namespace
+
+std::string threshold_methods_text(double false_alarm_rate, double confidence) {
+    const long by_order = sample_for_threshold(false_alarm_rate),
+               by_tail = sample_for_tail(false_alarm_rate);
+    return fmt::format(
+        "Healthy records needed for a rate of {:.3g}: {} by order statistic ({} for a rate of at "
+        "most "
+        "twice that at {}){}; by importance sampling (ensemble.threshold_tilt) {:g} gearboxes in "
+        "which noise causes alarms, accelerometer features only.",
+        false_alarm_rate, by_order, sample_for_rate(false_alarm_rate, confidence),
+        percent_text(confidence),
+        by_tail < by_order ? fmt::format(", {} by a tail fit to the most extreme values", by_tail)
+                           : "",
+        kLeastContributing);
+}
 
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
                             Subject subject, long records, bool importance_sampled) {

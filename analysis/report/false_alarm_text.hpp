@@ -25,6 +25,10 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
 std::string sample_shortage(std::span<const FeatureDetection> features,
                             const DetectionRequest& request, Subject subject);
 
+// Healthy records needed for a threshold at the rate, by order statistic, tail fit and importance
+// sampling.
+std::string threshold_methods_text(double false_alarm_rate, double confidence);
+
 // True if no feature has a threshold at the noise level, so that detection is unknown there.
 bool without_threshold(std::span<const FeatureDetection> features, std::size_t level);
 

@@ -103,6 +103,8 @@ struct DescribeOptions {
     StudyOptions study;
     bool keys = false;  // print the keys of study files instead
     int ranks = 0;      // also forecast a run with this many MPI ranks; 0: do not
+    // Processor seconds of each thread for the forecast; then it falls back on step counts.
+    double seconds = 10.0;
 };
 int describe_command(const DescribeOptions& options);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 #include <numbers>
+#include <optional>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/report/false_alarm_text.hpp"
@@ -19,11 +20,14 @@
 #include "mc/description/entries.hpp"
 #include "mc/description/wrapped_study.hpp"
 #include "mc/ensemble/ranks.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/run/support.hpp"
+#include "mc/scene/scene_error.hpp"
+#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -63,6 +67,10 @@ void print_false_alarms(const Study& study) {
     const long healthy = study.ensemble.threshold_instances,
                records = study.ensemble.threshold_records;
     print_heading("false alarms");
+    if (const std::string target = false_alarm_target_text(study); !target.empty()) {
+        print_entry("in time", target);
+    }
+    print_entry("methods", analysis::threshold_methods_text(rate, confidence));
     const std::string shortage =
         analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes, records,
                                   study.ensemble.uses_importance_sampling());
@@ -150,21 +158,47 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     }
 }
 
-// Stops a description that takes longer than kSeconds.
+// Processor seconds that this process has used.
+double processor_s() {
+    timespec used{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+// Stops a description that takes more processor time. Other programs do not shorten it.
 class Deadline final : public machine::CancellationSource {
   public:
-    static constexpr int kSeconds = 7;
+    explicit Deadline(double seconds) : end_s_(processor_s() + seconds) {}
 
-    bool stop() const override { return seconds_since(start_) > kSeconds; }
+    bool stop() const override { return processor_s() > end_s_; }
 
   private:
-    const WallClock::time_point start_ = WallClock::now();
+    const double end_s_;
 };
 
-void print_omitted(const char* what) {
+void print_omitted(const char* what, const DescribeOptions& options) {
     print_heading("omitted");
     print_paragraph(
-        fmt::format("{}; the time limit of {} s was reached", what, Deadline::kSeconds));
+        fmt::format("{}; it takes more than {:g} processor seconds of each thread "
+                    "(--seconds)",
+                    what, options.seconds));
+}
+
+// Forecast where the budget is used up. `scene`: null if the pilot run that chooses the solver
+// setting took too long.
+void print_fallback(const Study& study, const std::optional<Scene>& scene) {
+    if (scene) {
+        return print_step_forecast(*scene);
+    }
+    Study plain = study;
+    plain.numerics.tolerance = 0.0;
+    try {
+        const Scene with_defaults(plain);
+        print_entry("solver setting", "the default, not the one that a pilot run would choose");
+        print_step_forecast(with_defaults);
+    } catch (const SceneError& error) {
+        print_problems({{"", 0, error.key(), error.what(), ""}});
+    }
 }
 
 // Prints all keys, or those whose section, name or explanation contains the word.
@@ -200,30 +234,32 @@ int describe_command(const DescribeOptions& options) {
     }
     print_false_alarms(*study);
     std::fflush(stdout);
-    const Deadline deadline;
     const auto start = WallClock::now();
     const char* missing =
-        "gearbox, effects, cost and forecast, because a pilot run chooses the solver setting "
-        "first";
+        "gearbox, effects and cost, because a pilot run chooses the solver setting first";
+    std::optional<Scene> scene;
     try {
+        const Deadline deadline(options.seconds * std::max(1, thread_count(*study)));
         const auto made = make_scene(options.study);
         if (!made) {
             print_problems(made.problems);
             return kBadInput;
         }
         const double setup_s = seconds_since(start);
-        const Scene& scene = *made.scene;
-        print_gearbox(scene);
-        print_effects(scene);
-        print_life(scene);
-        missing = "cost and forecast";
-        print_cost(scene, made.choice);
+        scene.emplace(*made.scene);
+        print_gearbox(*scene);
+        print_effects(*scene);
+        print_life(*scene);
+        missing = "cost";
+        print_cost(*scene, made.choice);
         std::fflush(stdout);
-        missing = "the forecast, which computes some gearboxes and their analysis";
-        print_forecast(scene, begun_s + setup_s, options.ranks);
+        missing = "computing some gearboxes and their analysis for the forecast";
+        print_forecast(*scene, begun_s + setup_s, options.ranks);
+        return kDone;
     } catch (const machine::Cancelled&) {
-        print_omitted(missing);
+        print_omitted(missing, options);
     }
+    print_fallback(*study, scene);
     return kDone;
 }
 

@@ -12,6 +12,7 @@
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/forecast.hpp"
+#include "mc/forecast/memory.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/scene/scene_error.hpp"
@@ -143,6 +144,38 @@ bool print_lives(const Scene& scene, double setup_s) {
 }
 
 }  // namespace
+
+void print_step_forecast(const Scene& scene) {
+    const Study& study = scene.study();
+    const BatchPlan plan(study.ensemble);
+    const auto threads =
+        std::min(static_cast<std::size_t>(std::max(1, thread_count(study))), plan.batches());
+    print_heading("forecast of a run");
+    print_entry(
+        "based on",
+        "the number of gearboxes and time steps and the time of one mesh period alone; signals, "
+        "features and analysis take more. Raise --seconds to compute some gearboxes instead");
+    print_entry("threads", std::to_string(threads));
+    if (study.effects.quasi_static()) {
+        print_entry("gearboxes", "not forecast: a quasi-static study integrates nothing");
+    } else {
+        const auto lanes = static_cast<double>(study.numerics.lanes);
+        const double tiles = std::ceil(static_cast<double>(plan.threshold_gearboxes()) / lanes) +
+                             std::ceil(static_cast<double>(plan.graded_rows()) / lanes);
+        const double meshes = integrated_meshes(scene);
+        print_entry(
+            "time integration",
+            fmt::format(
+                "{}: {:.0f} tiles of {} gearboxes, about {:.0f} mesh periods of {} "
+                "steps each",
+                seconds_text(tiles * meshes * mesh_period_s(scene) / static_cast<double>(threads)),
+                tiles, study.numerics.lanes, meshes, scene.plan().grid.steps.size()));
+    }
+    print_entry("memory", fmt::format("at least {:.0f} MB",
+                                      (peak_memory_bytes() +
+                                       least_memory_bytes(scene, plan, static_cast<int>(threads))) /
+                                          1e6));
+}
 
 void print_forecast(const Scene& scene, double setup_s, int ranks) {
     if (ranks == 0 && print_lives(scene, setup_s)) {

@@ -10,4 +10,8 @@ namespace gearpod::mc {
 // `setup_s`: time used to start the program and build the scene.
 void print_forecast(const Scene& scene, double setup_s, int ranks);
 
+// Forecast from the numbers of gearboxes and time steps alone, where computing some gearboxes takes
+// too long.
+void print_step_forecast(const Scene& scene);
+
 }  // namespace gearpod::mc

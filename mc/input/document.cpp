@@ -27,8 +27,6 @@ constexpr void require(bool assumption) {
 namespace gearpod::mc {
 namespace {
 
-constexpr std::string_view kOverrideFile = "--set";
-
 class Converter {
   public:
     explicit Converter(std::string file) : file_(std::move(file)) {}
@@ -245,7 +243,7 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
 void apply_override(Value& document, const std::string& assignment, Problems& problems) {
     const std::size_t equals = assignment.find('=');
     const std::string path = trimmed(assignment.substr(0, equals));
-    const std::vector<std::string> parts = split(path, '.');
+    std::vector<std::string> parts = split(path, '.');
     const bool empty_part =
         std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
     const std::string file(kOverrideFile);
@@ -261,6 +259,10 @@ void apply_override(Value& document, const std::string& assignment, Problems& pr
                             "quote strings: section.key='\"text\"'"});
         return;
     }
+    if (value.kind == Value::Kind::table && value.find("distribution") != nullptr &&
+        parts.front() != "random") {
+        parts.insert(parts.begin(), "random");
+    }
     Entry root{"", std::move(document), {}};
     Entry* target = &root;
     for (const std::string& part : parts) {
@@ -271,10 +273,11 @@ void apply_override(Value& document, const std::string& assignment, Problems& pr
     document = std::move(root.value);
 }
 
-void drop_overridden_random(Value& document) {
+std::vector<std::string> drop_overridden_random(Value& document) {
+    std::vector<std::string> keys;
     Entry* random = find_entry(document, "random");
     if (random == nullptr) {
-        return;
+        return keys;
     }
     for (Entry& section : random->value.entries) {
         const Entry* plain = document.find(section.name);
@@ -286,11 +289,13 @@ void drop_overridden_random(Value& document) {
             const bool dropped =
                 value != nullptr && value->position.file == kOverrideFile && !overridden(key);
             if (dropped) {
-                uncorrelate(*random, section.name + "." + key.name);
+                keys.push_back(section.name + "." + key.name);
+                uncorrelate(*random, keys.back());
             }
             return dropped;
         });
     }
+    return keys;
 }
 
 std::string read_file(const std::string& path, Problems& problems) {

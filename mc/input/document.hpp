@@ -37,13 +37,17 @@ struct Entry {
 // Parses TOML. A syntax error is appended to `problems`, and the tree is then empty.
 Value parse_document(const std::string& text, const std::string& file, Problems& problems);
 
-// Applies "section.key=value": sets the value at that path and creates missing tables.
+// File name of values that an option gave.
+inline constexpr std::string_view kOverrideFile = "--set";
+
+// Applies "section.key=value": sets the value at that path and creates missing tables. A
+// distribution, a table with the entry "distribution", is set at random.section.key.
 void apply_override(Value& document, const std::string& assignment, Problems& problems);
 
 // Removes random.section.key wherever an override set section.key and none set any part of
 // random.section.key: the given value is meant for all gearboxes. Also removes the correlations
-// that name this key.
-void drop_overridden_random(Value& document);
+// that name this key. Returns the keys "section.key".
+std::vector<std::string> drop_overridden_random(Value& document);
 
 // Content of a file. A problem is appended if it cannot be read.
 std::string read_file(const std::string& path, Problems& problems);

@@ -103,7 +103,10 @@ CLI::Option* require_file_name(CLI::Option* option) {
 
 void add_study_keys(CLI::App& command, StudyOptions& options) {
     command
-        .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
+        .add_option(
+            "--set", options.overrides,
+            "change a key of the study, e.g. ensemble.seed=7; a distribution as in [random], "
+            "e.g. 'sensor.gain={distribution=\"uniform\", low=1, high=2}'")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
 }

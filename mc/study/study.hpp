@@ -272,7 +272,12 @@ struct Features {
 };
 
 struct Detection {
-    double false_alarm_rate = 0.05;
+    double false_alarm_rate = 0.05;  // of one record; resolved from the user's target, if given
+    // Target in the user's units, at most one; the number of machines that share it, and the time
+    // between two records of a machine.
+    std::optional<double> false_alarms_per_1000_h, false_alarms_per_year;
+    int machines = 1;
+    std::optional<double> record_interval_h;
     double confidence = 0.95;
     // Ascending. At most one of the two, and only for a continuous fault size: a length, or a pure
     // number.

@@ -14,6 +14,7 @@
 #include "mc/input/printable.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
+#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
@@ -113,9 +114,10 @@ std::string facts_text(const analysis::Findings& findings, const RowCounts& coun
                                   counts.all, findings.healthy, findings.faulty, thresholds)
                     : fmt::format(
                           "{}{} simulated gearboxes, of which {} failed; {} healthy and {} "
-                          "faulty ones have values.{}",
+                          "faulty ones have values.{}{}",
                           noise_unit_text(study), counts.all, counts.failed(), findings.healthy,
-                          findings.faulty, thresholds);
+                          findings.faulty, thresholds,
+                          study && any ? " " + false_alarm_target_text(*study) : "");
 }
 
 // Reason why an ensemble has rates only.

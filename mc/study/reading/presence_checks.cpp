@@ -33,6 +33,10 @@ void check_exclusive_keys(StudyDraft& draft) {
                                        fmt::format("gearbox.{}_inertia_over_r2_kg", member)}),
                       "both give the moment of inertia");
     }
+    reject_second(
+        draft,
+        given_of(draft, {"detection.false_alarms_per_1000_h", "detection.false_alarms_per_year"}),
+        "both give the target of false alarms");
     if (draft.study.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.kind")) {
         return;
     }

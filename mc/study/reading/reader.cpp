@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string_view>
 
 #include "features/feature.hpp"
+#include "mc/input/document.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/input/spelling.hpp"
+#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/unknown_keys.hpp"
@@ -118,6 +121,9 @@ void read_sections(StudyDraft& draft, const Value& document) {
     }
 }
 
+// Rates of a record between which thresholds make sense.
+constexpr double kLeastRate = 1e-9, kMostRate = 0.5;
+
 // By default the basic features for which the type of motion has signals.
 void fill_features(Study& study) {
     if (study.features.use.empty()) {
@@ -163,6 +169,36 @@ void fill_lanes(StudyDraft& draft) {
     }
 }
 
+// Converts the target of false alarms into the rate of one record.
+void fill_false_alarm_rate(StudyDraft& draft) {
+    Detection& d = draft.study.detection;
+    const char* key = d.false_alarms_per_year ? "detection.false_alarms_per_year"
+                                              : "detection.false_alarms_per_1000_h";
+    const std::optional<double> interval_h = record_interval_h(draft.study);
+    if (!has_alarm_target(draft.study) || !interval_h ||
+        !draft.all_usable({key, "detection.machines", "detection.record_interval_h",
+                           "life.interval_h", "detection.false_alarm_rate"})) {
+        return;
+    }
+    const double rate = alarm_target_per_hour(draft.study) * *interval_h / d.machines;
+    if (!(rate > kLeastRate && rate < kMostRate)) {
+        draft.reject(
+            key,
+            fmt::format("is {:.2g} false alarms in each record of a machine ({:g} machines, "
+                        "a record every {:g} h)",
+                        rate, static_cast<double>(d.machines), *interval_h),
+            fmt::format("choose a target between {:g} and {:g} in a record", kLeastRate,
+                        kMostRate));
+    } else if (draft.is_given("detection.false_alarm_rate") &&
+               std::abs(rate - d.false_alarm_rate) > 1e-9 * rate) {
+        draft.reject("detection.false_alarm_rate",
+                     fmt::format("conflicts with {}, which is a rate of {:.4g}", key, rate),
+                     "remove one of them");
+    } else if (!draft.is_given("detection.false_alarm_rate")) {
+        d.false_alarm_rate = rate;
+    }
+}
+
 // Without identical mesh periods, all of them are integrated.
 void fill_horizon(StudyDraft& draft) {
     if (!draft.is_given("numerics.horizon") && !reason_not_periodic(draft.study).empty()) {
@@ -170,9 +206,19 @@ void fill_horizon(StudyDraft& draft) {
     }
 }
 
-StudyReading read_document(const Value& document, Problems problems) {
+// Notice of a distribution that an override replaced by one value.
+Problem lost_scatter(const std::string& key) {
+    return {
+        std::string(kOverrideFile), 0, key,
+        "replaces its distribution in [random]: all gearboxes have this value",
+        fmt::format("to keep a scatter, write '{}={{distribution=\"normal\", mean=..., sd=...}}'",
+                    key)};
+}
+
+StudyReading read_document(const Value& document, Problems problems, Problems notices) {
     StudyDraft draft;
     draft.problems = std::move(problems);
+    draft.notices = std::move(notices);
     draft.sections[""] = document.position;
     read_sections(draft, document);
     fill_horizon(draft);
@@ -182,6 +228,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     fill_operation(draft);
     fill_path(draft);
     fill_lanes(draft);
+    fill_false_alarm_rate(draft);
     check_gears(draft);
     check_consistency(draft);
     check_fluctuations(draft);
@@ -212,8 +259,11 @@ StudyReading read_study_text(const std::string& text, const std::string& name,
     for (const std::string& assignment : overrides) {
         apply_override(document, assignment, problems);
     }
-    drop_overridden_random(document);
-    return read_document(document, std::move(problems));
+    Problems notices;
+    for (const std::string& key : drop_overridden_random(document)) {
+        notices.push_back(lost_scatter(key));
+    }
+    return read_document(document, std::move(problems), std::move(notices));
 }
 
 StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides) {

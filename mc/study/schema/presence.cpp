@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 
@@ -33,6 +34,20 @@ Presence with_baseline(const Study& s) {
                : Presence{Need::forbidden,
                           "only with features that use a baseline record (change_..., own_...)",
                           {"features.use"}};
+}
+Presence with_alarm_target(const Study& s) {
+    return has_alarm_target(s)
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only with false_alarms_per_1000_h or false_alarms_per_year",
+                          {"detection.false_alarms_per_1000_h", "detection.false_alarms_per_year"}};
+}
+Presence alarm_target_needs(const Study& s) {
+    return has_alarm_target(s) && !s.life.interval_h
+               ? Presence{Need::required,
+                          "hours between two records turn the target into a rate",
+                          {}}
+               : with_alarm_target(s);
 }
 Presence of_life(const Study& s, Need need) {
     const Need there = s.life.interval_h ? need : Need::forbidden;

@@ -81,7 +81,9 @@ Presence white_records(const Study&);        // only with several records, of wh
 Presence acceleration_detail(const Study&);  // forbidden if the motion is quasi-static
 Presence integration(const Study&);          // forbidden if nothing is integrated in time
 
-Presence with_baseline(const Study&);  // only with features that use a baseline record
+Presence with_alarm_target(const Study&);   // only with a target of false alarms in time
+Presence alarm_target_needs(const Study&);  // required with one, unless life.interval_h is given
+Presence with_baseline(const Study&);       // only with features that use a baseline record
 
 Presence length_edges(const Study&);  // only if the fault's size is a length
 Presence number_edges(const Study&);  // only if the fault's size is a pure number

@@ -69,7 +69,11 @@ const Key kRunKeys[] = {
     {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "number of mesh harmonics in te_fm0"},
     {"features", "baseline_torque_scatter", number<&Features::baseline_torque_scatter>, kNone, from_to(0, 1), with_baseline, kShared, "rms relative difference of torque between a gearbox's healthy baseline record and its test record (standard deviation of the logarithm)"},
 
-    {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, kShare, may, kShared, "fraction of healthy gearboxes that may alarm"},
+    {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, kShare, may, kShared, "fraction of healthy records that may alarm, for each feature"},
+    {"detection", "false_alarms_per_1000_h", number<&Detection::false_alarms_per_1000_h>, kNone, kPositive, may, kShared, "instead of false_alarm_rate: false alarms of a feature in 1000 hours of healthy machines, all machines together"},
+    {"detection", "false_alarms_per_year", number<&Detection::false_alarms_per_year>, kNone, kPositive, may, kShared, "the same in a year (8760 hours)"},
+    {"detection", "machines", integer<&Detection::machines>, kNone, from_to(1, 1e6), with_alarm_target, kShared, "number of machines in the fleet that the target is for"},
+    {"detection", "record_interval_h", number<&Detection::record_interval_h>, kHours, kPositive, alarm_target_needs, kShared, "hours between two records of a machine; by default life.interval_h"},
     {"detection", "confidence", number<&Detection::confidence>, kNone, kShare, may, kShared, "confidence level of the intervals"},
     {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
     {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},

@@ -137,6 +137,20 @@ TEST_CASE("An override of a key removes it from [random], in any order of overri
     }
 }
 
+TEST_CASE("An override may be a distribution, and a notice names each one that it removes") {
+    const std::string stiffness = "gearbox.planet_bearing_stiffness_N_m";
+    const std::string law = "={distribution='uniform', low=1e8, high=2e8}";
+    CHECK(study_of(kExampleStudy, {stiffness + law}) ==
+          study_of(kExampleStudy, {"random." + stiffness + law}));
+    const StudyReading fixed = read_study_text(kExampleStudy, "study.toml", {stiffness + "=3e8"});
+    REQUIRE(fixed.notices.size() == 1);
+    CHECK(fixed.notices[0].file == "--set");
+    CHECK(fixed.notices[0].key == stiffness);
+    CHECK(fixed.notices[0].what.find("all gearboxes have this value") != std::string::npos);
+    CHECK(read_study_text(kExampleStudy, "study.toml", {stiffness + law}).notices.empty());
+    CHECK(read_study_text(kExampleStudy, "study.toml", {"ensemble.seed=3"}).notices.empty());
+}
+
 TEST_CASE("By default the sun is driven, and the ring where the sun is fixed") {
     const auto input_of = [](const std::string& fixed, const std::string& speed) {
         return study_of(example_with("carrier_speed_rpm", speed), {"operation.fixed=" + fixed});
