@@ -23,13 +23,27 @@ double sample_quantile(std::vector<double> values, double quantile) {
     return *place;
 }
 
-// Record of the first alarm after the crack's initiation.
+// The same lives beginning at the first record whose crack has the size of its effect, which none
+// precedes.
+std::vector<CrackedLife> with_effect(std::span<const CrackedLife> cracked, double effect_size) {
+    std::vector<CrackedLife> lives(cracked.begin(), cracked.end());
+    for (CrackedLife& life : lives) {
+        while (life.first < life.sizes.size() && !(life.sizes[life.first] >= effect_size)) {
+            ++life.first;
+        }
+    }
+    return lives;
+}
+
+// Record of the first alarm after the crack's effect. Counts those between its initiation and its
+// effect.
 std::optional<std::size_t> detection(const Detector& detector, const CrackedLife& life,
-                                     double threshold) {
+                                     std::size_t initiation, double threshold, long& early) {
     for (const std::size_t record : detector_alarms(detector, life.values, threshold).alarms) {
         if (record >= life.first) {
             return record;
         }
+        early += record >= initiation ? 1 : 0;
     }
     return std::nullopt;
 }
@@ -80,10 +94,21 @@ MonitorPerformance monitor_performance(const Detector& detector,
     if (std::isnan(threshold)) {
         return performance;
     }
+    performance.effect_size = effect_size(setting, cracked, detector.two_sided);
+    const std::vector<CrackedLife> lives = with_effect(cracked, performance.effect_size);
     std::vector<double> sizes, warnings;
     double by_stated_rate = 0.0;
-    for (const CrackedLife& life : cracked) {
-        const auto record = detection(detector, life, threshold);
+    for (std::size_t i = 0; i < lives.size(); ++i) {
+        const CrackedLife& life = lives[i];
+        const std::size_t initiation = cracked[i].first;
+        const auto record =
+            detection(detector, life, initiation, threshold, performance.early_alarms);
+        if (initiation < life.hours.size()) {
+            const double last_h = life.end_hours.value_or(life.hours.back());
+            performance.early_hours +=
+                (life.first < life.hours.size() ? life.hours[life.first] : last_h) -
+                life.hours[initiation];
+        }
         performance.alarm_hours.push_back(record ? life.hours[*record] : kNan);
         if (!life.end_hours) {
             continue;
@@ -103,7 +128,7 @@ MonitorPerformance monitor_performance(const Detector& detector,
         performance.share =
             static_cast<double>(performance.found) / static_cast<double>(performance.ended);
         performance.share_at_stated_rate = by_stated_rate / static_cast<double>(performance.ended);
-        performance.share_by_chance = share_by_chance(detector, healthy, cracked, threshold);
+        performance.share_by_chance = share_by_chance(detector, healthy, lives, threshold);
         performance.share_bounds =
             wilson_interval(performance.found, performance.ended, confidence);
     }

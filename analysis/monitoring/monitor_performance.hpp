@@ -7,17 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/monitoring/false_alarms.hpp"
+#include "analysis/monitoring/crack_effect.hpp"
 
 namespace gearpod::analysis {
-
-// Values of one gearbox with a growing crack, as seen by a monitor.
-struct CrackedLife {
-    std::vector<double> values;        // deviations in time order; NaN: a record without a value
-    std::vector<double> hours, sizes;  // of each record
-    std::size_t first = 0;             // first record with the crack
-    std::optional<double> end_hours;   // empty: still running at the last record
-};
 
 // Quantile over lives. Lives in which the crack was not found count as infinite.
 struct LifeQuantile {
@@ -29,12 +21,18 @@ struct MonitorPerformance {
     MonitorThreshold threshold;
     FalseAlarms false_alarms;
     Interval expected_per_1000_h;  // the stated rate should lie in it
-    // Lives that end within their records; those of them with an alarm before the end.
+    // Size from which the crack has an effect on the values (crack_effect.hpp). Time in hours that
+    // cracked lives spend below it, and alarms in it, which are false.
+    double effect_size = kNan;
+    double early_hours = 0.0;
+    long early_alarms = 0;
+    // Lives that end within their records; those of them with an alarm after the crack's effect and
+    // before the end.
     long ended = 0, found = 0;
     double share = kNan;
     Interval share_bounds{kNan, kNan};  // Wilson interval
     // Share found by chance: the share of healthy lives that alarm within as many records from the
-    // same record on.
+    // same record on, that of the crack's effect.
     double share_by_chance = kNan;
     // Share found by alarms that come at random at the stated rate.
     double share_at_stated_rate = kNan;
@@ -42,14 +40,13 @@ struct MonitorPerformance {
     // Hours from the alarm to the end over the lives found: the median, and the time exceeded by
     // nine in ten.
     double warning_50 = kNan, warning_90 = kNan;
-    // Time of the first alarm after the crack's initiation for each cracked life; NaN if there is
-    // none.
+    // Time of the first alarm after the crack's effect for each cracked life; NaN if there is none.
     std::vector<double> alarm_hours;
 };
 
 // Evaluates a detector: threshold from `setting`, false alarms from `healthy`, everything else from
-// `cracked`. An alarm before the crack's initiation counts as false, and the detector restarts
-// after it.
+// `cracked`. An alarm before the record at which the crack reaches the size of its effect counts as
+// false, and the detector restarts after it.
 MonitorPerformance monitor_performance(const Detector& detector,
                                        std::span<const HealthyLife> setting,
                                        std::span<const HealthyLife> healthy,

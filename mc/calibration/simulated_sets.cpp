@@ -113,7 +113,7 @@ class Simulator {
         signal.has_sensor = true;
         signal.sensor.resize(count);
         if (noise_by_density(scene_.study())) {
-            low_pass_noise(scene_, inputs).draw(engine, signal.sensor);
+            draw_unit_noise(scene_, inputs, engine, engine, signal.sensor);
         } else {
             signals::draw_normals(engine, std::span(signal.sensor));
         }

@@ -16,6 +16,7 @@
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/wrapped_text.hpp"
+#include "mc/lives/interpolation_choice.hpp"
 #include "mc/lives/life_rows.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"
@@ -34,6 +35,7 @@ namespace {
 struct LivesOutputs {
     std::string json, html, figures;  // "": none; JSON "-": standard output instead of the text
     bool shows_withheld = false;
+    bool prints_text = true;
 };
 
 // Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
@@ -54,18 +56,23 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
             }
         }
     }
-    if (outputs.json != "-") {
+    const std::string withheld = outputs.shows_withheld ? "" : why_withheld(study, campaign);
+    if (!outputs.prints_text && !withheld.empty()) {
+        fmt::print(stderr, "{}\n", withheld);
+    }
+    if (outputs.prints_text && outputs.json != "-") {
         fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld), kLineWidth));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
         }
     }
-    return outputs.shows_withheld || why_withheld(campaign).empty() ? kDone : kBadInput;
+    return withheld.empty() ? kDone : kBadInput;
 }
 
 // Rank 0's part of the run, after the checks. Returns the exit code.
-int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles, const Ranks& ranks,
-                        Checkpoint& checkpoint, const Interruption& interruption) {
+int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles,
+                        double interpolation_error, const Ranks& ranks, Checkpoint& checkpoint,
+                        const Interruption& interruption) {
     const RunOptions& run = options.run;
     const Study& study = tiles.scene().study();
     const BatchPlan plan = lives_plan(study);
@@ -87,16 +94,17 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles, con
                 frame.provenance.push_back(entry);
             }
             frame.provenance.emplace_back("state", "complete");
-            store_run_costs(tiles.scene(), outcome, frame);
+            store_run_costs(tiles.scene(), interpolation_error, outcome, frame);
             const StoredRows rows(checkpoint, plan, outcome.batches);
             const std::string path = results_path(run);
             write_results(path, frame, rows);
             int code = count_rows(rows, 1).failed() > 0 ? kSomeFailed : kDone;
             if (run.prints_results) {
                 const int written = write_outputs(
-                    study, frame, rows, {options.json, options.html, "", options.shows_withheld});
+                    study, frame, rows,
+                    {options.json, options.html, "", options.shows_withheld, !run.quiet});
                 code = written == kDone ? code : written;
-                if (options.json != "-") {
+                if (!run.quiet && options.json != "-") {
                     fmt::print("\nresults: {}\n", path);
                 }
             }
@@ -109,25 +117,35 @@ int run_lives_on_leader(const LivesOptions& options, const LifeTiles& tiles, con
     if (!trouble.empty()) {
         fmt::print(stderr, "{}\n", trouble);
     }
-    print_resume_hint(outcome, plan, checkpoint);
+    if (!run.quiet || !trouble.empty()) {
+        print_resume_hint(outcome, plan, checkpoint);
+    }
     return kResumable;
 }
 
-// Prepares the superposition of a study's records. Returns null after rank 0 printed a problem.
-std::unique_ptr<LifeTiles> life_tiles(const RunOptions& run, const Scene& scene,
-                                      const Ranks& ranks) {
-    try {
-        return std::make_unique<LifeTiles>(scene);
-    } catch (const SceneError& error) {
-        if (ranks.leads()) {
-            print_problems({{run.study.path, 0, error.key(), error.what(), error.remedy()}});
-        }
-    } catch (const std::exception& error) {
-        if (ranks.leads()) {
-            fmt::print(stderr, "{}\n", exception_text(error));
+// Completes the scene of lives: the numbers of torques and speeds at which gearboxes are
+// integrated. Returns the error of signals in between. A study without possible lives loses its
+// scene and gets all problems.
+double prepare_lives(const RunOptions& run, StudyScene& made) {
+    const auto refuse = [&](const SceneError& error) {
+        made.problems.push_back({run.study.path, 0, error.key(), error.what(), error.remedy()});
+    };
+    for (const SceneError& error : superposition_problems(*made.scene)) {
+        refuse(error);
+    }
+    if (made.problems.empty()) {
+        try {
+            const InterpolationChoice choice = choose_interpolation(*made.scene);
+            made.scene = std::make_unique<const Scene>(made.scene->with(choice.life));
+            return choice.error;
+        } catch (const SceneError& error) {
+            refuse(error);
+        } catch (const std::exception& error) {
+            made.problems.push_back({run.study.path, 0, "", exception_text(error), ""});
         }
     }
-    return nullptr;
+    made.scene.reset();
+    return 0.0;
 }
 
 std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study& study) {
@@ -171,8 +189,11 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(run, limit);
     const Interruption interruption(limit);
-    const StudyScene made = load_scene_on_all_ranks(ranks, run.study, interruption);
-    const std::unique_ptr<LifeTiles> tiles = made ? life_tiles(run, *made.scene, ranks) : nullptr;
+    double interpolation_error = 0.0;
+    const StudyScene made = load_scene_on_all_ranks(
+        ranks, run.study, interruption,
+        [&](StudyScene& scene) { interpolation_error = prepare_lives(run, scene); });
+    const auto tiles = made ? std::make_unique<LifeTiles>(*made.scene) : nullptr;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const FileRole study{"the study", run.study.path}, results{"--out", results_path(run)},
@@ -202,7 +223,8 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
             {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
         return std::stoi(ranks.from_leader(""));
     }
-    const int code = run_lives_on_leader(options, *tiles, ranks, *checkpoint, interruption);
+    const int code =
+        run_lives_on_leader(options, *tiles, interpolation_error, ranks, *checkpoint, interruption);
     ranks.from_leader(std::to_string(code));
     return code;
 }

@@ -281,8 +281,9 @@ void print_sensor(const Study& study) {
     }
 }
 
-bool sensor_noise(const Study& study) {
-    return sensor_noise_m_s2(study) > 0.0 || random(study, noise_key(study));
+bool has_sensor_noise(const Study& study) {
+    return sensor_noise_m_s2(study) > 0.0 || random(study, noise_key(study)) ||
+           random(study, "sensor.noise_m_s2");
 }
 bool encoder_noise(const Study& study) {
     return study.sensor.encoder_noise_rad > 0.0 || random(study, "sensor.encoder_noise_arcsec");
@@ -314,7 +315,7 @@ void print_omitted(const Scene& scene) {
     if (study.fault.kind == nullptr) {
         print_entry("fault", "fault.kind = \"none\"");
     }
-    if (!e.quasi_static() && !sensor_noise(study)) {
+    if (!e.quasi_static() && !has_sensor_noise(study)) {
         print_entry("sensor noise", fmt::format("{} is 0", noise_key(study)));
     }
     if (!encoder_noise(study)) {
@@ -357,12 +358,8 @@ void print_effects(const Scene& scene) {
     print_fault(study);
     if (!study.effects.quasi_static()) {
         print_sensor(study);
-        if (sensor_noise(study)) {
-            print_entry(
-                "sensor noise",
-                fmt::format("{:.4g} m/s^2 rms times the noise level, {}", sensor_noise_m_s2(study),
-                            noise_by_density(study) ? "white noise, filtered by the low-pass"
-                                                    : "white noise, not filtered by the low-pass"));
+        if (has_sensor_noise(study)) {
+            print_entry("sensor noise", noise_text(study));
         }
     }
     if (encoder_noise(study)) {

@@ -136,7 +136,7 @@ bool print_lives(const Scene& scene, double setup_s) {
         return false;
     }
     try {
-        print_lives_forecast(LifeTiles(scene), setup_s);
+        print_lives_forecast(scene, setup_s);
     } catch (const SceneError&) {
         return false;  // print_life() prints the reason
     }

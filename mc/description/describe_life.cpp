@@ -11,14 +11,20 @@ namespace gearpod::mc {
 namespace {
 
 // Describes how records at other torques or speeds are computed.
-std::string load_text(const RecordDistribution& law, int count) {
-    const std::vector<double> factors = law.integrated_factors(count);
+std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
+                      const std::optional<int>& nodes, double tolerance) {
+    const LoadAxis axis(law, evenly_spaced.value_or(2), nodes);
     return law.text() +
-           (factors.size() > 1
+           (axis.factors().size() > 1
                 ? fmt::format(
-                      "; records between are interpolated from solutions at {:.3g} times {}",
-                      fmt::join(factors, ", "),
-                      law.given() ? "the study's value" : "the gearbox's value")
+                      "; records between are interpolated from solutions at {:.3g} times {}{}",
+                      fmt::join(axis.factors(), ", "),
+                      law.given() ? "the study's value" : "the gearbox's value",
+                      evenly_spaced || nodes
+                          ? ""
+                          : fmt::format(", or at more if the error is above {:g} "
+                                        "(life.interpolation_tolerance)",
+                                        tolerance))
                 : "");
 }
 
@@ -66,8 +72,11 @@ void print_life(const Scene& scene) {
     }
     print_entry("random per gearbox", of_gearbox(study));
     const RecordDistributions laws(study);
-    print_entry("torque per record", load_text(laws.torque, integrated_torques(life)));
-    print_entry("speed per record", load_text(laws.speed, integrated_speeds(life)));
+    print_entry("torque per record",
+                load_text(laws.torque, life.given_torques, life.polynomial_torques,
+                          life.interpolation_tolerance));
+    print_entry("speed per record", load_text(laws.speed, life.given_speeds, life.polynomial_speeds,
+                                              life.interpolation_tolerance));
     print_entry("gain per record", laws.gain.text());
     print_entry("noise per record", laws.noise.text());
     print_entry("crack growth", growth_text(study));

@@ -12,6 +12,7 @@
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/solution_choice.hpp"
+#include "mc/lives/interpolation_choice.hpp"
 #include "mc/lives/life_rows.hpp"
 
 namespace gearpod::mc {
@@ -24,7 +25,7 @@ struct IntegratedMeshes {
 
 IntegratedMeshes meshes_of(const Scene& scene) {
     const double all = integrated_meshes(scene);
-    return {all, integrates_perturbation_only(scene) ? std::min(passage_meshes(scene), all) : all};
+    return {all, integrates_perturbation_only(scene) ? passage_meshes_of_span(scene) : all};
 }
 
 // Integration time of one tile of a batch, s.
@@ -85,9 +86,21 @@ std::string bytes_text(double bytes) {
                        : fmt::format("{:.0f} MB", bytes / 1e6);
 }
 
+// Numbers of torques and speeds with the most loads that may be chosen.
+Life most_loads(const Study& study) {
+    Life life = study.life;
+    const RecordDistributions distributions(study);
+    if (distributions.speed.varies() && !life.given_speeds && !life.polynomial_speeds) {
+        life.polynomial_speeds = kMostNodes;
+    } else if (distributions.torque.varies() && !life.given_torques && !life.polynomial_torques) {
+        life.polynomial_torques = kMostNodes;
+    }
+    return life;
+}
+
 }  // namespace
 
-LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s) {
+LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s, int pilot_loads) {
     const Scene& scene = tiles.scene();
     const Study& study = scene.study();
     const BatchPlan plan = lives_plan(study);
@@ -117,6 +130,12 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
         records_s += own_s;
         *std::ranges::min_element(busy_s) += batch_s + own_s;
     }
+    const double pilot_tiles =
+        std::ceil(static_cast<double>(kInterpolationPilots) / static_cast<double>(tiles.lanes()));
+    all.pilots_s = pilot_loads == 0
+                       ? 0.0
+                       : mesh_s * pilot_tiles * (pilot_loads * meshes.healthy + meshes.depth);
+    all.processor_s = all.pilots_s + integrating_s + records_s;
     all.gearboxes = static_cast<long>(plan.rows());
     all.records = std::lround(record_count);
     all.gearbox_s = integrating_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
@@ -127,8 +146,34 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
     return all;
 }
 
-void print_lives_forecast(const LifeTiles& tiles, double setup_s) {
-    const LivesForecast all = forecast_lives(tiles, thread_count(tiles.scene().study()), setup_s);
+void print_lives_forecast(const Scene& scene, double setup_s) {
+    constexpr double kMostPilots_s = 5.0;
+    const Life& life = scene.study().life;
+    const RecordDistributions distributions(scene.study());
+    const int axes =
+        (distributions.torque.varies() ? 1 : 0) + (distributions.speed.varies() ? 1 : 0);
+    const int threads = thread_count(scene.study());
+    // One load and five more for each quantity that varies are integrated at least.
+    const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
+    LivesForecast all = forecast_lives(LifeTiles(scene), threads, setup_s, least_loads);
+    std::string loads, most;
+    if (axes > 0 && all.pilots_s <= kMostPilots_s) {
+        const InterpolationChoice choice = choose_interpolation(scene);
+        const Scene chosen = scene.with(choice.life);
+        const LifeTiles tiles(chosen);
+        all = forecast_lives(tiles, threads, setup_s, choice.loads);
+        loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
+                            tiles.load_count(), choice.error, 1e3 * smallest_depth_m(life));
+    } else if (axes > 0) {
+        const Life largest = most_loads(scene.study());
+        const Scene chosen = scene.with(largest);
+        const LifeTiles tiles(chosen);
+        const LivesForecast upper =
+            forecast_lives(tiles, threads, setup_s, static_cast<int>(kMostLoads));
+        loads = fmt::format("at least {}, at most {}: chosen when the run starts",
+                            LifeTiles(scene).load_count(), tiles.load_count());
+        most = ", at most " + time_text(upper.total_s());
+    }
     print_heading("forecast of lives");
     print_entry("based on",
                 "the time of one mesh period, the number of mesh periods that the damping "
@@ -136,11 +181,16 @@ void print_lives_forecast(const LifeTiles& tiles, double setup_s) {
     print_entry("threads", fmt::format("{}, {}", all.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", time_text(all.setup_s));
+    if (!loads.empty()) {
+        print_entry("integrated loads", loads);
+        print_entry("pilots", time_text(all.pilots_s) + " on one thread");
+    }
     print_entry("gearboxes", fmt::format("{}, time integration {:.2g} s of processor time each",
                                          all.gearboxes, all.gearbox_s));
     print_entry("records", fmt::format("{}, superposition {:.2g} ms of processor time each",
                                        all.records, 1e3 * all.record_s));
-    print_entry("estimated time", time_text(all.total_s()));
+    print_entry("processor time", time_text(all.processor_s));
+    print_entry("estimated time", time_text(all.total_s()) + most);
     print_entry("estimated memory", bytes_text(all.memory_bytes));
     print_entry("results file",
                 bytes_text(all.file_bytes) + "; the checkpoint is as large until the run ends");

@@ -112,11 +112,6 @@ double superposition_meshes(const Scene& scene) {
            lockstep::part_meshes(part_periods(scene), run_in_meshes(scene));
 }
 
-double superposed_passages(const Scene& scene) {
-    const double span = run_in_meshes(scene) + scene.recorded_meshes();
-    return std::min(passage_meshes(scene) * span / scene.pattern().length, span);
-}
-
 }  // namespace
 
 double approach_meshes(const Scene& scene) {
@@ -132,7 +127,7 @@ Superposition superposition(const Scene& scene) {
         return {};
     }
     const double all = full_integration_meshes(scene), parts = superposition_meshes(scene);
-    return {parts < all, parts + superposed_passages(scene) < all};
+    return {parts < all, parts + passage_meshes_of_span(scene) < all};
 }
 
 double healthy_meshes(const Scene& scene) {
@@ -144,8 +139,9 @@ double healthy_meshes(const Scene& scene) {
 double integrated_meshes(const Scene& scene) {
     return scene.study().numerics.horizon == Horizon::periodic
                ? approach_meshes(scene) + passage_meshes(scene)
-           : superposition(scene).faulty ? superposition_meshes(scene) + superposed_passages(scene)
-                                         : full_integration_meshes(scene);
+           : superposition(scene).faulty
+               ? superposition_meshes(scene) + passage_meshes_of_span(scene)
+               : full_integration_meshes(scene);
 }
 
 double passage_meshes(const Scene& scene) {
@@ -156,6 +152,11 @@ double passage_meshes(const Scene& scene) {
                            approach_meshes(scene);
     return std::min(passage * static_cast<double>(scene.pattern().passages.size()),
                     static_cast<double>(scene.pattern().length));
+}
+
+double passage_meshes_of_span(const Scene& scene) {
+    const double span = run_in_meshes(scene) + scene.recorded_meshes();
+    return std::min(passage_meshes(scene) * span / scene.pattern().length, span);
 }
 
 bool records_during_integration(const Scene& scene) {

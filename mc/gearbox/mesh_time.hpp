@@ -18,6 +18,9 @@ double integrated_meshes(const Scene& scene);
 // Mesh periods that a fault changes: its passages and the decay after them.
 double passage_meshes(const Scene& scene);
 
+// Mesh periods of the run-in and the recorded span that a fault changes, all its passages included.
+double passage_meshes_of_span(const Scene& scene);
+
 // Mesh periods that a tile without a fault integrates.
 double healthy_meshes(const Scene& scene);
 

@@ -40,10 +40,13 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
                                  std::span<const double> clean,
                                  const signals::NoiseVariates& draw) {
     if (noise_by_density(scene.study())) {
-        Normals engine =
-            Normals::of_noise(scene.study(), realization.id, StreamPurpose::sensor_noise);
+        const auto normals = [&](StreamPurpose purpose) {
+            return Normals::of_noise(scene.study(), realization.id, purpose);
+        };
+        Normals engine = normals(StreamPurpose::sensor_noise),
+                white = normals(StreamPurpose::sensor_noise_direction);
         std::vector<double> unit(clean.size());
-        low_pass_noise(scene, realization.inputs).draw(engine, std::span(unit));
+        draw_unit_noise(scene, realization.inputs, engine, white, std::span(unit));
         return unit;
     }
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives

@@ -1,6 +1,8 @@
 // Signals of one gearbox at every noise level, in the form that features need.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
 #include "signals/noise/low_pass_noise.hpp"
+#include "signals/noise/normals.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
@@ -27,6 +30,23 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
 // Low-pass filter for the unit noise of a sensor whose noise is given by its spectral density.
 // Samples count as evenly spaced even if the speed fluctuates.
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
+// Draws unit noise with the spectrum of a study with a noise density: the filtered part from
+// `engine` and, if there is one, the white part from `white_engine`.
+template <class Engine, class WhiteEngine>
+void draw_unit_noise(const Scene& scene, const InstanceInputs& inputs, Engine& engine,
+                     WhiteEngine& white_engine, std::span<double> unit) {
+    low_pass_noise(scene, inputs).draw(engine, unit);
+    if (inputs.white_noise_m_s2 == 0.0) {
+        return;
+    }
+    std::vector<double> white(unit.size());
+    signals::draw_normals(white_engine, std::span(white));
+    const double share = inputs.white_noise_m_s2 / inputs.noise_m_s2;
+    const double filtered_share = std::sqrt(1.0 - std::min(1.0, share * share));
+    for (std::size_t i = 0; i < unit.size(); ++i) {
+        unit[i] = filtered_share * unit[i] + share * white[i];
+    }
+}
 // Computes samples[i] += sigma * unit[i].
 void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
 

@@ -1,7 +1,10 @@
 #include "mc/lives/campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <stdexcept>
 
 #include "mc/lives/life_rows.hpp"
@@ -12,7 +15,15 @@ namespace {
 // Names of entries in a lives file that describe the cost of its rows.
 constexpr const char *kGearboxTime = "gearboxes_processor_s", *kRecordTime = "records_processor_s",
                      *kGearboxCount = "gearboxes_computed", *kRecordCount = "records_computed",
-                     *kRecordText = "record";
+                     *kRecordText = "record", *kInterpolationError = "interpolation_error";
+
+// NaN if the file does not contain it.
+double error_in(const Results& frame) {
+    const std::string text = frame.provenance_value(kInterpolationError);
+    double error = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(text.data(), text.data() + text.size(), error);
+    return error;
+}
 
 long count_in(const Results& frame, const char* name) {
     const std::string text = frame.provenance_value(name);
@@ -58,8 +69,10 @@ EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const E
                        [&]() -> BatchComputers { return [compute] { return compute; }; });
 }
 
-void store_run_costs(const Scene& scene, const EnsembleOutcome& outcome, Results& frame) {
+void store_run_costs(const Scene& scene, double interpolation_error, const EnsembleOutcome& outcome,
+                     Results& frame) {
     frame.provenance.emplace_back(kRecordText, record_text(scene));
+    frame.provenance.emplace_back(kInterpolationError, fmt::format("{}", interpolation_error));
     const Seconds work = outcome.work();
     frame.timing.push_back({kGearboxTime, work.integration});
     frame.timing.push_back({kRecordTime, work.features});
@@ -87,6 +100,7 @@ Campaign campaign_of(const Study& study, const Results& frame, const RowSource& 
         campaign.costs.records += timing.name == kRecordTime ? timing.seconds : 0.0;
     }
     campaign.record = frame.provenance_value(kRecordText);
+    campaign.interpolation.change = error_in(frame);
     campaign.costs.gearbox_count = count_in(frame, kGearboxCount);
     campaign.costs.record_count = count_in(frame, kRecordCount);
     return campaign;
@@ -105,7 +119,7 @@ Campaign run_campaign(const Scene& scene) {
         throw std::runtime_error(outcome.failure);
     }
     Results frame = lives_frame(study);
-    store_run_costs(scene, outcome, frame);
+    store_run_costs(scene, std::numeric_limits<double>::quiet_NaN(), outcome, frame);
     return campaign_of(study, frame, StoredRows(store, plan, outcome.batches));
 }
 

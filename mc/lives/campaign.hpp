@@ -23,13 +23,15 @@ struct Campaign {
 // Runs run_batches() for lives; rows as in lives_frame(), batches as in lives_plan(). The result
 // does not depend on threads, ranks, lanes and interruptions, to the last bit.
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run);
-// Stores the description of a record and the cost of the rows in the frame.
-void store_run_costs(const Scene& scene, const EnsembleOutcome& outcome, Results& frame);
+// Stores the description of a record, the error between the integrated loads and the cost of the
+// rows in the frame.
+void store_run_costs(const Scene& scene, double interpolation_error, const EnsembleOutcome& outcome,
+                     Results& frame);
 
 // Reads a campaign from finished rows; the costs are those of the run that wrote them.
 Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows);
 
-// Simulates all lives in memory and in this process.
+// Simulates all lives in memory and in this process, with the torques and speeds of the study.
 Campaign run_campaign(const Scene& scene);
 
 }  // namespace gearpod::mc

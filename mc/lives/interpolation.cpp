@@ -69,11 +69,8 @@ void LifeTiles::InterpolationCheck::between_loads(const SignalsByLoad& healthy) 
         }
         return;
     }
-    const Life& life = tiles_.scene_.study().life;
-    for (const double torque :
-         tiles_.distributions_.torque.factors_between(integrated_torques(life))) {
-        for (const double speed :
-             tiles_.distributions_.speed.factors_between(integrated_speeds(life))) {
+    for (const double torque : tiles_.torques_.between()) {
+        for (const double speed : tiles_.speeds_.between()) {
             at_load({torque, speed}, healthy);
         }
     }

@@ -10,6 +10,7 @@
 #include "mc/lives/life_tile.hpp"
 #include "mc/lives/superposed_signals.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/noise.hpp"
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::mc {
@@ -57,7 +58,11 @@ class LifeTiles::Lane {
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
         Philox engine = gearbox_stream(study, id_, StreamPurpose::reference_noise);
-        signals::draw_normals(engine, std::span(noise_.sensor));
+        if (noise_by_density(study)) {
+            draw_unit_noise(tiles_.scene_, inputs_, engine, engine, std::span(noise_.sensor));
+        } else {
+            signals::draw_normals(engine, std::span(noise_.sensor));
+        }
         const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
                              std::sqrt(std::max(1.0, records * spans)) *
                              tiles_.distributions_.noise.rms();
@@ -155,8 +160,16 @@ class LifeTiles::Lane {
         }
         Realization own_record{record_id(id_, r, false), inputs_};
         InstanceInputs& inputs = own_record.inputs;
-        inputs.noise_m_s2 *= record.noise;
-        inputs.encoder_noise_rad *= tiles_.distributions_.sensor_noise_only ? 1.0 : record.noise;
+        if (tiles_.distributions_.sensor_noise_only) {
+            const SensorNoise noise = with_rms_factor(
+                tiles_.scene_.study(), {inputs.noise_m_s2, inputs.white_noise_m_s2}, record.noise);
+            inputs.noise_m_s2 = noise.all_m_s2;
+            inputs.white_noise_m_s2 = noise.white_m_s2;
+        } else {
+            inputs.noise_m_s2 *= record.noise;
+            inputs.white_noise_m_s2 *= record.noise;
+            inputs.encoder_noise_rad *= record.noise;
+        }
         const std::vector<std::size_t> starts = starts_of(r);
         LaneSignals own = fold_record(superposed, coefficients, starts);
         for (double& value : own.te_turn) {
@@ -211,7 +224,20 @@ class LifeTiles::Lane {
                                  static_cast<std::size_t>(span_.turns % span_.all_turns),
                                  sum.folded);
         }
+        if (noise_by_density(tiles_.scene_.study())) {
+            add_samples(superposed, coefficients, starts, sum.sensor);
+        }
         return sum;
+    }
+
+    // Appends the samples of all recordings, to which coloured noise is added one by one.
+    void add_samples(const SuperposedSignals& superposed, std::span<const double> coefficients,
+                     const std::vector<std::size_t>& starts, std::vector<double>& samples) const {
+        for (int i = 0; i < span_.recordings; ++i) {
+            superposed.append_turns(coefficients,
+                                    starts.empty() ? 0 : starts[static_cast<std::size_t>(i)],
+                                    static_cast<std::size_t>(span_.turns), samples);
+        }
     }
 
     const LifeTiles& tiles_;

@@ -5,8 +5,10 @@ namespace gearpod::mc {
 LifeTiles::LifeTiles(const Scene& scene)
     : scene_((check_superposable(scene), scene)),
       distributions_(scene.study()),
-      torques_(distributions_.torque.integrated_factors(integrated_torques(scene.study().life))),
-      speeds_(distributions_.speed.integrated_factors(integrated_speeds(scene.study().life))),
+      torques_(distributions_.torque, integrated_torques(scene.study().life),
+               scene.study().life.polynomial_torques),
+      speeds_(distributions_.speed, integrated_speeds(scene.study().life),
+              scene.study().life.polynomial_speeds),
       sampler_(study_of_gearboxes(scene.study())),
       path_(path_grid(scene)),
       crack_(scene) {}
@@ -16,11 +18,7 @@ std::size_t LifeTiles::lanes() const {
 }
 
 std::size_t LifeTiles::gap_count() const {
-    const Life& life = scene_.study().life;
-    return load_count() == 1
-               ? 0
-               : distributions_.torque.factors_between(integrated_torques(life)).size() *
-                     distributions_.speed.factors_between(integrated_speeds(life)).size();
+    return load_count() == 1 ? 0 : torques_.between().size() * speeds_.between().size();
 }
 
 Realization LifeTiles::draw(const GearboxId& id) const {
@@ -35,8 +33,8 @@ double LifeTiles::depth(int step) const {
 
 std::vector<LifeTiles::Load> LifeTiles::loads() const {
     std::vector<Load> all;
-    for (const double torque : torques_) {
-        for (const double speed : speeds_) {
+    for (const double torque : torques_.factors()) {
+        for (const double speed : speeds_.factors()) {
             all.push_back({torque, speed});
         }
     }
@@ -45,8 +43,8 @@ std::vector<LifeTiles::Load> LifeTiles::loads() const {
 
 std::vector<double> LifeTiles::load_weights(const Load& load) const {
     std::vector<double> all;
-    for (const double torque : interpolation_weights(torques_, load.torque)) {
-        for (const double speed : interpolation_weights(speeds_, load.speed)) {
+    for (const double torque : torques_.weights(load.torque)) {
+        for (const double speed : speeds_.weights(load.speed)) {
             all.push_back(torque * speed);
         }
     }

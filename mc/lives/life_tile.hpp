@@ -9,6 +9,7 @@
 
 #include "mc/gearbox/healthy_solution.hpp"
 #include "mc/lives/crack_life.hpp"
+#include "mc/lives/load_axis.hpp"
 #include "mc/lives/record_distributions.hpp"
 #include "mc/lives/record_span.hpp"
 #include "mc/results/results_file.hpp"
@@ -29,6 +30,8 @@ struct InterpolationErrors {
     double first = std::numeric_limits<double>::quiet_NaN();
     double last = std::numeric_limits<double>::quiet_NaN();
     double load = std::numeric_limits<double>::quiet_NaN();  // 0 if all records have the same load
+    // InterpolationChoice::error; NaN if the file does not contain it.
+    double change = std::numeric_limits<double>::quiet_NaN();
 
     // Takes the maximum of both for each error.
     void take(const InterpolationErrors& other);
@@ -66,10 +69,18 @@ class LifeTiles {
     // Computes all records of a gearbox from synthetic signals, and measures the time.
     RecordTimes time_records() const;
 
+    // Factors on the torque and speed of a gearbox.
+    struct Load {
+        double torque = 1.0, speed = 1.0;
+    };
+    // Healthy reference solution of the gearboxes at a load.
+    HealthySolution healthy_solution(std::span<const Realization> gearboxes,
+                                     const Load& load) const;
+
     LifeHistory history(const GearboxId& id) const;  // of a gearbox with a crack
     // Number of loads that are integrated, and number of loads between them at which interpolation
     // errors are measured.
-    std::size_t load_count() const { return torques_.size() * speeds_.size(); }
+    std::size_t load_count() const { return torques_.factors().size() * speeds_.factors().size(); }
     std::size_t gap_count() const;
 
     const Scene& scene() const { return scene_; }
@@ -81,13 +92,6 @@ class LifeTiles {
     class InterpolationCheck;
     using SignalsByLoad = std::vector<std::vector<LaneSignals>>;  // [lane][load]
     LaneSignals synthetic_signals(std::uint64_t number) const;
-    // Factors on the torque and speed of a gearbox.
-    struct Load {
-        double torque = 1.0, speed = 1.0;
-    };
-    // Healthy reference solution of the gearboxes at a load.
-    HealthySolution healthy_solution(std::span<const Realization> gearboxes,
-                                     const Load& load) const;
     double depth(int step) const;
     // Integrated loads, and interpolation weights of each of them for another load.
     std::vector<Load> loads() const;
@@ -95,8 +99,8 @@ class LifeTiles {
 
     const Scene& scene_;
     const RecordDistributions distributions_;
-    const std::vector<double> torques_, speeds_;  // factors that are integrated
-    const Sampler sampler_;                       // of study_of_gearboxes()
+    const LoadAxis torques_, speeds_;
+    const Sampler sampler_;  // of study_of_gearboxes()
     const signals::PathGrid path_;
     const CrackLife crack_;
 };

@@ -64,10 +64,11 @@ std::string record_text(const Scene& scene) {
                       teeth, record.turns, record.all_turns));
 }
 
-void check_superposable(const Scene& scene) {
+std::vector<SceneError> superposition_problems(const Scene& scene) {
     const Study& study = scene.study();
-    const auto reject = [](const char* key, const std::string& what, const char* remedy) {
-        throw SceneError(key, what, remedy);
+    std::vector<SceneError> problems;
+    const auto reject = [&](const char* key, const std::string& what, const char* remedy) {
+        problems.emplace_back(key, what, remedy);
     };
     if (!study.life.interval_h) {
         reject("life.interval_h", "missing: the time between records", "add [life]");
@@ -111,7 +112,18 @@ void check_superposable(const Scene& scene) {
                "remove them");
     }
     if (short_records) {
-        record_span(scene, nominal_inputs(study).speed_rad_s);
+        try {
+            record_span(scene, nominal_inputs(study).speed_rad_s);
+        } catch (const SceneError& error) {
+            problems.push_back(error);
+        }
+    }
+    return problems;
+}
+
+void check_superposable(const Scene& scene) {
+    if (const auto problems = superposition_problems(scene); !problems.empty()) {
+        throw problems.front();
     }
 }
 

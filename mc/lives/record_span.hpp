@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mc/scene/scene.hpp"
 
@@ -25,7 +26,9 @@ RecordSpan record_span(const Scene& scene, double speed_rad_s);
 // ...".
 std::string record_text(const Scene& scene);
 
-// Throws SceneError if the study's records cannot be superposed.
+// All reasons why the study's records cannot be superposed; empty if they can.
+std::vector<SceneError> superposition_problems(const Scene& scene);
+// Throws the first of them.
 void check_superposable(const Scene& scene);
 
 }  // namespace gearpod::mc

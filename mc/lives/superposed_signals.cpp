@@ -50,20 +50,34 @@ LaneSignals SuperposedSignals::at(std::span<const double> coefficients) const {
     return sum;
 }
 
+// The turns continue periodically.
+std::vector<double> SuperposedSignals::turn(std::span<const double> coefficients,
+                                            std::size_t number) const {
+    const std::size_t begin = number % (samples_.front().size() / bins_) * bins_;
+    std::vector<double> sum(bins_, 0.0);
+    for (std::size_t k = 0; k < count_; ++k) {
+        add(samples_[k].subspan(begin, bins_), coefficients[k], sum);
+    }
+    return sum;
+}
+
 void SuperposedSignals::add_turns(std::span<const double> coefficients, std::size_t first,
                                   std::size_t turns, std::vector<double>& folded) const {
-    const std::size_t all = samples_.front().size() / bins_;
     folded.resize(bins_, 0.0);
-    std::vector<double> turn(bins_);
     for (std::size_t i = 0; i < turns; ++i) {
-        const std::size_t begin = (first + i) % all * bins_;
-        std::ranges::fill(turn, 0.0);
-        for (std::size_t k = 0; k < count_; ++k) {
-            add(samples_[k].subspan(begin, bins_), coefficients[k], turn);
-        }
+        const std::vector<double> one = turn(coefficients, first + i);
         for (std::size_t b = 0; b < bins_; ++b) {
-            folded[b] += turn[b] * turn[b];
+            folded[b] += one[b] * one[b];
         }
+    }
+}
+
+void SuperposedSignals::append_turns(std::span<const double> coefficients, std::size_t first,
+                                     std::size_t turns, std::vector<double>& samples) const {
+    samples.reserve(samples.size() + turns * bins_);
+    for (std::size_t i = 0; i < turns; ++i) {
+        const std::vector<double> one = turn(coefficients, first + i);
+        samples.insert(samples.end(), one.begin(), one.end());
     }
 }
 

@@ -26,7 +26,13 @@ class SuperposedSignals {
     void add_turns(std::span<const double> coefficients, std::size_t first, std::size_t turns,
                    std::vector<double>& folded) const;
 
+    // Appends the samples of such turns.
+    void append_turns(std::span<const double> coefficients, std::size_t first, std::size_t turns,
+                      std::vector<double>& samples) const;
+
   private:
+    std::vector<double> turn(std::span<const double> coefficients, std::size_t number) const;
+
     std::vector<std::span<const double>> samples_;
     std::size_t bins_;
     std::size_t count_;

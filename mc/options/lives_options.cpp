@@ -22,7 +22,7 @@ void add_lives(CLI::App& app, LivesOptions& options, int& code) {
         command->add_option("--html", options.html, "write a page with figures to a file"));
     command->add_flag("--show-withheld", options.shows_withheld,
                       "report lives although their signals are interpolated too coarsely");
-    command->add_flag("--quiet", run.quiet, "show no progress");
+    command->add_flag("--quiet", run.quiet, "print problems only");
     command->callback([&options, &code] { code = lives_command(options); });
 }
 

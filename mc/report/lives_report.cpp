@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "analysis/monitoring/crack_effect.hpp"
 #include "analysis/monitoring/monitor_ranking.hpp"
 #include "analysis/report/wording.hpp"
 #include "mc/input/printable.hpp"
@@ -46,8 +47,20 @@ std::string fixed_text(double share) {
     return std::isnan(share) ? "-" : fmt::format("{:.2f}", share);
 }
 
+// "6.2 % of the signal and 8 % of what a crack of 2 mm changes"; "" if all records have the same
+// load.
+std::string load_error_text(const InterpolationErrors& off, const Life& life) {
+    std::string text = off.load > 0.0 ? percent_text(off.load) + " of the signal" : "";
+    if (off.change > 0.0) {
+        text += fmt::format("{}{} of what a crack of {} mm changes", text.empty() ? "" : " and ",
+                            percent_text(off.change), number_text(1e3 * smallest_depth_m(life)));
+    }
+    return text;
+}
+
 std::string interpolation_text(const Campaign& campaign, const Life& life) {
     const InterpolationErrors& off = campaign.interpolation;
+    const std::string load = load_error_text(off, life);
     if (std::isnan(off.first)) {
         return "";  // none of the gearboxes used for the error estimate was integrated
     }
@@ -56,10 +69,7 @@ std::string interpolation_text(const Campaign& campaign, const Life& life) {
         "effect at {} mm and {} of it at {} mm{}.",
         percent_text(off.first), number_text(1e3 * first_interpolated_m(life)),
         percent_text(off.last), number_text(1e3 * last_interpolated_m(life)),
-        off.load > 0.0 ? fmt::format("; between the integrated torques and speeds it is {} of the "
-                                     "signal",
-                                     percent_text(off.load))
-                       : "");
+        load.empty() ? "" : "; between the integrated torques and speeds it is " + load);
 }
 
 std::string best_text(const LifeMonitor& monitor, const MonitoredFeature& best) {
@@ -75,11 +85,16 @@ std::string best_text(const LifeMonitor& monitor, const MonitoredFeature& best) 
     if (!std::isnan(a.warning_50)) {
         text += fmt::format(
             ". Half of those found are found at least {} h before, 90 % at least {} "
-            "h before",
-            number_text(a.warning_50), number_text(a.warning_90));
+            "h before; alarms at cracks below {} mm, which it does not show, count as false",
+            number_text(a.warning_50), number_text(a.warning_90), number_text(1e3 * a.effect_size));
     }
     const double stated = monitor.study().monitoring.false_alarms_per_1000_h;
     const analysis::FalseAlarms& alarms = a.false_alarms;
+    const InterpolationErrors& off = monitor.campaign().interpolation;
+    if (off.load > kMostInterpolationError || off.change > kMostInterpolationError) {
+        text += ". Not reliable: signals between the integrated torques and speeds are off by " +
+                load_error_text(off, monitor.study().life);
+    }
     return text +
            (std::isnan(alarms.per_1000_h)
                 ? fmt::format(". False alarms: set to {} in 1000 h, not counted, for lack of "
@@ -124,7 +139,7 @@ Section headline(const LifeMonitor& monitor, bool shows_withheld) {
     const Study& study = monitor.study();
     const Campaign& campaign = monitor.campaign();
     Section section{"headline", "", {}};
-    const std::string withheld = shows_withheld ? "" : why_withheld(campaign);
+    const std::string withheld = shows_withheld ? "" : why_withheld(study, campaign);
     section.state("headline", !withheld.empty() ? withheld
                               : monitor.ranking().empty()
                                   ? nothing_found_text(monitor)
@@ -136,6 +151,35 @@ Section headline(const LifeMonitor& monitor, bool shows_withheld) {
                       : "");
     section.state("holds", assumptions(study, true));
     return section;
+}
+
+// Depth from which the crack has an effect on each feature.
+std::string effect_text(const LifeMonitor& monitor) {
+    std::vector<std::string> effects;
+    long alarms = 0;
+    double hours = 0.0;
+    for (const MonitoredFeature& one : monitor.results()) {
+        const analysis::MonitorPerformance& a = one.performance;
+        if (!one.best_of_feature || std::isnan(a.effect_size)) {
+            continue;
+        }
+        effects.push_back(fmt::format(
+            "{} {}", one.feature,
+            std::isinf(a.effect_size) ? "never" : number_text(1e3 * a.effect_size) + " mm"));
+        alarms += a.early_alarms;
+        hours += a.early_hours;
+    }
+    return effects.empty()
+               ? ""
+               : fmt::format(
+                     "Effect of the crack: the median or the 90 % quantile of the records has "
+                     "moved "
+                     "by {:g} standard deviations of healthy records, from these depths on: {}. "
+                     "Earlier alarms "
+                     "count as false, not as warnings: {} in {} h of cracked gearboxes, over the "
+                     "best detector of each feature.",
+                     analysis::kEffectDeviations, analysis::joined(effects), alarms,
+                     number_text(hours));
 }
 
 Section results_section(const LifeMonitor& monitor) {
@@ -164,13 +208,15 @@ Section results_section(const LifeMonitor& monitor) {
     section.add(std::move(table));
     section.state(
         "terms",
-        fmt::format("Intervals and bounds hold at {}. Found: cracks found before the tooth "
-                    "fails. By chance: the share that false alarms alone would find in "
+        fmt::format("Intervals and bounds hold at {}. Found: cracks with an alarm between their "
+                    "effect on the feature and the tooth's failure. By chance: the share that "
+                    "false alarms alone would find in "
                     "lives of the same length. Net: the share found less that. a50, a90: "
                     "crack depth at which 50 % and 90 % of the cracks are found. w50, "
                     "w90: time from the alarm to failure that 50 % and 90 % of the cracks "
                     "found exceed.",
                     percent_text(study.detection.confidence)));
+    section.state("effect", effect_text(monitor));
     for (std::size_t reason = 0; const auto& [text, names] : unranked) {
         section.state(fmt::format("unranked.{}", reason++),
                       fmt::format("Not ranked ({}): {}.", text, analysis::joined(names)));
@@ -215,16 +261,16 @@ Section basis(const LifeMonitor& monitor) {
 
 }  // namespace
 
-std::string why_withheld(const Campaign& campaign) {
-    const double off = campaign.interpolation.load;
-    return off > kMostInterpolationError
+std::string why_withheld(const Study& study, const Campaign& campaign) {
+    const InterpolationErrors& off = campaign.interpolation;
+    return off.load > kMostInterpolationError || off.change > kMostInterpolationError
                ? fmt::format(
-                     "No answer: between the integrated torques and speeds the signals are "
-                     "off by {} of the signal (at most {} is accepted). Integrate at more "
-                     "of them (life.marched_torques, life.marched_speeds), or reduce the "
-                     "scatter of the records. --show-withheld prints the results all the "
-                     "same.",
-                     percent_text(off), percent_text(kMostInterpolationError))
+                     "No answer: between the integrated torques and speeds the signals are off by "
+                     "{} (at most {} is accepted). Let more of them be integrated (remove "
+                     "life.marched_torques and life.marched_speeds, or raise "
+                     "life.integrated_torques and life.integrated_speeds), or reduce the scatter "
+                     "of the records. --show-withheld prints the results all the same.",
+                     load_error_text(off, study.life), percent_text(kMostInterpolationError))
                : "";
 }
 
@@ -262,7 +308,7 @@ std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& a
 analysis::Report lives_report(const LifeMonitor& monitor, bool shows_withheld) {
     analysis::Report report;
     report.add(headline(monitor, shows_withheld));
-    if (shows_withheld || why_withheld(monitor.campaign()).empty()) {
+    if (shows_withheld || why_withheld(monitor.study(), monitor.campaign()).empty()) {
         report.add(results_section(monitor));
     }
     report.add(basis(monitor));

@@ -19,11 +19,11 @@ std::vector<std::string> life_result_columns(const Study& study);
 std::vector<std::string> life_result_cells(const analysis::MonitorPerformance& performance,
                                            const Study& study);
 
-// Largest interpolation error between torques and speeds, as a share of the signal, with which
-// results are reported.
+// Largest interpolation error between torques and speeds, as a share of the signal and of the
+// change made by the smallest crack of interest, with which results are reported.
 inline constexpr double kMostInterpolationError = 0.1;
 // Reason why the results of a campaign are withheld: its interpolation error; or "".
-std::string why_withheld(const Campaign& campaign);
+std::string why_withheld(const Study& study, const Campaign& campaign);
 
 // Sections: headline, results and basis; without the results if they are withheld.
 // `shows_withheld`: reports them all the same.
@@ -34,6 +34,7 @@ analysis::Report lives_report(const LifeMonitor& monitor, bool shows_withheld);
 // "expected"}, "ended", "found", "share", "share_bounds", "share_by_chance",
 // "share_at_stated_rate", "net_share", "unranked" (why it has no rank), "best_of_feature",
 // "depth_50_m",
+// "effect_depth_m", "early_alarms", "early_hours",
 // "depth_50_bound_m", "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as
 // below.
 nlohmann::json life_result_json(const MonitoredFeature& monitored);
@@ -41,7 +42,7 @@ nlohmann::json life_result_json(const MonitoredFeature& monitored);
 // Returns {"kind": "lives", "title", "interval_h", "record", "baseline_records",
 // "first_depth_m", "last_depth_m", "healthy_lives": {"setting", "counting"},
 // "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m", "first",
-// "last_depth_m", "last", "load"}, "costs":
+// "last_depth_m", "last", "load", "smallest_depth_m", "change"}, "costs":
 // {"gearboxes", "gearbox_s", "records", "record_s"}, "withheld": why_withheld(), null if the
 // results are shown, "findings": findings_json() of the report,
 // "monitored": [life_result_json() with "alarm_h" (by life that did not fail)], "ranking": [indices

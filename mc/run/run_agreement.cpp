@@ -39,9 +39,14 @@ std::string rank_mismatch(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
-StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption) {
+StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption,
+                        const std::function<void(StudyScene&)>& prepare) {
     try {
-        return make_scene(options);
+        StudyScene made = make_scene(options);
+        if (made && prepare) {
+            prepare(made);
+        }
+        return made;
     } catch (const machine::Cancelled&) {
         const std::string reason = interruption.reason({});
         StudyScene none;
@@ -57,8 +62,9 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
 }  // namespace
 
 StudyScene load_scene_on_all_ranks(const Ranks& ranks, const StudyOptions& options,
-                                   const Interruption& interruption) {
-    StudyScene made = make_in_time(options, interruption);
+                                   const Interruption& interruption,
+                                   const std::function<void(StudyScene&)>& prepare) {
+    StudyScene made = make_in_time(options, interruption, prepare);
     const auto all_problems = ranks.gather(made ? "" : format(made.problems));
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
     const auto programs =

@@ -155,9 +155,11 @@ InstanceInputs instance_inputs(const InputValues& values) {
         g.kind == GearboxKind::fixed_shaft ? 0.0 : values.of(study.sensor.path_exponent);
     inputs.gain = values.of(study.sensor.gain);
     inputs.tone_level = values.of(study.sensor.tone_level);
-    inputs.noise_m_s2 =
-        sensor_noise_m_s2(study, values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
-                          values.of(study.sensor.noise_m_s2));
+    const SensorNoise noise =
+        sensor_noise(study, values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
+                     values.of(study.sensor.noise_m_s2));
+    inputs.noise_m_s2 = noise.all_m_s2;
+    inputs.white_noise_m_s2 = noise.white_m_s2;
     inputs.encoder_noise_rad = values.of(study.sensor.encoder_noise_rad);
     inputs.fault_size = study.fault.kind == nullptr
                             ? 0.0

@@ -52,7 +52,8 @@ struct InstanceInputs {
     double path_exponent;
     double gain;               // sensor's factor on the gearbox's vibration
     double tone_level;         // factor on the amplitudes of its tones
-    double noise_m_s2;         // rms
+    double noise_m_s2;         // rms of all accelerometer noise
+    double white_noise_m_s2;   // rms of the part that the low-pass does not filter
     double encoder_noise_rad;  // rms
     double fault_size;         // 0 in the threshold group and without a fault
     // Parameters of crack growth as in Life; 0 without one.

@@ -65,6 +65,12 @@ Scene Scene::with(const Numerics& numerics) const {
             most_recorded_};
 }
 
+Scene Scene::with(const Life& life) const {
+    Study study = study_;
+    study.life = life;
+    return {std::move(study), sampler_, drivetrain_, stiffness_, plan_, most_recorded_};
+}
+
 Scene Scene::recording_at_most(int meshes) const {
     return {study_, sampler_, drivetrain_, stiffness_, plan_, meshes};
 }

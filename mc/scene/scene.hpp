@@ -30,6 +30,8 @@ class Scene {
     // stiffness_tolerance or face_slices; the plan is shared if only settle_tolerance differs.
     // Throws SceneError.
     Scene with(const Numerics& numerics) const;
+    // The same scene with another [life].
+    Scene with(const Life& life) const;
     // The same scene with at most this many recorded mesh periods, which the signal repeats. Used
     // to measure the cost of time integration.
     Scene recording_at_most(int meshes) const;

@@ -30,6 +30,12 @@ struct Life {
     // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
     // by default two. Signals between them are interpolated.
     std::optional<int> given_torques, given_speeds;
+    // The same with nodes of one polynomial, which converges faster (load_axis.hpp).
+    std::optional<int> polynomial_torques, polynomial_speeds;
+    // Largest error of signals between them, relative to the change made by the smallest crack of
+    // interest. Numbers that are not given are raised until pilots keep it.
+    double interpolation_tolerance = 0.1;
+    std::optional<double> smallest_depth_m;  // by default half the last depth
     // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
     // meets every tooth of the ring once. A record averages `recordings` recordings.
     std::optional<double> record_s, record_turns;
@@ -42,6 +48,10 @@ inline int integrated_torques(const Life& life) {
 }
 inline int integrated_speeds(const Life& life) {
     return life.given_speeds.value_or(2);
+}
+// Smallest crack of interest. Precondition: the last depth is given.
+inline double smallest_depth_m(const Life& life) {
+    return life.smallest_depth_m.value_or(0.5 * *life.last_depth_m);
 }
 // Depth of the crack at the start of a life.
 double crack_begin_m(const Life& life);

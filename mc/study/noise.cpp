@@ -1,5 +1,8 @@
 #include "mc/study/noise.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "signals/noise/low_pass_noise.hpp"
@@ -10,17 +13,54 @@ bool noise_by_density(const Study& study) {
     return study.sensor.noise_density_m_s2_per_sqrt_Hz.has_value();
 }
 
-double sensor_noise_m_s2(const Study& study) {
-    const Sensor& s = study.sensor;
-    return sensor_noise_m_s2(study, s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2);
+SensorNoise sensor_noise(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
+                         double rms_m_s2) {
+    const double step_m_s2 = study.sensor.quantisation_m_s2;
+    SensorNoise noise;
+    noise.white_m_s2 =
+        step_m_s2 > 0.0 ? std::hypot(rms_m_s2, step_m_s2 / std::sqrt(12.0)) : rms_m_s2;
+    const double filtered_m_s2 =
+        density_m_s2_per_sqrt_Hz.value_or(0.0) *
+        std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz));
+    noise.all_m_s2 = !density_m_s2_per_sqrt_Hz ? noise.white_m_s2
+                     : noise.white_m_s2 == 0.0 ? filtered_m_s2
+                                               : std::hypot(filtered_m_s2, noise.white_m_s2);
+    return noise;
 }
 
-double sensor_noise_m_s2(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
-                         double rms_m_s2) {
-    return density_m_s2_per_sqrt_Hz
-               ? *density_m_s2_per_sqrt_Hz *
-                     std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz))
-               : rms_m_s2;
+double sensor_noise_m_s2(const Study& study) {
+    const Sensor& s = study.sensor;
+    return sensor_noise(study, s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2).all_m_s2;
+}
+
+std::string noise_text(const Study& study) {
+    const Sensor& s = study.sensor;
+    const bool filtered = noise_by_density(study);
+    std::string text =
+        fmt::format("{:.4g} m/s^2 rms times the noise level", sensor_noise_m_s2(study));
+    if (s.quantisation_m_s2 == 0.0 && (!filtered || s.noise_m_s2 == 0.0)) {
+        return text + (filtered ? ", white noise, filtered by the low-pass"
+                                : ", white noise, not filtered by the low-pass");
+    }
+    text += ", in quadrature:";
+    if (filtered) {
+        text += fmt::format(" {:.4g} filtered by the low-pass,",
+                            *s.noise_density_m_s2_per_sqrt_Hz *
+                                std::sqrt(signals::low_pass_noise_bandwidth_Hz(s.low_pass_Hz)));
+    }
+    return text + fmt::format(" {:.4g} white, {:.4g} by quantisation", s.noise_m_s2,
+                              s.quantisation_m_s2 / std::sqrt(12.0));
+}
+
+SensorNoise with_rms_factor(const Study& study, const SensorNoise& noise, double factor) {
+    const double rounding = study.sensor.quantisation_m_s2 / std::sqrt(12.0);
+    if (rounding == 0.0 && noise.all_m_s2 == noise.white_m_s2) {
+        return {noise.all_m_s2 * factor, noise.white_m_s2 * factor};
+    }
+    const double other = noise.all_m_s2 * noise.all_m_s2 - noise.white_m_s2 * noise.white_m_s2,
+                 rms = noise.white_m_s2 * noise.white_m_s2 - rounding * rounding,
+                 white = rms * factor * factor + rounding * rounding;
+    return {std::sqrt(std::max(0.0, other) + white), std::sqrt(white)};
 }
 
 const char* noise_key(const Study& study) {

@@ -1,22 +1,34 @@
-// Accelerometer noise of a study, given by its rms or by its density.
+// Accelerometer noise of a study. Three independent parts add in quadrature: noise by its density,
+// which the low-pass filters, white noise by its rms, and the rounding of the converter.
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// True if the noise is given by its density before the low-pass, nominal or random, and not by its
-// rms.
+// True if a part is given by its density before the low-pass, nominal or random.
 bool noise_by_density(const Study& study);
 
-// Standard deviation of every sample, m/s^2: nominal, or of a gearbox with these values.
-double sensor_noise_m_s2(const Study& study);
-double sensor_noise_m_s2(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
+// Standard deviation of every sample, m/s^2: of all parts, and of those that are white.
+struct SensorNoise {
+    double all_m_s2 = 0.0, white_m_s2 = 0.0;
+};
+// Noise of a gearbox with these values. Rounding to steps of q has the variance q^2 / 12 (W. R.
+// Bennett, Bell Syst. Tech. J. 27 (1948), 446-472), if the signal spans several steps.
+SensorNoise sensor_noise(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
                          double rms_m_s2);
+// The same noise with a factor on the rms of its white part without the quantisation.
+SensorNoise with_rms_factor(const Study& study, const SensorNoise& noise, double factor);
+// Nominal standard deviation of every sample, m/s^2.
+double sensor_noise_m_s2(const Study& study);
 
-// Key that gives the noise: "sensor.noise_m_s2", or that of the density.
+// Text of the nominal noise: the rms, and if several parts add in quadrature, each of them.
+std::string noise_text(const Study& study);
+
+// Key that gives the noise: that of the density, or without one "sensor.noise_m_s2".
 const char* noise_key(const Study& study);
 
 }  // namespace gearpod::mc

@@ -250,7 +250,8 @@ struct Sensor {
     double path_exponent = 0.1;
     double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
-    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // instead; low-pass filtered
+    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered
+    double quantisation_m_s2 = 0.0;  // step of the analogue-to-digital converter
     std::vector<Tone> tones;
     double tone_level = 1.0;  // factor on the amplitudes of all tones
     double encoder_sampling_Hz = 0.0;

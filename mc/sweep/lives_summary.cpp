@@ -58,7 +58,7 @@ LivesPoint summarise_life_point(const SweepPoint& point, const std::string& resu
     const LifeMonitor monitor(summary.study, campaign);
     summary.monitored = monitor.results();
     summary.ranking = monitor.ranking();
-    if (const std::string withheld = why_withheld(campaign); !withheld.empty()) {
+    if (const std::string withheld = why_withheld(summary.study, campaign); !withheld.empty()) {
         summary.ranking.clear();
         for (MonitoredFeature& one : summary.monitored) {
             one.unranked = withheld;
@@ -361,7 +361,8 @@ nlohmann::json lives_sweep_json(const LivesSweep& sweep) {
                  {"interpolation",
                   {{"first", analysis::number(off.first)},
                    {"last", analysis::number(off.last)},
-                   {"load", analysis::number(off.load)}}},
+                   {"load", analysis::number(off.load)},
+                   {"change", analysis::number(off.change)}}},
                  {"monitored", Json::array()},
                  {"ranking", point.ranking}};
         for (std::size_t k = 0; k < sweep.keys.size(); ++k) {

@@ -35,6 +35,7 @@ void check_curve(StudyDraft& draft) {
 }
 
 void check_loads(StudyDraft& draft) {
+    using namespace std::string_literals;
     const Study& study = draft.study;
     const Life& life = study.life;
     const auto check = [&](const char* key, const std::optional<int>& given_count,
@@ -42,10 +43,16 @@ void check_loads(StudyDraft& draft) {
         const bool by_law = std::ranges::any_of(study.random, [&](const RandomInput& input) {
             return input.distribution.per_record() && record_quantity(input.key) == quantity;
         });
-        if (given_count && scatter == 0.0 && !by_law) {
+        const std::optional<int>& nodes =
+            quantity == RecordQuantity::torque ? life.polynomial_torques : life.polynomial_speeds;
+        const std::string name = (nodes ? "life.integrated_" : "life.marched_") + (key + "s"s);
+        if (given_count && nodes) {
+            draft.reject(name, fmt::format("conflicts with life.marched_{}s", key),
+                         "remove one of them");
+        }
+        if ((given_count || nodes) && scatter == 0.0 && !by_law) {
             draft.reject(
-                std::string("life.marched_") + key + "s",
-                fmt::format("all records have the same {}, so nothing is interpolated", key),
+                name, fmt::format("all records have the same {}, so nothing is interpolated", key),
                 fmt::format("remove it, or let the records' {0} vary (life.{0}_scatter)", key));
         }
     };
@@ -84,15 +91,65 @@ void check_watch(StudyDraft& draft) {
     }
 }
 
+// Checks that do not concern the crack.
+void check_records_of_lives(StudyDraft& draft) {
+    const Study& study = draft.study;
+    const Life& life = study.life;
+    check_loads(draft);
+    if (draft.all_usable({"monitoring.baseline_records", "monitoring.false_alarms_per_1000_h"})) {
+        check_watch(draft);
+    }
+    if (life.record_s && life.record_turns) {
+        draft.reject("life.record_turns",
+                     "conflicts with record_s (both give the length of a recording)",
+                     "remove one of them");
+    }
+    if (study.ensemble.threshold_records > 1) {
+        draft.reject("ensemble.threshold_records", "is not allowed with life.interval_h",
+                     "remove it; life.records is the number of records of a life");
+    }
+    if (draft.all_usable({"life.records", "monitoring.baseline_records"}) &&
+        life.records <= study.monitoring.baseline_records) {
+        draft.reject("life.records",
+                     fmt::format("{} is not above monitoring.baseline_records, {}", life.records,
+                                 study.monitoring.baseline_records),
+                     "raise records");
+    }
+}
+
+// Precondition: the last depth is given.
+void check_depths(StudyDraft& draft) {
+    const Life& life = draft.study.life;
+    check_curve(draft);
+    const bool begins =
+        life.curve_h.empty() ? life.first_depth_m.has_value() : !life.curve_depth_m.empty();
+    if (begins &&
+        draft.all_usable({"life.first_depth_mm", "life.curve_h", "life.curve_depth_mm"}) &&
+        crack_begin_m(life) >= *life.last_depth_m) {
+        draft.reject(life.curve_h.empty() ? "life.first_depth_mm" : "life.curve_depth_mm",
+                     fmt::format("{:g} mm is not below last_depth_mm, {:g} mm",
+                                 1e3 * crack_begin_m(life), 1e3 * *life.last_depth_m),
+                     "begin with a shallower crack");
+    }
+    if (smallest_depth_m(life) > *life.last_depth_m) {
+        draft.reject("life.smallest_depth_mm",
+                     fmt::format("{:g} mm is above last_depth_mm, {:g} mm",
+                                 1e3 * *life.smallest_depth_m, 1e3 * *life.last_depth_m),
+                     "give a depth that a crack reaches in its life");
+    }
+}
+
 }  // namespace
 
-// Runs only on a study without other problems, whose fault and teeth are valid.
 void check_life(StudyDraft& draft) {
     const Study& study = draft.study;
     const Life& life = study.life;
-    if (!draft.problems.empty() || !life.interval_h) {
+    if (!life.interval_h || !draft.usable("life.interval_h")) {
         return;
     }
+    // The geometry can be used only if there is no other problem.
+    const bool sound = draft.problems.empty();
+    check_records_of_lives(draft);
     if (study.fault.kind == nullptr || study.fault.kind->name() != "crack") {
         draft.reject("life.interval_h", "needs a crack that grows, but the fault is not a crack",
                      "use kind = \"crack\" in [fault]");
@@ -103,36 +160,20 @@ void check_life(StudyDraft& draft) {
                      "needs a crack in an external tooth (crack growth is not modelled in the "
                      "ring: fault.member)",
                      "use member = \"planet\" or \"sun\"");
+        return;
     }
-    check_curve(draft);
-    check_loads(draft);
-    check_watch(draft);
-    if (draft.problems.empty() && crack_begin_m(life) >= *life.last_depth_m) {
-        draft.reject(life.curve_h.empty() ? "life.first_depth_mm" : "life.curve_depth_mm",
-                     fmt::format("{:g} mm is not below last_depth_mm, {:g} mm",
-                                 1e3 * crack_begin_m(life), 1e3 * *life.last_depth_m),
-                     "begin with a shallower crack");
+    if (!life.last_depth_m || !draft.usable("life.last_depth_mm")) {
+        return;
     }
-    if (life.record_s && life.record_turns) {
-        draft.reject("life.record_turns",
-                     "conflicts with record_s (both give the length of a recording)",
-                     "remove one of them");
+    check_depths(draft);
+    if (!sound) {
+        return;
     }
     const double largest = max_crack_depth_m(study);
     if (*life.last_depth_m >= largest) {
         draft.reject("life.last_depth_mm",
                      fmt::format("{:g} mm cuts through the tooth", 1e3 * *life.last_depth_m),
                      fmt::format("give a value below {:.6g} mm", rounded_down(1e3 * largest)));
-    }
-    if (study.ensemble.threshold_records > 1) {
-        draft.reject("ensemble.threshold_records", "is not allowed with life.interval_h",
-                     "remove it; life.records is the number of records of a life");
-    }
-    if (life.records <= study.monitoring.baseline_records) {
-        draft.reject("life.records",
-                     fmt::format("{} is not above monitoring.baseline_records, {}", life.records,
-                                 study.monitoring.baseline_records),
-                     "raise records");
     }
 }
 

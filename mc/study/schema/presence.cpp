@@ -323,23 +323,6 @@ Presence with_tones(const Study& s) {
                : acceleration_detail(s);
 }
 
-Presence noise_rms(const Study& s) {
-    constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
-    return s.sensor.noise_density_m_s2_per_sqrt_Hz
-               ? Presence{Need::forbidden,
-                          "noise_density_m_s2_per_sqrt_Hz gives the accelerometer's noise",
-                          {kDensity, kMotion}}
-               : acceleration_detail(s);
-}
-
-Presence noise_density(const Study& s) {
-    return s.life.interval_h ? Presence{Need::forbidden,
-                                        "the records of a life have white noise, given by "
-                                        "sensor.noise_m_s2: life.interval_h",
-                                        {"life.interval_h", kMotion}}
-                             : acceleration_detail(s);
-}
-
 Presence white_records(const Study& s) {
     constexpr std::string_view kRecords = "ensemble.threshold_records";
     if (s.ensemble.threshold_records == 1) {

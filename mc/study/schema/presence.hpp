@@ -75,8 +75,6 @@ Presence inertia_over_r2(const Study&);  // required where no disc can be assume
 Presence bearing(const Study&);          // unless the motion is torsional
 
 Presence acceleration(const Study&);  // required unless the motion is quasi-static
-Presence noise_rms(const Study&);     // forbidden with the noise density
-Presence noise_density(const Study&);
 Presence white_records(const Study&);        // only with several records, of white noise
 Presence acceleration_detail(const Study&);  // forbidden if the motion is quasi-static
 Presence integration(const Study&);          // forbidden if nothing is integrated in time

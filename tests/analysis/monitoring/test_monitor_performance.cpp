@@ -63,7 +63,7 @@ TEST_CASE("Detection, depth and warning time are those of the first alarm after 
     CHECK(got.warning_90 == 4.0);
 }
 
-TEST_CASE("The share of detections by chance equals the detections on uninformative records") {
+TEST_CASE("The share by chance is that of alarms among independent records") {
     // The records are independent and normal: at least one of n alarms with 1 - (1 - p)^n.
     std::mt19937_64 engine(12);
     std::normal_distribution<double> normal;
@@ -76,16 +76,27 @@ TEST_CASE("The share of detections by chance equals the detections on uninformat
         return all;
     };
     const auto setting = draw(400, 100), further = draw(1600, 100);
-    std::vector<CrackedLife> blind;
-    for (const HealthyLife& life : draw(1600, 50)) {  // a crack without effect
+    std::vector<CrackedLife> visible, blind;
+    for (const HealthyLife& life : draw(1600, 50)) {
         blind.push_back({life.values, std::vector<double>(50), std::vector<double>(50), 20, 50.0});
+        visible.push_back(blind.back());
+        for (double& value : visible.back().values) {
+            value += 2.0;
+        }
     }
     const auto got =
-        monitor_performance(*parse_detector("single"), setting, further, blind, 20.0, 0.95);
+        monitor_performance(*parse_detector("single"), setting, further, visible, 20.0, 0.95);
     const double expected = 1.0 - std::pow(1.0 - 0.02, 30.0);
     // The share among 1600 lives has a standard deviation of 0.012.
     CHECK(got.share_by_chance == Approx(expected).margin(0.06));
-    CHECK(got.share == Approx(got.share_by_chance).margin(0.06));
+    CHECK(got.share > got.share_by_chance);
+    // Alarms on a crack without effect are all false.
+    const auto none =
+        monitor_performance(*parse_detector("single"), setting, further, blind, 20.0, 0.95);
+    CHECK(none.found == 0);
+    CHECK(none.share_by_chance == 0.0);
+    CHECK(static_cast<double>(none.early_alarms) == Approx(1600 * 30 * 0.02).margin(0.06 * 1600));
+    CHECK(none.early_hours == 1600 * 50.0);  // from record 20, at 0 h, to the end
 }
 
 TEST_CASE("A quantile's bound has its nominal coverage") {

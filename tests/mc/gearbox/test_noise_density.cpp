@@ -152,13 +152,49 @@ TEST_CASE("A run with noise by density has the same bits for any lanes and threa
     CHECK(bits(folder.file("a.h5")) == bits(folder.file("b.h5")));
 }
 
-TEST_CASE("A study gives its noise either by rms or by density") {
+TEST_CASE("Noise by density, by rms and by quantisation adds in quadrature") {
+    const Folder folder;
+    const auto study = mc::read_study(kSmall).study;
+    REQUIRE(study);
+    const double low_pass = study->sensor.low_pass_Hz, sampling = study->sensor.sampling_Hz;
+    // The white parts have 240 of 280 Hz below twice the low-pass, or all of them.
+    const double bandwidth = low_pass * (M_PI / 8.0) / std::sin(M_PI / 8.0);
+    const std::string density = by_density(folder, "0.01");
+    const double filtered = 1e-4 * bandwidth, white = 0.09, rounding = 0.36 / 12.0;
+    const auto rms_with = [&](const std::string& options) {
+        return noise_of(density, options, folder.file("s.csv"), low_pass).rms;
+    };
+    const std::string background = " --set sensor.noise_m_s2=0.3",
+                      steps = " --set sensor.quantisation_m_s2=0.6";
+    CHECK(rms_with(background) == Approx(std::sqrt(filtered + white)).epsilon(0.05));
+    CHECK(rms_with(steps) == Approx(std::sqrt(filtered + rounding)).epsilon(0.05));
+    CHECK(rms_with(background + steps) ==
+          Approx(std::sqrt(filtered + white + rounding)).epsilon(0.05));
+    const double own = study->sensor.noise_m_s2;
+    CHECK(noise_of(kSmall, steps, folder.file("w.csv"), low_pass).rms ==
+          Approx(std::sqrt(own * own + rounding)).epsilon(0.05));
+    // The parts keep their spectra: only the white one lies above twice the low-pass.
+    const Noise wide = noise_of(
+        density, background + " --set sensor.sampling_Hz=" + std::to_string(4.0 * sampling),
+        folder.file("f.csv"), low_pass);
+    CHECK(wide.below ==
+          Approx((filtered + white * 2.0 * low_pass / (2.0 * sampling)) / (filtered + white))
+              .epsilon(0.05));
+}
+
+TEST_CASE("A study may give its noise by rms and by density") {
     using tests::example_with;
     const auto read = [](const std::string& text) { return mc::read_study_text(text, "s.toml"); };
     const std::string rms = "noise_m_s2 = 0.3", density = "noise_density_m_s2_per_sqrt_Hz = 0.01";
     const auto both = read(example_with(rms, rms + "\n" + density));
-    REQUIRE(both.problems.size() == 1);
-    CHECK(both.problems[0].key == "sensor.noise_m_s2");
+    REQUIRE(both.study);
+    CHECK(mc::sensor_noise_m_s2(*both.study) ==
+          Approx(std::hypot(0.3, 0.01 * std::sqrt(1.0261721529 * 800.0))));
+    // A factor on the rms leaves the other parts alone.
+    const mc::SensorNoise scaled =
+        mc::with_rms_factor(*both.study, mc::sensor_noise(*both.study, 0.01, 0.3), 2.0);
+    CHECK(scaled.white_m_s2 == Approx(0.6));
+    CHECK(scaled.all_m_s2 == Approx(std::hypot(0.6, 0.01 * std::sqrt(1.0261721529 * 800.0))));
 
     const auto one = read(example_with(rms, density));
     REQUIRE(one.study);

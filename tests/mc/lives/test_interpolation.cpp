@@ -1,0 +1,155 @@
+// Checks the interpolation of signals between integrated torques and speeds, and how their numbers
+// are chosen.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "mc/lives/interpolation_choice.hpp"
+#include "tests/mc/lives/life_example.hpp"
+
+namespace test_interpolation {
+
+using namespace gearpod;
+using namespace gearpod::test;
+
+namespace {
+
+const std::vector<std::string> kVarying{"life.torque_scatter=0.05", "life.speed_scatter=0.02",
+                                        "ensemble.instances=8"};
+
+mc::Study varying(std::vector<std::string> more) {
+    more.insert(more.begin(), kVarying.begin(), kVarying.end());
+    return life_study(more);
+}
+
+double interpolated(const mc::LoadAxis& axis, double factor, const auto& function) {
+    const std::vector<double> weights = axis.weights(factor);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        sum += weights[i] * function(axis.factors()[i]);
+    }
+    return sum;
+}
+
+TEST_CASE("Leja nodes are nested, and the fourth lies where x (1 - x^2) is largest") {
+    CHECK(mc::leja_nodes(3) == std::vector<double>{0.0, 1.0, -1.0});
+    const auto five = mc::leja_nodes(5), nine = mc::leja_nodes(9);
+    CHECK(five[3] == Approx(1.0 / std::sqrt(3.0)).epsilon(1e-3));
+    CHECK(five[4] == -five[3]);
+    CHECK(std::equal(five.begin(), five.end(), nine.begin()));
+}
+
+TEST_CASE("A polynomial axis reproduces polynomials and continues them as a line") {
+    const mc::RecordDistribution law(life_study(), mc::RecordQuantity::speed, 0.02);
+    const mc::LoadAxis axis(law, 2, 5);
+    REQUIRE(axis.factors().size() == 5);
+    CHECK(axis.factors().front() == Approx(std::exp(-0.05)));
+    CHECK(axis.factors().back() == Approx(std::exp(0.05)));
+    const auto quartic = [](double x) { return 1.0 + x * (2.0 - x * (3.0 - x * (1.0 + x))); };
+    for (const double factor : {0.96, 0.99, 1.0, 1.013, 1.05}) {
+        CHECK(interpolated(axis, factor, quartic) == Approx(quartic(factor)).epsilon(1e-10));
+        const auto weights = axis.weights(factor);
+        CHECK(std::accumulate(weights.begin(), weights.end(), 0.0) == Approx(1.0));
+    }
+    const double end = axis.factors().back();
+    const double slope = 2.0 - end * (6.0 - end * (3.0 + 4.0 * end));
+    CHECK(interpolated(axis, end + 0.02, quartic) ==
+          Approx(quartic(end) + 0.02 * slope).epsilon(1e-9));
+    // A resonance of 3 % damping: more nodes converge geometrically.
+    const auto resonance = [](double x) { return 1.0 / std::hypot(1.0 - x * x, 2.0 * 0.03 * x); };
+    double last = 1e9;
+    for (const int nodes : {5, 9, 13, 17}) {
+        const mc::LoadAxis finer(law, 2, nodes);
+        double worst = 0.0;
+        for (const double check : finer.checks()) {
+            worst = std::fmax(worst,
+                              std::abs(interpolated(finer, check, resonance) - resonance(check)));
+        }
+        CHECK(worst < 0.5 * last);
+        last = worst;
+    }
+}
+
+TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept") {
+    const mc::Scene scene(varying({}));
+    const auto choice = mc::choose_interpolation(scene);
+    CHECK(choice.error <= 0.1);
+    // A gearbox that keeps contact is linear in its torque.
+    CHECK_FALSE(choice.life.polynomial_torques);
+    REQUIRE(choice.life.polynomial_speeds);
+    const auto finer =
+        mc::choose_interpolation(mc::Scene(varying({"life.interpolation_tolerance=0.001"})));
+    CHECK(finer.error < choice.error);
+    CHECK(finer.life.polynomial_speeds > choice.life.polynomial_speeds);
+    // A smaller crack changes less.
+    const auto small = mc::choose_interpolation(mc::Scene(varying({"life.smallest_depth_mm=0.5"})));
+    CHECK(small.life.polynomial_speeds >= choice.life.polynomial_speeds);
+    // Numbers that are given stay, and the same bits result for any lanes.
+    const auto given = mc::choose_interpolation(
+        mc::Scene(varying({"life.marched_torques=2", "life.marched_speeds=3"})));
+    CHECK(given.life == varying({"life.marched_torques=2", "life.marched_speeds=3"}).life);
+    CHECK(given.error > 0.1);
+    CHECK(mc::choose_interpolation(mc::Scene(varying({"numerics.lanes=1"}))).error == choice.error);
+    CHECK(mc::choose_interpolation(mc::Scene(life_study())).error == 0.0);
+}
+
+using Samples = std::vector<double>;
+
+double rms_of(const Samples& samples) {
+    return std::sqrt(std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.0) /
+                     static_cast<double>(samples.size()));
+}
+
+TEST_CASE("Records at random loads are off by no more than stated in 95 % of 200 trials") {
+    const mc::Study study = varying({});
+    const mc::Scene scene(study);
+    const auto choice = mc::choose_interpolation(scene);
+    const mc::RecordDistributions laws(study);
+    const mc::LoadAxis torques(laws.torque, 2, choice.life.polynomial_torques),
+        speeds(laws.speed, 2, choice.life.polynomial_speeds);
+    const mc::LifeTiles tiles(scene);
+    std::mt19937_64 engine(46);
+    std::normal_distribution<double> normal;
+    constexpr int kGearboxes = 10, kTrials = 20;
+    int within = 0;
+    for (std::uint64_t g = 0; g < kGearboxes; ++g) {
+        // Gearboxes that were no pilots.
+        const std::vector gearbox{tiles.draw({mc::Group::graded, 100 + g})};
+        const auto signal = [&](double torque, double speed) {
+            return tiles.healthy_solution(gearbox, {torque, speed}).healthy().lane[0].sensor;
+        };
+        const mc::HealthySolution own = tiles.healthy_solution(gearbox, {});
+        Samples change = own.with_fault(mc::smallest_depth_m(study.life)).lane[0].sensor;
+        for (std::size_t i = 0; i < change.size(); ++i) {
+            change[i] -= own.healthy().lane[0].sensor[i];
+        }
+        std::vector<Samples> nodes;
+        for (const double torque : torques.factors()) {
+            for (const double speed : speeds.factors()) {
+                nodes.push_back(signal(torque, speed));
+            }
+        }
+        for (int trial = 0; trial < kTrials; ++trial) {
+            const double torque = laws.torque.factor(normal(engine)),
+                         speed = laws.speed.factor(normal(engine));
+            Samples miss = signal(torque, speed);
+            std::size_t node = 0;
+            for (const double of_torque : torques.weights(torque)) {
+                for (const double of_speed : speeds.weights(speed)) {
+                    for (std::size_t i = 0; i < miss.size(); ++i) {
+                        miss[i] -= of_torque * of_speed * nodes[node][i];
+                    }
+                    ++node;
+                }
+            }
+            within += rms_of(miss) <= choice.error * rms_of(change) ? 1 : 0;
+        }
+    }
+    CHECK(within >= 190);
+}
+
+}  // namespace
+
+}  // namespace test_interpolation
