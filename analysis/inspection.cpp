@@ -260,8 +260,20 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
     pod_request.tested = "values of flaws";
     pod_request.simulated_tables = request.simulated_tables;
     result.signal_response = signal_response_pod(data.size, data.value, pod_request);
-    if (result.signal_response.refusal.empty()) {
+    const SignalResponsePod& pod = result.signal_response;
+    if (pod.refusal.empty()) {
         add_trade_off(pod_request, responses, request, result);
+    } else if (!pod.candidates.empty() && !request.accept_failed_checks &&
+               request.convention == BoundConvention::calibrated && !request.limits.any()) {
+        ResponseRows rows;
+        for (std::size_t i = 0; i < data.size.size(); ++i) {
+            if (data.size[i] > 0.0) {
+                rows.size.push_back(data.size[i]);
+                rows.value.push_back(data.value[i]);
+                rows.specimen.push_back(data.specimen[i]);
+            }
+        }
+        result.smooth.emplace(rows, result.threshold, request.alarm, request.confidence);
     }
 }
 

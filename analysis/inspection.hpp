@@ -9,6 +9,7 @@
 
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
+#include "analysis/smooth_response.hpp"
 #include "analysis/statistics/noise_distribution.hpp"
 
 namespace gearpod::analysis {
@@ -62,6 +63,9 @@ struct InspectionResult {
     bool once_per_specimen = false;  // the table divides specimens over their repeats
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
+    // Of responses of which no line passes the checks, with default bounds and without censored
+    // values.
+    std::optional<SmoothResponse> smooth;
     double threshold = 0.0;                // for responses
     long without_flaw = 0;                 // number of values of size 0
     long false_calls = 0;                  // number of hits among them

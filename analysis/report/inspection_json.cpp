@@ -40,6 +40,14 @@ Json responses_of(const InspectionResult& result) {
                                {"coverage", number(pod.growing_coverage)}};
     json["smallest"] = pod.band.empty() ? Json(nullptr) : number(pod.band.front().size);
     json["largest"] = pod.band.empty() ? Json(nullptr) : number(pod.band.back().size);
+    json["smooth"] = nullptr;
+    if (result.smooth && result.smooth->refusal().empty()) {
+        const SmoothResponse& smooth = *result.smooth;
+        json["smooth"] = {
+            {"a50", to_json(smooth.a50())},      {"a90", to_json(smooth.a90())},
+            {"smallest", smooth.smallest()},     {"largest", smooth.largest()},
+            {"scatter_growth", smooth.growth()}, {"correlation", smooth.correlation()}};
+    }
     if (pod.refusal.empty()) {
         add_curve(json, pod.curve.location, pod.curve.scale, pod.curve.covariance);
         json["model"] = pod.candidates[pod.chosen].scale.text();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/measured_coverage.hpp"
 #include "analysis/pod/cluster_effect.hpp"
 #include "analysis/report/wording.hpp"
 
@@ -56,6 +57,41 @@ FittedCurve curve_of(const SignalResponsePod& pod) {
             pod.simulated_coverage};
 }
 
+FittedCurve curve_of(const SmoothResponse& smooth) {
+    static const std::string none;
+    static const BoundRule calibrated{BoundMethod::calibrated, 0.0};
+    static const Eigen::Matrix2d unknown = Eigen::Matrix2d::Constant(kNan);
+    return {none,       smooth.a50(), smooth.a90(), smooth.smallest(), smooth.largest(),
+            calibrated, kNan,         kNan,         unknown,           false,
+            kNan};
+}
+
+FittedCurve curve_of(const InspectionRequest& request, const InspectionResult& result) {
+    return !request.responses  ? curve_of(result.hit_miss)
+           : is_smooth(result) ? curve_of(*result.smooth)
+                               : curve_of(result.signal_response);
+}
+
+// Measured coverage of default bounds of tables of the same kind, or "".
+std::string measured_text(const InspectionRequest& request, const InspectionResult& result) {
+    if (request.convention != BoundConvention::calibrated || request.confidence != 0.95) {
+        return "";
+    }
+    const MeasuredCoverage* row =
+        measured_coverage(kind_of_table(request, result), result.specimens);
+    const MeasuredCoverage* never = measured_coverage(kCeiling85, result.specimens);
+    return fmt::format(
+               "In tables of known truth ({}, {} specimens), such upper and lower bounds held a90 "
+               "in {} and {} %.",
+               row->kind, row->specimens, number_text(row->upper_per_cent, 3),
+               number_text(row->lower_per_cent, 3)) +
+           (request.responses || result.repeats > 0
+                ? ""
+                : fmt::format(" Where the POD levelled off at 85 %, {} % of tables of {} specimens "
+                              "stated a bound although there is no a90.",
+                              number_text(100.0 - never->upper_per_cent, 3), never->specimens));
+}
+
 std::string size_text(const SizeEstimate& estimate, const FittedCurve& curve,
                       const SizeUnit& unit) {
     return size_estimate_text(estimate, curve.smallest, curve.largest, unit, kDigits);
@@ -65,8 +101,9 @@ std::string bound_name(const InspectionRequest& request) {
     return "a90/" + number_text(100.0 * request.confidence);
 }
 
-Section inspection_headline(const InspectionRequest& request, const FittedCurve& curve,
+Section inspection_headline(const InspectionRequest& request, const InspectionResult& result,
                             const SizeUnit& unit) {
+    const FittedCurve curve = curve_of(request, result);
     Section section{"headline", "", {}};
     if (!curve.refusal.empty()) {
         section.state("headline", fmt::format("No detection curve: {}.", curve.refusal));
@@ -104,6 +141,7 @@ Section inspection_headline(const InspectionRequest& request, const FittedCurve&
                                       : "This convention is asymptotic. ",
                                   percent_text(curve.simulated_coverage)));
     }
+    section.state("measured_coverage", measured_text(request, result));
     return section;
 }
 
@@ -176,6 +214,34 @@ void add_hits(Section& section, const InspectionResult& result) {
     }
 }
 
+// Curve that was fitted because no line passes the checks, or why there is none.
+void add_smooth(Section& section, const InspectionResult& result, const InspectionNames& names) {
+    if (!is_smooth(result)) {
+        section.state("smooth", result.smooth
+                                    ? fmt::format("No curve either: {}.", result.smooth->refusal())
+                                    : "");
+        return;
+    }
+    const SmoothResponse& smooth = *result.smooth;
+    const auto at = [&](double size) {
+        return fmt::format("{} with scatter {} at {}", number_text(smooth.mean(size), kDigits),
+                           number_text(smooth.scatter(size), kDigits),
+                           with_unit(size, names.size, kDigits));
+    };
+    section.state("line", fmt::format("No line: {}.", result.signal_response.refusal));
+    section.state(
+        "smooth",
+        fmt::format("Instead a monotone curve was fitted, with a scatter that is a power of the "
+                    "size ({}): {}, {}. Its residuals are normal (Anderson-Darling: p = {:.2g}).",
+                    number_text(smooth.growth(), 3), at(smooth.smallest()), at(smooth.largest()),
+                    smooth.normality()));
+    section.state("correlation",
+                  result.repeats > 0
+                      ? fmt::format("Two values of one specimen have a correlation of {}.",
+                                    number_text(smooth.correlation(), 3))
+                      : "");
+}
+
 void add_line(Section& section, const InspectionRequest& request, const InspectionResult& result,
               const InspectionNames& names) {
     const SignalResponsePod& pod = result.signal_response;
@@ -184,10 +250,11 @@ void add_line(Section& section, const InspectionRequest& request, const Inspecti
                               names.value, alarm_symbol(request.alarm),
                               quantity_text(result.threshold, names.unit, 6), pod.left, pod.right));
     if (!pod.refusal.empty()) {
+        add_smooth(section, result, names);
         section.state("scales",
                       pod.candidates.empty() && pod.specimens == pod.count
                           ? ""
-                          : "To fit anyway, give both --size-scale and --response-scale.");
+                          : "To fit a line anyway, give both --size-scale and --response-scale.");
         return;
     }
     const SignalResponseFit& fit = pod.candidates[pod.chosen];
@@ -317,9 +384,7 @@ Report inspection_report(const InspectionRequest& request, const InspectionResul
                              result.all_found, percent_text(request.confidence)));
     method.state("target", target_text(request, result, names.size));
     Report report;
-    report.add(inspection_headline(
-        request, request.responses ? curve_of(result.signal_response) : curve_of(result.hit_miss),
-        names.size));
+    report.add(inspection_headline(request, result, names.size));
     report.add(std::move(method));
     return report;
 }

@@ -14,15 +14,6 @@ bool is_kind_among(const std::string& extension, std::initializer_list<const cha
     return std::find(all.begin(), all.end(), extension) != all.end();
 }
 
-// Extension in lower case.
-std::string extension_of(const std::filesystem::path& path) {
-    std::string kind = path.extension().string();
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return kind;
-}
-
 }  // namespace
 
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
@@ -30,19 +21,19 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (const std::string why = why_not_readable(path); !why.empty()) {
         throw SignalError(path + ": " + why);
     }
-    std::string kind = extension_of(path);
+    std::string kind = lower_extension(path);
     const bool compressed = kind == ".gz";
     if (compressed) {
-        kind = extension_of(std::filesystem::path(path).stem());
+        kind = lower_extension(std::filesystem::path(path).stem());
     }
     const bool hdf5 = kind == ".h5" || kind == ".hdf5";
     if (row && !hdf5) {
         throw SignalError(path + ": has no rows to select from; only HDF5 files can have rows");
     }
-    check_file_content(path, compressed ? ".gz" : kind);
     if (is_kind_among(kind, {".csv", ".txt", ".tsv", ".dat", ".asc"})) {
         return open_signal_csv(path);
     }
+    check_file_content(path);
     if (compressed) {
         throw SignalError(path +
                           ": only text files are read compressed (.csv.gz, .txt.gz); decompress it "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -76,7 +77,26 @@ void apply_load_case(RexsModel& model, const std::string& id, Problems& problems
     }
 }
 
-NewStudy with_notices(NewStudy made, Problems notices) {
+struct NamedGear {
+    const char* name;
+    const RexsGear& gear;
+};
+
+// Sets the load and writes the study by `make`, or returns the problems.
+template <class Datasheet, class Make>
+NewStudy study_of(Datasheet& data, std::initializer_list<NamedGear> gears, const RexsLoad& load,
+                  const RexsStage& stage, const RexsChoices& choices, RexsReading& reading,
+                  Make make) {
+    set_load(data, load, choices, reading);
+    if (!reading.problems.empty()) {
+        return {"", reading.problems};
+    }
+    DatasheetSource source = model_source(reading.model, stage);
+    for (const NamedGear& named : gears) {
+        name_gear(source, named.name, named.gear);
+    }
+    Problems notices = finish(data, reading.model, stage, reading);
+    NewStudy made = make(source);
     made.notices = made.problems.empty() ? std::move(notices) : Problems{};
     return made;
 }
@@ -195,16 +215,9 @@ NewStudy planetary_study(const RexsStage& stage, const std::vector<RexsStage>& s
         data.input = *choices.input;
     }
     reading.notes.insert(reading.notes.end(), load.notes.begin(), load.notes.end());
-    set_load(data, load, choices, reading);
-    if (!reading.problems.empty()) {
-        return {"", reading.problems};
-    }
-    DatasheetSource source = model_source(model, stage);
-    name_gear(source, "sun", sun);
-    name_gear(source, "planet", planet);
-    name_gear(source, "ring", ring);
-    Problems notices = finish(data, model, stage, reading);
-    return with_notices(new_planetary(data, command, source), std::move(notices));
+    return study_of(
+        data, {{"sun", sun}, {"planet", planet}, {"ring", ring}}, load, stage, choices, reading,
+        [&](const DatasheetSource& source) { return new_planetary(data, command, source); });
 }
 
 NewStudy pair_study(const RexsStage& stage, const std::vector<RexsStage>& stages,
@@ -242,15 +255,8 @@ NewStudy pair_study(const RexsStage& stage, const std::vector<RexsStage>& stages
     reading.lacking.emplace_back("shafts, motor and load");
     reading.notes.push_back(driving->label() + " drives (the study's pinion)");
     reading.notes.insert(reading.notes.end(), load.notes.begin(), load.notes.end());
-    set_load(data, load, choices, reading);
-    if (!reading.problems.empty()) {
-        return {"", reading.problems};
-    }
-    DatasheetSource source = model_source(model, stage);
-    name_gear(source, "pinion", pinion);
-    name_gear(source, "gear", gear);
-    Problems notices = finish(data, model, stage, reading);
-    return with_notices(new_pair(data, command, source), std::move(notices));
+    return study_of(data, {{"pinion", pinion}, {"gear", gear}}, load, stage, choices, reading,
+                    [&](const DatasheetSource& source) { return new_pair(data, command, source); });
 }
 
 }  // namespace

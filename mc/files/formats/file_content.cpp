@@ -177,9 +177,8 @@ void check_gzip(const std::string& path, const std::string& extension) {
     if (extension != ".gz") {
         refuse_name(path, extension, "compressed by gzip", ".csv.gz if it contains CSV");
     }
-    std::string inner = path.size() < 7 ? "" : path.substr(path.size() - 7, 4);
-    std::ranges::transform(inner, inner.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (!has_extension(inner, " .csv .txt .tsv .dat .asc ")) {
+    if (!has_extension(lower_extension(std::filesystem::path(path).stem()),
+                       " .csv .txt .tsv .dat .asc ")) {
         refuse_format(path, {0, "", "a file compressed by gzip that is no table of text",
                              "decompress it: gunzip FILE"});
     }
@@ -187,7 +186,16 @@ void check_gzip(const std::string& path, const std::string& extension) {
 
 }  // namespace
 
-void check_file_content(const std::string& path, const std::string& extension) {
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return extension;
+}
+
+void check_file_content(const std::string& path) {
+    const std::string extension = lower_extension(path);
     std::string head(kHead, '\0');
     std::ifstream stream(path, std::ios::binary);
     stream.read(head.data(), kHead);

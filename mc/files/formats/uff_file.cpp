@@ -14,6 +14,7 @@
 #include "mc/files/formats/byte_numbers.hpp"
 #include "mc/files/formats/signal_error.hpp"
 #include "mc/files/formats/uff_numbers.hpp"
+#include "mc/input/outer_blanks.hpp"
 #include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
@@ -78,7 +79,7 @@ enum class Floats { dec = 1, ieee = 2, ibm = 3 };
 
 // Text without surrounding blanks; "NONE" means that a field is not used.
 std::string stated_text(std::string_view text) {
-    const std::string word(uff_field(text));
+    const std::string word(without_outer_blanks(text));
     return word == "NONE" ? "" : word;
 }
 std::string record_part(const std::string& line, std::size_t at,
@@ -95,10 +96,10 @@ class UffReader {
         std::optional<double> lengths, first_lengths;
         std::string line, others;
         while (next(line)) {
-            if (uff_field(line) != "-1" || !next(line)) {
+            if (without_outer_blanks(line) != "-1" || !next(line)) {
                 continue;
             }
-            const std::string kind(uff_field(line.substr(0, 7)));
+            const std::string kind(without_outer_blanks(line.substr(0, 7)));
             if (kind == "58" || kind == "58b") {
                 all.push_back(read_function(kind == "58b" ? line : ""));
                 all.back().lengths_per_metre = lengths;
@@ -132,13 +133,13 @@ class UffReader {
         return static_cast<bool>(std::getline(stream_, line));
     }
     void skip() {
-        for (std::string line; next(line) && uff_field(line) != "-1";) {
+        for (std::string line; next(line) && without_outer_blanks(line) != "-1";) {
         }
     }
     // After the last value.
     void end_dataset(std::size_t count) {
         for (std::string line; next(line);) {
-            const std::string_view text = uff_field(line);
+            const std::string_view text = without_outer_blanks(line);
             if (text == "-1") {
                 return;
             }
@@ -148,7 +149,7 @@ class UffReader {
         }
     }
     double number(std::string_view text) const {
-        text = uff_field(text);
+        text = without_outer_blanks(text);
         const auto value = fortran_number(text);
         if (!value) {
             refuse(fmt::format("\"{}\" is not a number", text.substr(0, 40)));
@@ -161,8 +162,8 @@ class UffReader {
     int small_field(const std::string& line, std::size_t at, std::size_t width) const {
         const double value = field(line, at, width);
         if (!(std::abs(value) <= 1e6) || value != std::trunc(value)) {
-            refuse(
-                fmt::format("\"{}\" is not a valid code", uff_field(record_part(line, at, width))));
+            refuse(fmt::format("\"{}\" is not a valid code",
+                               without_outer_blanks(record_part(line, at, width))));
         }
         return static_cast<int>(value);
     }
@@ -197,7 +198,7 @@ class UffReader {
         UffFunction function;
         function.title = stated_text(records[0]);
         function.function_type = small_field(records[5], 0, 5);
-        const auto direction = fortran_number(uff_field(record_part(records[5], 51, 4)));
+        const auto direction = fortran_number(without_outer_blanks(record_part(records[5], 51, 4)));
         function.response_direction = std::abs(direction.value_or(0.0)) <= 6.0
                                           ? static_cast<int>(direction.value_or(0.0))
                                           : 0;
@@ -218,7 +219,7 @@ class UffReader {
         if (function.even) {
             function.first = field(form, 30, 13);
             function.step = field(form, 43, 13);
-            function.step_rounding = rounding_of(uff_field(record_part(form, 43, 13)));
+            function.step_rounding = rounding_of(without_outer_blanks(record_part(form, 43, 13)));
         }
         function.abscissa = axis_of(records[7]);
         function.ordinate = axis_of(records[8]);
@@ -270,7 +271,7 @@ class UffReader {
         }
         std::size_t read = 0;
         for (std::string line; read < count * widths.size();) {
-            if (!next(line) || uff_field(line) == "-1") {
+            if (!next(line) || without_outer_blanks(line) == "-1") {
                 refuse(
                     fmt::format("only {} of {} values are present", read / widths.size(), count));
             }

@@ -10,14 +10,6 @@
 
 namespace gearpod::mc {
 
-std::string_view uff_field(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r";
-    const std::size_t first = text.find_first_not_of(kBlank);
-    return first == std::string_view::npos
-               ? std::string_view()
-               : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 std::optional<double> fortran_number(std::string_view text) {
     std::string plain(text);
     std::ranges::replace(plain, 'D', 'E');

@@ -8,9 +8,6 @@
 
 namespace gearpod::mc {
 
-// Text without surrounding blanks.
-std::string_view uff_field(std::string_view text);
-
 // Number as Fortran writes it: exponents begin with E or D, or have no letter if they have three
 // digits.
 std::optional<double> fortran_number(std::string_view text);

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "mc/input/outer_blanks.hpp"
 #include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
@@ -35,14 +36,6 @@ std::size_t find_separator(std::string_view line, std::size_t at, char separator
                             : separator == kBlanks ? line.find_first_of(kBlankBytes, at)
                                                    : line.find(separator, at);
     return std::min(end, line.size());
-}
-
-std::string_view without_outer_blanks(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r\n";
-    const std::size_t first = text.find_first_not_of(kBlank);
-    return first == std::string_view::npos
-               ? std::string_view()
-               : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
 // True for digits in groups of three, such as 1,234 or -12,345,678, that do not begin with zero.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
+#include "mc/files/formats/file_content.hpp"
 #include "mc/files/signal_file.hpp"
 
 namespace gearpod::mc {
@@ -14,21 +14,6 @@ namespace {
 constexpr std::size_t kTextChunk = std::size_t{1} << 20, kLongestLine = std::size_t{1} << 20;
 // Bounds of the text in a compressed file: recordings shrink to a third or a twentieth.
 constexpr std::uintmax_t kFreeText = std::uintmax_t{64} << 20, kTextPerByte = 200;
-
-struct Beginning {
-    std::string_view bytes, meaning;
-};
-// Files that are often given the name of a text file.
-constexpr Beginning kOtherKinds[] = {
-    {"PK\x03\x04", "is a ZIP archive or an Excel workbook; save the sheet as CSV"},
-    {"\xD0\xCF\x11\xE0", "is an Excel workbook (.xls); save the sheet as CSV"},
-    {"\x89HDF", "is an HDF5 file; give it the extension .h5"},
-    {"MATLAB 5.0 MAT", "is a MAT file; give it the extension .mat"},
-    {"BZh", "is compressed with bzip2; only gzip is supported"},
-    {"\xFD"
-     "7zXZ",
-     "is compressed with xz; only gzip is supported"},
-    {"\x28\xB5\x2F\xFD", "is compressed with zstd; only gzip is supported"}};
 
 void append_utf8(std::string& text, std::uint32_t code) {
     const auto more = [&](int shift) {
@@ -58,6 +43,7 @@ TextLines::TextLines(const std::string& path) : path_(path) {
     if (!std::filesystem::is_regular_file(path, error)) {
         throw SignalError(path + ": no such file, or it cannot be read");
     }
+    check_file_content(path);
     file_.reset(gzopen(path.c_str(), "rb"));
     if (!file_) {
         throw SignalError(path + ": no such file, or it cannot be read");
@@ -116,13 +102,8 @@ bool TextLines::fill() {
     return got > 0;
 }
 
-// Recognizes other kinds of files, the byte order mark and the end of lines.
+// Recognizes the byte order mark and the end of lines.
 void TextLines::check_beginning() {
-    for (const Beginning& kind : kOtherKinds) {
-        if (buffer_.starts_with(kind.bytes)) {
-            refuse(std::string(kind.meaning));
-        }
-    }
     if (buffer_.starts_with("\xEF\xBB\xBF")) {
         buffer_.erase(0, 3);
     } else if (buffer_.starts_with("\xFF\xFE") || buffer_.starts_with("\xFE\xFF")) {

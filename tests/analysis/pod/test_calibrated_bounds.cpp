@@ -1,12 +1,19 @@
 // Checks the default bounds of `pod` against scipy (reference/inspection_py.txt) and against
 // properties that they must have. Their coverage is measured in test_pod_coverage.cpp.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <random>
 
 #include "analysis/inspection.hpp"
+#include "analysis/measured_coverage.hpp"
 #include "analysis/pod/calibrated_bounds.hpp"
 #include "analysis/pod/cluster_effect.hpp"
+#include "analysis/report/inspection_report.hpp"
 #include "tests/analysis/pod/inspection_examples.hpp"
 
 namespace test_calibrated_bounds {
@@ -114,6 +121,87 @@ TEST_CASE("Few clusters never narrow the bound of a90") {
     CHECK(inspect(repeated, handbook).hit_miss.a90.upper.size ==
           Approx(inspect(alone, handbook).hit_miss.a90.upper.size).epsilon(1e-6));
     CHECK(clustered_chi_squared(1.0, 1000000, 0.95) == Approx(2.7055).epsilon(1e-4));
+}
+
+// Responses 40 a / (a + 1.5) with scatter 1.2 sqrt(a), of sizes 0.3 to 4.
+Inspections on_a_curve(int specimens, int repeats) {
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> normal;
+    Inspections data;
+    for (int i = 0; i < specimens; ++i) {
+        const double size = 0.3 + 3.7 * (i + 0.5) / specimens, shared = normal(engine);
+        for (int r = 0; r < repeats; ++r) {
+            const double own = normal(engine);
+            const double e = repeats > 1 ? std::sqrt(0.8) * shared + std::sqrt(0.2) * own : shared;
+            data.size.push_back(size);
+            data.value.push_back(40.0 * size / (size + 1.5) + 1.2 * std::sqrt(size) * e);
+            data.specimen.push_back(i);
+        }
+    }
+    return data;
+}
+
+TEST_CASE("A curve is fitted where no line passes the checks") {
+    InspectionRequest request;
+    request.responses = true;
+    request.threshold = 15.0;
+    const InspectionResult found = inspect(on_a_curve(300, 1), request);
+    REQUIRE_THAT(found.signal_response.refusal, Catch::Contains("no scale passes the checks"));
+    REQUIRE(found.smooth.has_value());
+    REQUIRE(found.smooth->refusal() == "");
+    // 15 = 40 a / (a + 1.5) at 0.9; 1.28155 scatters further at 1.0625.
+    CHECK(found.smooth->a50().estimate.size == Approx(0.9).epsilon(0.05));
+    CHECK(found.smooth->a90().estimate.size == Approx(1.0625).epsilon(0.05));
+    CHECK(found.smooth->a90().lower.size < found.smooth->a90().estimate.size);
+    CHECK(found.smooth->a90().upper.size > found.smooth->a90().estimate.size);
+    CHECK(found.smooth->growth() == Approx(0.5).margin(0.2));
+    CHECK(found.smooth->scatter(1.0) == Approx(1.2).epsilon(0.2));
+    const std::string text = report_text(inspection_report(request, found, {"t", {}, "v", ""}));
+    CHECK_THAT(text, Catch::Contains("monotone curve"));
+
+    // Eight equal responses hold no more information than one.
+    const Inspections once = on_a_curve(60, 1);
+    ResponseRows rows{once.size, once.value, once.specimen}, eight;
+    for (int r = 0; r < 8; ++r) {
+        eight.size.insert(eight.size.end(), rows.size.begin(), rows.size.end());
+        eight.value.insert(eight.value.end(), rows.value.begin(), rows.value.end());
+        eight.specimen.insert(eight.specimen.end(), rows.specimen.begin(), rows.specimen.end());
+    }
+    const SmoothResponse alone(rows, 15.0, Alarm::high, 0.95);
+    const SmoothResponse repeated(eight, 15.0, Alarm::high, 0.95);
+    CHECK(repeated.correlation() == Approx(1.0).margin(1e-6));
+    CHECK(repeated.a90().estimate.size == Approx(alone.a90().estimate.size).epsilon(1e-3));
+    CHECK(repeated.a90().upper.size == Approx(alone.a90().upper.size).epsilon(0.02));
+
+    // Falling responses of the opposite sign have the same sizes.
+    for (double& value : rows.value) {
+        value = -value;
+    }
+    const SmoothResponse falling(rows, -15.0, Alarm::low, 0.95);
+    CHECK(falling.a90().upper.size == Approx(alone.a90().upper.size).epsilon(0.02));
+    rows.size.resize(10);
+    rows.value.resize(10);
+    rows.specimen.resize(10);
+    CHECK_THAT(SmoothResponse(rows, -15.0, Alarm::low, 0.95).refusal(),
+               Catch::Contains("needs 15 specimens"));
+}
+
+TEST_CASE("The documented coverage is that printed next to the bounds") {
+    std::ifstream stream(GEARPOD_REFERENCE_DIR "/../../../docs/validation/coverage.md");
+    const std::string page(std::istreambuf_iterator<char>(stream), {});
+    for (const MeasuredCoverage& row : kMeasuredCoverage) {
+        const std::string line = fmt::format("| {} | {} | {} | {} | {} |", row.kind, row.specimens,
+                                             row.tables, row.upper_per_cent, row.lower_per_cent);
+        INFO(line);
+        CHECK(page.find(line) != std::string::npos);
+    }
+    const MeasuredCoverage* nearest = measured_coverage(kHits, 40);
+    REQUIRE(nearest != nullptr);
+    CHECK(nearest->specimens == 30);
+    const InspectionResult found = inspect(hits(false), of_hits(Link::logit, false));
+    const std::string text =
+        report_text(inspection_report(of_hits(Link::logit, false), found, {"t", {}, "v", ""}));
+    CHECK_THAT(text, Catch::Contains("In tables of known truth (hits, logit, "));
 }
 
 TEST_CASE("Values that are not finite, and few specimens, are refused") {

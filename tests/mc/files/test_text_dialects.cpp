@@ -257,8 +257,8 @@ TEST_CASE("the reason why a table is refused is named with its line") {
         {"time,sensor [g]\ns,m/s^2\n0,1\n1,2\n", "but the line before states g"},
         {std::string("t\0i\0m\0e\0\n\0", 10), "is not a line of text (UTF-16"},
         {"PK\x03\x04more", "is a ZIP archive"},
-        {"\x89HDF\r\n", "is an HDF5 file"},
-        {"BZh91", "bzip2"},
+        {"\x89HDF\r\n\x1a\n", "is an HDF5 file"},
+        {"BZh91AY&SY\x01", "bzip2"},
         {"# nothing\n\n", "is empty"}};
     for (const auto& [text, reason] : cases) {
         INFO(text);
