@@ -6,7 +6,6 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
-#include "analysis/pod/pod_bounds.hpp"
 #include "analysis/statistics/wilson.hpp"
 
 namespace gearpod::analysis {
@@ -14,39 +13,46 @@ namespace {
 
 constexpr double kTargetPod = 0.9;
 
-SizeBounds same_bounds(SizeEstimate::Where where) {
-    const SizeEstimate estimate{where, kNan};
-    return {estimate, estimate, estimate};
-}
+// Graded gearboxes with a value, by size: rows are sorted once for all thresholds.
+struct GradedRows {
+    std::vector<double> size, value;
+    Alarm alarm;
 
-HitMissTable outcomes_at(const GradedValues& values, double threshold) {
-    std::vector<double> size;
-    std::vector<char> hit;
-    for (std::size_t i = 0; i < values.value.size(); ++i) {
-        if (std::isfinite(values.value[i])) {
+    explicit GradedRows(const GradedValues& values) : alarm(values.alarm) {
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < values.value.size(); ++i) {
+            if (std::isfinite(values.value[i])) {
+                order.push_back(i);
+            }
+        }
+        std::sort(order.begin(), order.end(),
+                  [&](std::size_t a, std::size_t b) { return values.size[a] < values.size[b]; });
+        for (const std::size_t i : order) {
             size.push_back(values.size[i]);
-            hit.push_back(is_alarm(values.value[i], threshold, values.alarm) ? 1 : 0);
+            value.push_back(values.value[i]);
         }
     }
-    return hit_miss_table(size, hit);
-}
 
-// a90 with its bounds; empty where no curve fits.
-std::optional<SizeBounds> a90_of(const HitMissTable& table, const PodForm& form,
-                                 double confidence) {
+    HitMissTable outcomes_at(double threshold) const {
+        std::vector<char> hit;
+        for (const double each : value) {
+            hit.push_back(is_alarm(each, threshold, alarm) ? 1 : 0);
+        }
+        return hit_miss_table(size, hit);
+    }
+};
+
+// Estimates of a90 by each form, or its bounds; empty where no curve fits.
+std::vector<std::optional<SizeEstimate>> a90_by_form(const HitMissTable& table,
+                                                     std::span<const PodForm> forms,
+                                                     double confidence, std::optional<Side> side) {
     if (table.empty() || total_hits(table) == 0.0) {
-        return same_bounds(SizeEstimate::Where::not_reached);
+        return {forms.size(), SizeEstimate{SizeEstimate::Where::not_reached, kNan}};
     }
     if (total_hits(table) == total_tests(table)) {
-        return same_bounds(SizeEstimate::Where::below_tested);
+        return {forms.size(), SizeEstimate{SizeEstimate::Where::below_tested, kNan}};
     }
-    const HitMissFit fit = fit_hit_miss(table, form);
-    if (!fit.refusal.empty()) {
-        return std::nullopt;
-    }
-    const PodLikelihood likelihood(table, form);
-    return size_bounds(table, likelihood, likelihood.maximise(), kTargetPod,
-                       one_sided_bound(confidence));
+    return sizes_by_form(table, forms, kTargetPod, one_sided_bound(confidence), side);
 }
 
 bool is_smaller(const SizeEstimate& a, const SizeEstimate& b) {
@@ -100,6 +106,7 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
                                   double confidence) {
     FalseAlarmCurve curve;
     const HealthyThresholds healthy(values.healthy, values.alarm);
+    const GradedRows graded(values);
     // The bounds of the threshold and the bounds of a90 each get half of the error probability.
     const double half = 1.0 - 0.5 * (1.0 - confidence), two_sided = confidence;
     for (const double rate : kCurveRates) {
@@ -113,16 +120,18 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
         const Interval& bounds = point.threshold_bounds;
         const double near = high ? bounds.lower : bounds.upper,
                      far = high ? bounds.upper : bounds.lower;
-        const HitMissTable here = outcomes_at(values, threshold.value),
-                           nearest = outcomes_at(values, near), farthest = outcomes_at(values, far);
+        std::vector<PodForm> floored(forms.begin(), forms.end());
+        for (PodForm& form : floored) {
+            form.floor = form.floor > 0.0 ? rate : 0.0;
+        }
+        const auto middle =
+            a90_by_form(graded.outcomes_at(threshold.value), floored, half, std::nullopt);
+        const auto least = a90_by_form(graded.outcomes_at(near), floored, half, Side::lower);
+        const auto most = a90_by_form(graded.outcomes_at(far), floored, half, Side::upper);
         bool fitted = false;
-        for (const PodForm& form : forms) {
-            PodForm at = form;
-            at.floor = form.floor > 0.0 ? rate : 0.0;
-            const auto middle = a90_of(here, at, half), least = a90_of(nearest, at, half),
-                       most = a90_of(farthest, at, half);
-            if (middle && least && most) {
-                const SizeBounds own{middle->estimate, least->lower, most->upper};
+        for (std::size_t i = 0; i < floored.size(); ++i) {
+            if (middle[i] && least[i] && most[i]) {
+                const SizeBounds own{*middle[i], *least[i], *most[i]};
                 point.a90 = fitted ? widest(point.a90, own) : own;
                 fitted = true;
             }

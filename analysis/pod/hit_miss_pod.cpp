@@ -12,7 +12,6 @@
 
 #include "analysis/pod/cluster_effect.hpp"
 #include "analysis/pod/location_scale.hpp"
-#include "analysis/pod/pod_bounds.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -84,7 +83,7 @@ class Scales {
     std::shared_ptr<const StandardisedSizes> sizes_[2];
 };
 
-// Fits one form. `start`: fit of a nested form, to start from.
+// Fits one form, without goodness of fit. `start`: fit of a nested form, to start from.
 Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
                 const Fitted* start = nullptr) {
     Fitted result;
@@ -123,10 +122,14 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
         fit.refusal = "the maximum-likelihood fit does not converge";
     } else if (form.free_ceiling && fit.curve.ceiling >= 1.0 - 1e-9) {
         fit.refusal = "the fitted ceiling is 1";
-    } else {
-        fit.fit = goodness_of_fit(table, fit.curve);
     }
     return result;
+}
+
+void add_goodness(HitMissFit& fit, const HitMissTable& table) {
+    if (fit.refusal.empty()) {
+        fit.fit = goodness_of_fit(table, fit.curve);
+    }
 }
 
 std::vector<PodForm> forms(const HitMissRequest& request) {
@@ -169,6 +172,7 @@ const Fitted* add_needed_ceilings(const HitMissTable& table, Scales& scales,
         PodForm form = fitted[i].fit.curve.form;
         form.free_ceiling = true;
         Fitted more = fit_form(table, scales, form, &fitted[i]);
+        add_goodness(more.fit, table);
         if (more.fit.refusal.empty() && more.fit.aic < least + kSupported) {
             pod.candidates.push_back(more.fit);
             fitted.push_back(std::move(more));
@@ -296,7 +300,28 @@ void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, cons
 
 HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form) {
     Scales scales(table);
-    return fit_form(table, scales, form).fit;
+    HitMissFit fit = fit_form(table, scales, form).fit;
+    add_goodness(fit, table);
+    return fit;
+}
+
+std::vector<std::optional<SizeEstimate>> sizes_by_form(const HitMissTable& table,
+                                                       std::span<const PodForm> forms, double pod,
+                                                       const BoundRule& rule,
+                                                       std::optional<Side> side) {
+    Scales scales(table);
+    std::vector<std::optional<SizeEstimate>> sizes;
+    for (const PodForm& form : forms) {
+        const Fitted fitted = fit_form(table, scales, form);
+        if (!fitted.fit.refusal.empty()) {
+            sizes.push_back(std::nullopt);
+            continue;
+        }
+        const PodLikelihood likelihood = scales.likelihood(form);
+        sizes.push_back(side ? size_bound(table, likelihood, fitted.maximum, pod, rule, *side)
+                             : size_estimate(table, likelihood, fitted.maximum, pod));
+    }
+    return sizes;
 }
 
 HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request) {
@@ -325,6 +350,7 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
         const bool more = !fitted.empty() && fitted.back().fit.curve.form.link == form.link &&
                           fitted.back().fit.curve.form.log_size == form.log_size;
         fitted.push_back(fit_form(table, scales, form, more ? &fitted.back() : nullptr));
+        add_goodness(fitted.back().fit, table);
         const HitMissFit& fit = fitted.back().fit;
         pod.candidates.push_back(fit);
         if (fit.refusal.empty() && (best == nullptr || fit.aic < best->fit.aic)) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "analysis/pod/curve_covariance.hpp"
 #include "analysis/pod/goodness_of_fit.hpp"
 #include "analysis/pod/hit_miss_table.hpp"
+#include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/size_estimate.hpp"
 #include "analysis/statistics/interval.hpp"
@@ -79,6 +81,13 @@ struct HitMissRequest {
 
 // Fits one form alone, for comparison with other programs and for coverage tests.
 HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form);
+
+// Sizes with a POD of `pod` by curves of these forms, each fitted to the table: estimates, or
+// bounds of a side. Empty where no curve fits.
+std::vector<std::optional<SizeEstimate>> sizes_by_form(const HitMissTable& table,
+                                                       std::span<const PodForm> forms, double pod,
+                                                       const BoundRule& rule,
+                                                       std::optional<Side> side);
 
 HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request);
 

@@ -8,16 +8,6 @@
 namespace gearpod::analysis {
 namespace {
 
-SizeEstimate placed(double size, double smallest, double largest) {
-    if (!(size <= largest)) {
-        return {SizeEstimate::Where::not_reached, kNan};
-    }
-    if (size < smallest) {
-        return {SizeEstimate::Where::below_tested, kNan};
-    }
-    return {SizeEstimate::Where::reached, size};
-}
-
 double eta_of(const PodForm& form, double pod) {
     return link_quantile(form.link, (pod - form.floor) / (1.0 - form.floor));
 }
@@ -63,7 +53,7 @@ SizeBounds wald_size_bounds(const LocationScale& curve, const PodForm& form, dou
     }
     const double eta = eta_of(form, pod);
     const auto bound = [&](double errors) {
-        return placed(form.size(curve.at(eta, errors)), smallest, largest);
+        return estimate_within(form.size(curve.at(eta, errors)), smallest, largest);
     };
     return {bound(0.0), bound(-z), bound(z)};
 }

@@ -5,6 +5,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
@@ -67,57 +68,71 @@ double crossing(Function beyond, double inside, double outside, double at_inside
 
 }  // namespace
 
-SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
-                       const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule) {
-    const SizeEstimate below{Where::below_tested, kNan};
-    const SizeEstimate never{Where::not_reached, kNan};
-    const double smallest = table.front().size, largest = table.back().size;
-    const auto size = likelihood.curve(maximum.parameters).size_at(pod);
-    // A curve that does not rise has no such size; one at its floor already reaches lower rates.
+SizeEstimate size_estimate(const HitMissTable& table, const PodLikelihood& likelihood,
+                           const PodLikelihood::Maximum& maximum, double pod) {
+    // A curve at its floor already reaches lower rates.
     if (pod <= likelihood.form().floor) {
-        return {below, below, below};
+        return {Where::below_tested, kNan};
     }
-    if (!size) {
-        return {never, never, never};
+    const auto size = likelihood.curve(maximum.parameters).size_at(pod);
+    return size ? estimate_within(*size, table.front().size, table.back().size)
+                : SizeEstimate{Where::not_reached, kNan};
+}
+
+SizeEstimate size_bound(const HitMissTable& table, const PodLikelihood& likelihood,
+                        const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule,
+                        Side side) {
+    const SizeEstimate outside{side == Side::lower ? Where::below_tested : Where::not_reached,
+                               kNan};
+    const SizeEstimate estimate = size_estimate(table, likelihood, maximum, pod);
+    const auto size = likelihood.curve(maximum.parameters).size_at(pod);
+    if (estimate.where == outside.where || pod <= likelihood.form().floor || !size) {
+        return estimate;
+    }
+    double inner = likelihood.standardised(table.front().size);
+    double edge = likelihood.standardised(table.back().size);
+    if (side == Side::lower) {
+        std::swap(inner, edge);
     }
     Profile profile(likelihood, maximum, rule);
-    const double u = likelihood.standardised(*size);
-    // Searches outwards in growing steps, each starting from the last one's curve.
-    const auto bound = [&](double edge, const SizeEstimate& outside) -> SizeEstimate {
-        profile.restart();
-        const auto beyond = [&](double at) { return profile.beyond(at, pod); };
-        const double u_edge = likelihood.standardised(edge);
-        double inside = u, at_inside = -profile.limit();
-        for (double share = 1.0 / 32.0; share <= 1.0; share *= 2.0) {
-            const double at = share < 1.0 ? u + share * (u_edge - u) : u_edge;
-            const double value = beyond(at);
-            if (value > 0.0) {
-                return {Where::reached,
-                        likelihood.size(crossing(beyond, inside, at, at_inside, value, kSizeBits))};
-            }
-            inside = at;
-            at_inside = value;
-        }
-        return outside;
-    };
-    // An estimate outside the tested sizes still has a bound on the inner side.
-    const auto beyond_edge = [&](double edge) {
-        profile.restart();
-        return profile.beyond(likelihood.standardised(edge), pod) > 0.0;
-    };
-    SizeBounds bounds;
-    if (*size > largest) {
-        bounds.estimate = bounds.upper = never;
-        bounds.lower = beyond_edge(largest) ? never : bound(smallest, below);
-    } else if (*size < smallest) {
-        bounds.estimate = bounds.lower = below;
-        bounds.upper = beyond_edge(smallest) ? below : bound(largest, never);
-    } else {
-        bounds.estimate = {Where::reached, *size};
-        bounds.lower = bound(smallest, below);
-        bounds.upper = bound(largest, never);
+    const auto beyond = [&](double at) { return profile.beyond(at, pod); };
+    // An estimate outside the tested sizes may have its bound outside as well.
+    if (estimate.where != Where::reached && beyond(inner) > 0.0) {
+        return estimate;
     }
-    return bounds;
+    profile.restart();
+    // Searches outwards, each step from the last one's curve. The first step is somewhat longer
+    // than Wald's.
+    const double u = likelihood.standardised(*size), span = edge - u;
+    const Eigen::Matrix2d information = maximum.information.topLeftCorner<2, 2>();
+    const Eigen::Vector2d direction(1.0, u);
+    const double error = std::sqrt(direction.dot(information.ldlt().solve(direction))) /
+                         std::abs(maximum.parameters[1]);
+    double share = 1.2 * profile.limit() * error / std::abs(span);
+    if (!(share > 1e-6)) {
+        share = 1.0 / 32.0;
+    }
+    double inside = u, at_inside = -profile.limit();
+    for (;; share *= 2.0) {
+        const double at = share < 1.0 ? u + share * span : edge;
+        const double value = beyond(at);
+        if (value > 0.0) {
+            return {Where::reached,
+                    likelihood.size(crossing(beyond, inside, at, at_inside, value, kSizeBits))};
+        }
+        if (share >= 1.0) {
+            return outside;
+        }
+        inside = at;
+        at_inside = value;
+    }
+}
+
+SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
+                       const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule) {
+    return {size_estimate(table, likelihood, maximum, pod),
+            size_bound(table, likelihood, maximum, pod, rule, Side::lower),
+            size_bound(table, likelihood, maximum, pod, rule, Side::upper)};
 }
 
 std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,

@@ -11,7 +11,18 @@
 
 namespace gearpod::analysis {
 
-// Bounds of the size with a POD of `pod`.
+// Size with a POD of `pod` on the curve of the maximum likelihood.
+SizeEstimate size_estimate(const HitMissTable& table, const PodLikelihood& likelihood,
+                           const PodLikelihood::Maximum& maximum, double pod);
+
+enum class Side { lower, upper };
+
+// One-sided bound of that size.
+SizeEstimate size_bound(const HitMissTable& table, const PodLikelihood& likelihood,
+                        const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule,
+                        Side side);
+
+// Both bounds with the estimate.
 SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
                        const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule);
 

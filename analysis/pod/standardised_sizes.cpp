@@ -1,7 +1,9 @@
 #include "analysis/pod/standardised_sizes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/statistics/gauss_rule.hpp"
 
@@ -9,112 +11,104 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr int kSizeNodes = StandardisedSizes::kNodes;
-constexpr int kMostHalvings = 14;
+constexpr int kMoments = 2 * kSizeNodes;  // that determine a Gauss rule
+constexpr double kSamePoints = 1e-12;     // squared norm at which a measure has no further points
 
-// Division of the range of u into 2^halvings cells.
-struct Cells {
-    double low = 0.0, high = 0.0;
-    int halvings = 0;
+// Chebyshev nodes of the first kind on -1 to 1, and the matrix that turns a measure's sums of the
+// Chebyshev polynomials T_0, T_1, ... into weights of these nodes, with the same moments.
+struct ChebyshevNodes {
+    Eigen::Array<double, kMoments, 1> x;
+    Eigen::Matrix<double, kMoments, kMoments> weight_of_sum;
 
-    std::size_t count() const { return std::size_t{1} << halvings; }
-    double width() const { return (high - low) / static_cast<double>(count()); }
-    std::size_t of(double u) const {
-        const double place = std::floor((u - low) / width());
-        return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count() - 1)));
+    ChebyshevNodes() {
+        for (int j = 0; j < kMoments; ++j) {
+            const double angle = std::numbers::pi * (j + 0.5) / kMoments;
+            x[j] = std::cos(angle);
+            for (int k = 0; k < kMoments; ++k) {
+                weight_of_sum(j, k) = (k == 0 ? 1.0 : 2.0) * std::cos(k * angle) / kMoments;
+            }
+        }
     }
 };
 
-// Gauss rule of a measure by the Lanczos process on the diagonal matrix of the points t, which lie
-// within about -1 and 1. Every vector is orthogonalised against all previous ones, twice, which is
-// necessary with few more points than nodes.
-GaussRule measure_rule(const Eigen::VectorXd& t, const Eigen::VectorXd& weight) {
-    Eigen::MatrixXd basis(t.size(), kSizeNodes);
+// Gauss rule of a measure on points t within -1 and 1: sums of Chebyshev polynomials over the
+// points, then Stieltjes's procedure on the Chebyshev nodes with these moments (W. Gautschi,
+// section 2.2).
+GaussRule measure_rule(const Eigen::ArrayXd& t, const Eigen::ArrayXd& weight) {
+    static const ChebyshevNodes chebyshev;
+    Eigen::ArrayXd last = t, now = Eigen::ArrayXd::Ones(t.size()), next;  // T_(k-1), T_k, T_(k+1)
+    Eigen::Matrix<double, kMoments, 1> sums;
+    for (int k = 0; k < kMoments; ++k) {
+        sums[k] = (weight * now).sum();
+        next = 2.0 * t * now - last;
+        last.swap(now);
+        now.swap(next);
+    }
+    using Nodes = Eigen::Array<double, kMoments, 1>;
+    const Nodes share = (chebyshev.weight_of_sum * sums).array() / sums[0];
+    Nodes before = Nodes::Zero(), here = Nodes::Ones();
     Eigen::VectorXd diagonal(kSizeNodes), off_diagonal(kSizeNodes - 1);
-    const double total = weight.sum();
-    Eigen::VectorXd next = weight.cwiseSqrt() / std::sqrt(total);
-    for (int k = 0; k < kSizeNodes; ++k) {
-        basis.col(k) = next;
-        next = t.cwiseProduct(basis.col(k));
-        diagonal[k] = next.dot(basis.col(k));
+    for (int k = 0;; ++k) {
+        diagonal[k] = (share * chebyshev.x * here.square()).sum();
         if (k + 1 == kSizeNodes) {
-            break;
+            return gauss_rule(diagonal, off_diagonal, sums[0]);
         }
-        const auto so_far = basis.leftCols(k + 1);
-        for (int pass = 0; pass < 2; ++pass) {
-            const Eigen::VectorXd shares = so_far.transpose() * next;
-            next.noalias() -= so_far * shares;
+        before = (chebyshev.x - diagonal[k]) * here - (k > 0 ? off_diagonal[k - 1] : 0.0) * before;
+        before.swap(here);
+        const double square = (share * here.square()).sum();
+        if (!(square > kSamePoints)) {  // so few distinct points that k + 1 nodes represent them
+            return gauss_rule(diagonal.head(k + 1), off_diagonal.head(k), sums[0]);
         }
-        off_diagonal[k] = next.norm();
-        if (!(off_diagonal[k] >
-              1e-13)) {  // so few distinct points that k + 1 nodes represent them all
-            return gauss_rule(diagonal.head(k + 1), off_diagonal.head(k), total);
-        }
-        next /= off_diagonal[k];
-    }
-    return gauss_rule(diagonal, off_diagonal, total);
-}
-
-// Adds the points of one cell, or its Gauss rule if that has fewer nodes.
-void add_cell(WeightedSizes& out, const WeightedSizes& in, std::size_t first, std::size_t last) {
-    if (last - first <= static_cast<std::size_t>(kSizeNodes)) {
-        out.u.insert(out.u.end(), in.u.begin() + static_cast<std::ptrdiff_t>(first),
-                     in.u.begin() + static_cast<std::ptrdiff_t>(last));
-        out.weight.insert(out.weight.end(), in.weight.begin() + static_cast<std::ptrdiff_t>(first),
-                          in.weight.begin() + static_cast<std::ptrdiff_t>(last));
-        return;
-    }
-    const auto count = static_cast<Eigen::Index>(last - first);
-    const auto u = Eigen::ArrayXd::Map(in.u.data() + first, count);
-    const auto weight = Eigen::VectorXd::Map(in.weight.data() + first, count);
-    const double middle = 0.5 * (in.u[first] + in.u[last - 1]);
-    const double half = 0.5 * (in.u[last - 1] - in.u[first]);
-    const GaussRule rule =
-        half > 0.0 ? measure_rule((u - middle) / half, weight)
-                   : GaussRule{Eigen::VectorXd::Zero(1), Eigen::VectorXd{{weight.sum()}}};
-    for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
-        out.u.push_back(middle + half * rule.nodes[i]);
-        out.weight.push_back(rule.weights[i]);
+        off_diagonal[k] = std::sqrt(square);
+        here /= off_diagonal[k];
     }
 }
 
-WeightedSizes condensed(const WeightedSizes& in, const Cells& cells) {
-    WeightedSizes out;
-    for (std::size_t first = 0; first < in.u.size();) {
-        const std::size_t cell = cells.of(in.u[first]);
-        std::size_t last = first;
-        while (last < in.u.size() && cells.of(in.u[last]) == cell) {
-            ++last;
-        }
-        add_cell(out, in, first, last);
-        first = last;
+// Appends the points of one cell, or their Gauss rule if that has fewer nodes. Returns the new end.
+Eigen::Index add_cell(SizeNodes& out, Eigen::Index end, const Eigen::Ref<const Eigen::ArrayXd>& u,
+                      const Eigen::Ref<const Eigen::ArrayXd>& weight) {
+    const Eigen::Index count = u.size();
+    const double middle = 0.5 * (u[0] + u[count - 1]), half = 0.5 * (u[count - 1] - u[0]);
+    if (count <= kSizeNodes) {
+        out.u.segment(end, count) = u;
+        out.weight.segment(end, count) = weight;
+        return end + count;
     }
+    const GaussRule rule = measure_rule((u - middle) / half, weight);
+    const Eigen::Index nodes = rule.nodes.size();
+    out.u.segment(end, nodes) = middle + half * rule.nodes.array();
+    out.weight.segment(end, nodes) = rule.weights.array();
+    return end + nodes;
+}
+
+// Condenses hits and misses in `cells` cells of equal width.
+SizeNodes condensed(const SizeNodes& all, double low, double range, Eigen::Index cells) {
+    SizeNodes out;
+    out.cell = range / static_cast<double>(cells);
+    const Eigen::Index most = std::min(all.u.size(), 2 * cells * kSizeNodes);
+    out.u.resize(most);
+    out.weight.resize(most);
+    Eigen::Index end = 0;
+    const auto add = [&](Eigen::Index first, Eigen::Index measure_end) {
+        const double* const begin = all.u.data();
+        for (Eigen::Index cell = 1; cell <= cells; ++cell) {
+            const double edge = low + static_cast<double>(cell) * out.cell;
+            const Eigen::Index last =
+                cell < cells ? std::lower_bound(begin + first, begin + measure_end, edge) - begin
+                             : measure_end;
+            if (last > first) {
+                end = add_cell(out, end, all.u.segment(first, last - first),
+                               all.weight.segment(first, last - first));
+            }
+            first = last;
+        }
+    };
+    add(0, all.hits);
+    out.hits = end;
+    add(all.hits, all.u.size());
+    out.u.conservativeResize(end);
+    out.weight.conservativeResize(end);
     return out;
-}
-
-// Number of nodes that remain with these cells.
-std::size_t nodes_left(const WeightedSizes& sizes, const Cells& cells) {
-    std::size_t nodes = 0, in_cell = 0, cell = 0;
-    for (const double u : sizes.u) {
-        const std::size_t here = cells.of(u);
-        in_cell = here == cell ? in_cell + 1 : 1;
-        cell = here;
-        nodes += in_cell <= static_cast<std::size_t>(kSizeNodes) ? 1 : 0;
-    }
-    return nodes;
-}
-
-SizeNodes level_of(const WeightedSizes& hits, const WeightedSizes& misses, double cell) {
-    SizeNodes level;
-    level.cell = cell;
-    level.hits = static_cast<Eigen::Index>(hits.u.size());
-    const auto rest = static_cast<Eigen::Index>(misses.u.size());
-    level.u.resize(level.hits + rest);
-    level.weight.resize(level.hits + rest);
-    level.u << Eigen::ArrayXd::Map(hits.u.data(), level.hits),
-        Eigen::ArrayXd::Map(misses.u.data(), rest);
-    level.weight << Eigen::ArrayXd::Map(hits.weight.data(), level.hits),
-        Eigen::ArrayXd::Map(misses.weight.data(), rest);
-    return level;
 }
 
 }  // namespace
@@ -135,45 +129,45 @@ StandardisedSizes::StandardisedSizes(const HitMissTable& table, bool log_size)
     }
     spread_ = std::sqrt(square);
     sizes_ = (sizes_ - centre_) / spread_;
-    WeightedSizes hits, misses;
+    // Hits, then misses.
+    all_.u.resize(2 * rows);
+    all_.weight.resize(2 * rows);
+    Eigen::Index end = 0;
+    const auto add = [&](Eigen::Index row, double count) {
+        if (count > 0.0) {
+            all_.u[end] = sizes_[row];
+            all_.weight[end++] = count;
+        }
+    };
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        add(i, table[static_cast<std::size_t>(i)].hits);
+    }
+    all_.hits = end;
     for (Eigen::Index i = 0; i < rows; ++i) {
         const HitMissRow& row = table[static_cast<std::size_t>(i)];
-        if (row.hits > 0.0) {
-            hits.u.push_back(sizes_[i]);
-            hits.weight.push_back(row.hits);
-        }
-        if (row.hits < row.tests) {
-            misses.u.push_back(sizes_[i]);
-            misses.weight.push_back(row.tests - row.hits);
-        }
+        add(i, row.tests - row.hits);
     }
-    levels_.push_back(level_of(hits, misses, 0.0));
-    if (rows == 0 || !sizes_.allFinite()) {
-        return;
-    }
-    // Starts with the narrowest cells that halve the work, then doubles the cell width at each
-    // level.
-    Cells cells{sizes_[0], sizes_[rows - 1], kMostHalvings};
-    const auto worth = static_cast<std::size_t>(levels_[0].u.size()) / 2;
-    while (cells.halvings > 0 && nodes_left(hits, cells) + nodes_left(misses, cells) > worth) {
-        --cells.halvings;
-    }
-    while (nodes_left(hits, cells) + nodes_left(misses, cells) <= worth) {
-        hits = condensed(hits, cells);
-        misses = condensed(misses, cells);
-        levels_.push_back(level_of(hits, misses, cells.width()));
-        if (cells.halvings-- == 0) {
-            break;
-        }
+    all_.u.conservativeResize(end);
+    all_.weight.conservativeResize(end);
+    // Cells are worth while if they halve the work.
+    if (rows > 0 && sizes_.allFinite()) {
+        by_cells_.resize(static_cast<std::size_t>(std::bit_width(
+            static_cast<std::size_t>(end) / (4 * static_cast<std::size_t>(kSizeNodes)))));
     }
 }
 
 const SizeNodes& StandardisedSizes::nodes(double widest_cell) const {
-    std::size_t level = levels_.size() - 1;
-    while (level > 0 && !(levels_[level].cell <= widest_cell)) {
-        --level;
+    double cell = by_cells_.empty() ? 0.0 : sizes_[sizes_.size() - 1] - sizes_[0];
+    const double range = cell;
+    for (std::size_t level = 0; level < by_cells_.size(); ++level, cell *= 0.5) {
+        if (cell <= widest_cell) {
+            if (by_cells_[level].u.size() == 0) {
+                by_cells_[level] = condensed(all_, sizes_[0], range, Eigen::Index{1} << level);
+            }
+            return by_cells_[level];
+        }
     }
-    return levels_[level];
+    return all_;
 }
 
 }  // namespace gearpod::analysis

@@ -5,8 +5,7 @@
 // In each cell of u a measure is replaced by its Gauss rule, whose nodes and weights integrate
 // every polynomial up to degree 2 kNodes - 1 exactly (W. Gautschi, Orthogonal Polynomials:
 // Computation and Approximation (2004), sections 1.4 and 2.2). With cells narrow compared with the
-// curve's width, the error is at rounding level (test_standardised_sizes.cpp). The rules of wider
-// cells are computed from those of narrower ones, which have the same moments.
+// curve's width, the error is at rounding level (test_standardised_sizes.cpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +14,6 @@
 #include "analysis/pod/hit_miss_table.hpp"
 
 namespace gearpod::analysis {
-
-// Points of one measure, ascending.
-struct WeightedSizes {
-    std::vector<double> u;
-    std::vector<double> weight;  // number of gearboxes
-};
 
 // Nodes of the hits, then of the misses.
 struct SizeNodes {
@@ -47,15 +40,16 @@ class StandardisedSizes {
     double hits() const { return hits_; }
     double tests() const { return tests_; }
 
-    // The smallest set of nodes whose cells are no wider than `widest_cell`.
+    // The smallest set of nodes whose cells are no wider than `widest_cell`. Computes each set when
+    // it is first needed, so an object belongs to one thread.
     const SizeNodes& nodes(double widest_cell) const;
 
   private:
     double centre_ = 0.0, spread_ = 1.0;
     double hits_ = 0.0, tests_ = 0.0;
     Eigen::ArrayXd sizes_;
-    // By cell width, ascending; the first holds the sizes themselves.
-    std::vector<SizeNodes> levels_;
+    SizeNodes all_;                            // the sizes themselves
+    mutable std::vector<SizeNodes> by_cells_;  // with 1, 2, 4, ... cells; empty if not yet needed
 };
 
 }  // namespace gearpod::analysis

@@ -1,6 +1,7 @@
 // Gauss quadrature from the three-term recurrence of orthogonal polynomials. The nodes are the
-// eigenvalues of the recurrence's symmetric tridiagonal matrix; the weights are the squares of the
-// first entries of its eigenvectors (G. H. Golub, J. H. Welsch, Math. Comput. 23 (1969), 221-230).
+// eigenvalues of the recurrence's symmetric tridiagonal matrix (G. H. Golub, J. H. Welsch, Math.
+// Comput. 23 (1969), 221-230). The weights are the Christoffel numbers, 1 over the sum of the
+// squared orthonormal polynomials at the node.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +14,8 @@ struct GaussRule {
 };
 
 // Rule with one node per entry of `diagonal`; `off_diagonal` is the off-diagonal, one entry
-// shorter. For polynomials p_k of unit norm: x p_k = beside[k - 1] p_(k-1) + diagonal[k] p_k +
-// beside[k] p_(k+1). `total`: total of the measure.
+// shorter. For polynomials p_k of unit norm: x p_k = off_diagonal[k - 1] p_(k-1) + diagonal[k]
+// p_k + off_diagonal[k] p_(k+1). `total`: total of the measure.
 GaussRule gauss_rule(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off_diagonal,
                      double total);
 

@@ -62,7 +62,8 @@ class Planetary:
                            dedendum=1.25 * math.cos(helix), pressure_angle=alpha)
                       for i, (z, x) in enumerate(zip(c["teeth"], c.get("shifts", (0, 0, 0))))]
         sun, planet, ring = self.gears
-        material = dict(young_modulus=c["young_modulus_Pa"], poisson_ratio=c["poisson_ratio"], face_width=width)
+        material = dict(young_modulus=c["young_modulus_Pa"], poisson_ratio=c["poisson_ratio"], face_width=width,
+                        helix=helix, base_helix=math.asin(math.sin(helix) * math.cos(normal)))
         self.pairs = (GearPair(sun, planet, **material), GearPair(planet, ring, **material))
         distance = self.pairs[0].distance
         assert abs(distance - self.pairs[1].distance) < 1e-9, "both meshes need the same centre distance"
@@ -77,6 +78,7 @@ class Planetary:
         overlap = width * math.tan(helix) / (2 * math.pi * sun.reference / sun.teeth)
         slices = c.get("slices", 1) if helix else 1
         self.tables = [MeshTable(pair, onset, r, BEYOND) for pair, r in zip(self.pairs, reliefs)]
+        self.lead = 0.5 * overlap  # mesh periods by which a tooth's first slice leads the middle of the face
         self.build(distance, overlap, slices)
 
     def array(self, values):
@@ -167,7 +169,7 @@ class Planetary:
         start = [p.start / p.base_pitch for p in self.pairs]
         # Tooth 0 of every gear is that which first starts its contact after mesh period 0: the sun's and the ring's
         # with planet 1, a planet's with the sun.
-        first = lambda at: -math.ceil(-at - 1e-9)
+        first = lambda at: -math.ceil(-(at - self.lead) - 1e-9)
         planet_first = first(sun_at + start[0])
         planet_errors = self.array(1e-6 * np.array(c[("planet_index_um", "planet_ring_side_index_um")[kind]][p]))
         if kind == 0:

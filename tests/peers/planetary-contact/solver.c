@@ -53,22 +53,19 @@ static double mesh_force(const Gearbox *g, Contact *c, double t, double d, doubl
     for (long j = (long)ceil(phase - m->high - delay_half); j <= (long)floor(phase - m->low + delay_half); ++j) {
         const double e = c->error_one[wrap(c->first_one + j, c->teeth_one)] +
                          c->error_two[wrap(c->first_two + j, c->teeth_two)];
-        double pair = 0.0;
-        int nominal = 0;
         for (int i = 0; i < m->slices; ++i) {
             const double tau = phase - j - m->delay * ((i + 0.5) / m->slices - 0.5);
             if (tau <= m->low || tau >= m->high) continue;
             const int inside = tau > 0.0 && tau < m->contact_ratio;
             const double gap = table(m->gap, m->nodes, m->low, m->high, tau);
             const double k = table(m->stiffness, m->nodes, m->low, m->high, tau) / m->slices;
+            const int touches = d > e + gap;
             if (inside) {
-                nominal = 1;
                 nominal_k += k;
+                if (watch > 0.0) *(touches ? &c->time_in : &c->time_out) += watch;
             }
-            if (d > e + gap) pair += k * (d - e - gap);
+            if (touches) elastic += k * (d - e - gap);
         }
-        elastic += pair;
-        if (watch > 0.0 && nominal) *(pair > 0.0 ? &c->time_in : &c->time_out) += watch;
     }
     if (elastic <= 0.0) return 0.0;
     return elastic + m->damping_factor * sqrt(nominal_k) * d1;
