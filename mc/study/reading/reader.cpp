@@ -181,6 +181,9 @@ void fill_false_alarm_rate(StudyDraft& draft) {
         return;
     }
     const double rate = alarm_target_per_hour(draft.study) * *interval_h / d.machines;
+    // A target of --set replaces the file's rate.
+    const bool replaces_rate = draft.position(key).file == kOverrideFile &&
+                               draft.position("detection.false_alarm_rate").file != kOverrideFile;
     if (!(rate > kLeastRate && rate < kMostRate)) {
         draft.reject(
             key,
@@ -189,13 +192,12 @@ void fill_false_alarm_rate(StudyDraft& draft) {
                         rate, static_cast<double>(d.machines), *interval_h),
             fmt::format("choose a target between {:g} and {:g} in a record", kLeastRate,
                         kMostRate));
-    } else if (draft.is_given("detection.false_alarm_rate") &&
-               std::abs(rate - d.false_alarm_rate) > 1e-9 * rate) {
+    } else if (!draft.is_given("detection.false_alarm_rate") || replaces_rate) {
+        d.false_alarm_rate = rate;
+    } else if (std::abs(rate - d.false_alarm_rate) > 1e-9 * rate) {
         draft.reject("detection.false_alarm_rate",
                      fmt::format("conflicts with {}, which is a rate of {:.4g}", key, rate),
                      "remove one of them");
-    } else if (!draft.is_given("detection.false_alarm_rate")) {
-        d.false_alarm_rate = rate;
     }
 }
 

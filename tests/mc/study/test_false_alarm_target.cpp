@@ -39,6 +39,10 @@ TEST_CASE("A target of false alarms in time is a rate of one record") {
     CHECK(false_alarm_target_text(study_of(kExampleStudy, {year, daily})) ==
           "1 false alarm in a year of a machine, with a record of each every 24 h, is a rate of "
           "0.00274 in a record for each feature.");
+    // A target of --set replaces the rate of the file.
+    std::string given = kExampleStudy;
+    given += "\n[detection]\nfalse_alarm_rate = 0.05\n";
+    CHECK(study_of(given, {year, daily}).detection.false_alarm_rate == Approx(1.0 / 365.0));
     const auto problem = [](const std::vector<std::string>& overrides) {
         const Problems problems = read_study_text(kExampleStudy, "study.toml", overrides).problems;
         return problems.size() == 1 ? problems[0].key : std::to_string(problems.size());

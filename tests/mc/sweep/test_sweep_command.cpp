@@ -183,7 +183,7 @@ TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
                                  " --vary life.interval_h=[5,10]");
     CHECK(text.code == 0);
     // Ten false alarms in 1000 h find three cracks by chance.
-    CHECK(text.mentions("at no point does a detector find more cracks than chance"));
+    CHECK(text.mentions("At no point does a detector find more cracks than chance"));
 }
 
 TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
