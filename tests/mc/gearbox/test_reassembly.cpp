@@ -96,9 +96,9 @@ TEST_CASE("Inputs of an assembly have their distribution in the baseline, whatev
 
 TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") {
     const auto errors_of = [](const std::vector<std::string>& more) {
-        std::vector<std::string> keys{"gearbox.tooth_quality=6", "numerics.horizon=\"full\""};
+        std::vector<std::string> keys{kChange, "gearbox.tooth_quality=6", "numerics.horizon=full"};
         keys.insert(keys.end(), more.begin(), more.end());
-        const Scene scene(study_with(keys));
+        const Scene scene(test::shipped_study("planet-crack-ideal.toml", keys));
         const std::vector<Realization> both{
             scene.sampler().draw(kTest), scene.sampler().draw(baseline(0)),
             scene.sampler().draw(baseline(1)), scene.sampler().draw(baseline(0))};
@@ -132,13 +132,14 @@ TEST_CASE("Redrawn teeth are the gearbox's own errors, shifted by whole teeth") 
 }
 
 TEST_CASE("Redrawn pins have other positions on the same bearings") {
-    const auto planets = [](const std::string& redraws, const GearboxId& id) {
-        const Sampler sampler(study_with(
-            {"gearbox.pin_tangential_rms_um=20", "features.baseline_redraws=" + redraws}));
-        return sampler.draw(id).inputs.planets;
+    const auto planets = [](const std::vector<std::string>& more, const GearboxId& id) {
+        std::vector<std::string> keys{"gearbox.pin_tangential_rms_um=20"};
+        keys.insert(keys.end(), more.begin(), more.end());
+        return Sampler(study_with(keys)).draw(id).inputs.planets;
     };
-    const Planets now = planets("[\"pins\"]", kTest), then = planets("[\"pins\"]", baseline(0)),
-                  again = planets("[\"pins\"]", baseline(2)), same = planets("[]", baseline(0));
+    const std::vector<std::string> redrawn{"features.baseline_redraws=[\"pins\"]"};
+    const Planets now = planets(redrawn, kTest), then = planets(redrawn, baseline(0)),
+                  again = planets(redrawn, baseline(2)), same = planets({}, baseline(0));
     for (std::size_t n = 0; n < 4; ++n) {
         CHECK(then[n].pin_x_m != now[n].pin_x_m);
         CHECK(again[n].pin_x_m == then[n].pin_x_m);
