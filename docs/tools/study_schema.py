@@ -76,7 +76,7 @@ def section_schema(keys):
 
 def distribution_schema(distribution):
     properties = {"distribution": {"const": distribution["name"]},
-                  "per": {"enum": ["gearbox", "record"]}}
+                  "per": {"enum": ["gearbox", "assembly", "record"]}}
     required = ["distribution"]
     from_file = "file (path" in distribution["parameters"]
     for name, kind, more in PARAMETER.findall(distribution["parameters"]):

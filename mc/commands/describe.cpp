@@ -23,6 +23,7 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/run/support.hpp"
@@ -129,6 +130,7 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                         "convergence to the periodic orbit within {:g} (requested: {:g})",
                         convergence_tolerance(study), study.numerics.convergence_tolerance));
     }
+    print_entry("record", record_length_text(scene));
     print_entry("mesh periods integrated",
                 fmt::format("about {:.0f}; the signals span {}{}{}", integrated_meshes(scene),
                             scene.span_meshes(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "lockstep/kernels/built_kernels.hpp"
@@ -15,6 +16,7 @@
 #include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
+#include "mc/study/fluctuations.hpp"
 #include "signals/path/path_window.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
@@ -210,38 +212,70 @@ GearboxTile run_records(const Scene& scene, const signals::PathGrid& path,
     return tile;
 }
 
-std::vector<GearboxId> baselines_of(std::span<const GearboxId> ids) {
-    std::vector<GearboxId> earlier(ids.begin(), ids.end());
-    for (GearboxId& id : earlier) {
+// Adds the times and counts of one tile to those of another.
+void add_costs(const GearboxTile& of, GearboxTile& tile) {
+    tile.sampling_s += of.sampling_s;
+    tile.stiffness_s += of.stiffness_s;
+    tile.integration_s += of.integration_s;
+    tile.signals_s += of.signals_s;
+    tile.integration_cpu_s += of.integration_cpu_s;
+    tile.meshes += of.meshes;
+    tile.superposed += of.superposed;
+    tile.superposition_fallbacks += of.superposition_fallbacks;
+}
+
+// Number of baseline records of a gearbox that are computed: one if their motion is the same.
+std::size_t computed_baselines(const Study& study) {
+    const bool same = study.features.baseline_torque_scatter == 0.0 &&
+                      !has_random_fluctuations(study) && study.sensor.tones.empty() &&
+                      std::ranges::none_of(study.random, [](const RandomInput& input) {
+                          return input.distribution.per_record();
+                      });
+    return same ? 1 : static_cast<std::size_t>(study.features.baseline_records);
+}
+
+// Baseline records of the gearboxes, one gearbox after the other.
+std::vector<GearboxId> baselines_of(const Study& study, std::span<const GearboxId> ids) {
+    std::vector<GearboxId> earlier;
+    for (GearboxId id : ids) {
         id.record = Record::baseline;
+        for (id.baseline = 0; id.baseline < computed_baselines(study); ++id.baseline) {
+            earlier.push_back(id);
+        }
     }
     return earlier;
 }
 
-// Computes signals, status and times of the baseline records. Their motion is freed before the test
-// records are integrated.
+// Computes signals, status and times of the baseline records, at most as many at a time as there
+// are lanes. Their motion is freed before the test records are integrated.
 GearboxTile run_baselines(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
     const int meshes = needed_sensor_meshes(scene);
-    GearboxTile tile = run_records(scene, path, baselines_of(ids), fewest,
-                                   {.signal_meshes = meshes, .cache = cache});
-    auto start = WallClock::now();
-    tile.baseline = all_lane_signals(scene, path, tile, meshes);
-    tile.signals_s += lap(start);
-    tile.sensor_response = nullptr;
-    tile.integration = {};
-    tile.views = {};
-    tile.folded = {};
-    tile.te_turn = {};
-    return tile;
+    const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
+    const auto lanes =
+        static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest));
+    GearboxTile all;
+    for (std::size_t first = 0; first < earlier.size(); first += lanes) {
+        GearboxTile tile = run_records(
+            scene, path, std::span(earlier).subspan(first, std::min(lanes, earlier.size() - first)),
+            fewest, {.signal_meshes = meshes, .cache = cache});
+        auto start = WallClock::now();
+        std::ranges::move(all_lane_signals(scene, path, tile, meshes),
+                          std::back_inserter(all.baseline));
+        tile.signals_s += lap(start);
+        all.status.insert(all.status.end(), tile.status.begin(), tile.status.end());
+        add_costs(tile, all);
+    }
+    return all;
 }
 
-// Replaces the status `ok` of each test record by the status of its baseline record.
+// Replaces the status `ok` of each test record by the first other status of its baseline records.
 void merge_baseline_status(std::span<const Status> earlier, GearboxTile& tile) {
-    for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
-        if (tile.status[lane] == Status::ok) {
-            tile.status[lane] = earlier[lane];
+    const std::size_t each = earlier.size() / tile.status.size();
+    for (std::size_t i = 0; i < earlier.size(); ++i) {
+        if (tile.status[i / each] == Status::ok) {
+            tile.status[i / each] = earlier[i];
         }
     }
 }
@@ -249,22 +283,15 @@ void merge_baseline_status(std::span<const Status> earlier, GearboxTile& tile) {
 void add_baselines(GearboxTile earlier, GearboxTile& tile) {
     tile.baseline = std::move(earlier.baseline);
     merge_baseline_status(earlier.status, tile);
-    tile.sampling_s += earlier.sampling_s;
-    tile.stiffness_s += earlier.stiffness_s;
-    tile.integration_s += earlier.integration_s;
-    tile.signals_s += earlier.signals_s;
-    tile.integration_cpu_s += earlier.integration_cpu_s;
-    tile.meshes += earlier.meshes;
-    tile.superposed += earlier.superposed;
-    tile.superposition_fallbacks += earlier.superposition_fallbacks;
+    add_costs(earlier, tile);
 }
 
-// Runs gearboxes that fill at most half of the lanes. Their baseline records take further lanes of
-// the same tile, after the test records.
+// Runs gearboxes that leave lanes free for all of their baseline records, which follow the test
+// records in the same tile.
 GearboxTile run_side_by_side(const Scene& scene, const signals::PathGrid& path,
                              std::span<const GearboxId> ids, int lanes, TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
-    const std::vector<GearboxId> earlier = baselines_of(ids);
+    const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
     if (options.signal_meshes >= 0) {
         options.signal_meshes = std::max(options.signal_meshes, needed_sensor_meshes(scene));
@@ -292,7 +319,8 @@ GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
         return run_records(scene, path, ids, fewest, options);
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
-    if (2 * ids.size() <= static_cast<std::size_t>(lanes)) {
+    const std::size_t records = 1 + computed_baselines(scene.study());
+    if (records * ids.size() <= static_cast<std::size_t>(lanes)) {
         return run_side_by_side(scene, path, ids, lanes, options);
     }
     GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);

@@ -25,10 +25,15 @@ struct LaneSignals {
     std::vector<double> folded;   // as GearboxTile::folded
     std::vector<double> te_turn;  // as GearboxTile::te_turn
     std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
-    // Signals of the gearbox's baseline record, owned by the tile. Null unless a feature compares
-    // with the baseline.
+    std::vector<double> te;       // rad, [mesh * P_te + p]; empty unless records have a length
+    // Signals of the gearbox's baseline records, owned by the tile: null unless a feature compares
+    // with the baseline, and only one if their motion is the same.
     const LaneSignals* baseline = nullptr;
+    std::size_t baselines = 0;
     double noise_m_s2 = 0.0;  // rms noise of the sensor in this record, at noise level 1
+    // Of a record that was cut from the signals (record_window.hpp): turns of the monitored gear,
+    // or 0 for the scene's span, and mesh period of the signals at which the record begins.
+    int turns = 0, first_mesh = 0;
 };
 
 // Results of a tile. `integration.records` owns the data that `views` refers to. If
@@ -44,7 +49,8 @@ struct GearboxTile {
     signals::Tones tones;                                      // interfering tones; may be empty
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
-    // One entry per requested gearbox. Empty unless a feature compares with the baseline record.
+    // Equally many entries for each requested gearbox, one gearbox after the other. Empty unless a
+    // feature compares with baseline records.
     std::vector<LaneSignals> baseline;
 
     double sampling_s = 0.0, stiffness_s = 0.0, integration_s = 0.0, signals_s = 0.0;
@@ -71,9 +77,10 @@ struct TileOptions {
 
 // Runs the gearboxes in `ids`, at most one per lane. The number of lanes is `fewest` (16, 8, 4 or
 // 1) or the next larger number for which the program has kernels. Unused lanes repeat the last
-// gearbox. If features compare with baseline records, these run first, or in the same tile if half
-// of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh period is
-// integrated, the sensor signals are recorded during integration and the motion is not kept.
+// gearbox. If features compare with baseline records, these run first, or in the same tile if
+// enough of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh
+// period is integrated, the sensor signals are recorded during integration and the motion is not
+// kept.
 GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest,
                           const TileOptions& options = {});

@@ -4,6 +4,7 @@
 
 #include "machine/cancellation.hpp"
 #include "mc/gearbox/realization_signals.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
@@ -72,11 +73,13 @@ HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid
         }
         const GearboxTile tile =
             run_gearboxes(scene, path, ids, lanes, {.signal_meshes = records.meshes()});
-        const auto signals = all_lane_signals(scene, path, tile, records.meshes());
+        auto signals = all_lane_signals(scene, path, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
-                records.load(signals[lane], tile.realizations[lane]);
+                const LaneSignals record =
+                    drawn_record(scene, std::move(signals[lane]), tile.realizations[lane]);
+                records.load(record, tile.realizations[lane]);
                 for (std::size_t level = 0; level < levels; ++level) {
                     mean.add(level, records.at(level));
                 }

@@ -165,7 +165,8 @@ bool records_during_integration(const Scene& scene) {
 }
 
 int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
-    return needs_samples(needs)              ? scene.signal_meshes()
+    const bool cut = has_record_length(scene.study()) && !scene.study().effects.quasi_static();
+    return needs_samples(needs) || cut       ? scene.signal_meshes()
            : noise_by_density(scene.study()) ? scene.span_meshes()
                                              : 0;
 }
@@ -179,7 +180,8 @@ double motion_bytes(const Scene& scene) {
         return record_bytes(scene);
     }
     // Copies: samples as recorded and by lane, plus those of the baseline records.
-    const double copies = compares_records(scene.study()) ? 3.0 : 2.0;
+    const Study& study = scene.study();
+    const double copies = 2.0 + (compares_records(study) ? study.features.baseline_records : 0);
     const double samples =
         static_cast<double>(needed_sensor_meshes(scene)) * scene.samples_per_mesh();
     return copies * 8.0 * samples * scene.study().numerics.lanes +

@@ -1,5 +1,6 @@
 #include "mc/gearbox/random_tooth_errors.hpp"
 
+#include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 
 #include "gears/tooth_deviations.hpp"
@@ -90,7 +91,8 @@ class LaneTeeth {
           slopes_(std::move(slopes)),
           errors_(errors) {}
 
-    void draw(const ToothedBody& body, const gears::DeviationScales& scales) {
+    // `shift`: number of teeth by which the gear is turned in its assembly.
+    void draw(const ToothedBody& body, const gears::DeviationScales& scales, int shift) {
         const gears::WaveNumbers numbers = wave_numbers(waves_);
         for (std::size_t s = 0; s < body.sides.size(); ++s) {
             lockstep::GearErrors& flanks = errors_.gears[body.sides[s]];
@@ -107,7 +109,8 @@ class LaneTeeth {
             const double common = scales.common_slope * slopes_();
             const std::span<const double> measured = measured_index(body, s, flanks.teeth);
             for (int t = 0; t < flanks.teeth; ++t) {
-                const auto at = static_cast<std::size_t>(t) * lanes_ + lane_;
+                const int slot = (t + flanks.teeth - shift) % flanks.teeth;
+                const auto at = static_cast<std::size_t>(slot) * lanes_ + lane_;
                 const auto tooth = static_cast<std::size_t>((t + body.first[s]) % flanks.teeth);
                 const double scatter = scales.pitch * pitch_();
                 const double own_slope = common + scales.slope * slopes_();
@@ -189,8 +192,15 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
         LaneTeeth teeth(scene, lane, lanes, normals(StreamPurpose::pitch_errors),
                         normals(StreamPurpose::index_waves), normals(StreamPurpose::profile_slopes),
                         errors);
+        GearboxId assembly = realizations[lane].id;
+        assembly.baseline = 0;  // one assembly for all baseline records
+        Philox engine = record_stream(scene.study(), assembly, StreamPurpose::assembled_teeth);
+        const bool shifted = assembly.record == Record::baseline && redraws(scene.study(), "teeth");
         for (const ToothedBody& body : bodies) {
-            teeth.draw(body, scales_of_member(scene, body.member, realizations[lane].inputs));
+            const int last = teeth_of(scene.study(), body.member).value() - 1;
+            boost::random::uniform_int_distribution<int> shift(0, last);
+            teeth.draw(body, scales_of_member(scene, body.member, realizations[lane].inputs),
+                       shifted ? shift(engine) : 0);
         }
     }
     return errors;

@@ -1,5 +1,6 @@
 #include "mc/gearbox/realization_features.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,15 @@
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+// Signals of baseline record k of a gearbox.
+const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
+    return gearbox.baseline[std::min(k, gearbox.baselines - 1)];
+}
+
+}  // namespace
+
 RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy)
     : RealizationSignals(scene, compared_needs(used_features(scene.study())).record),
       scene_(scene),
@@ -15,7 +25,9 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
       levels_(scene.study().sensor.noise_levels.size()) {
     const ComparedNeeds needs = compared_needs(features_);
     if (!needs.baseline.empty()) {
-        baseline_ = std::make_unique<RealizationSignals>(scene, needs.baseline);
+        for (int k = 0; k < scene.study().features.baseline_records; ++k) {
+            baselines_.push_back({RealizationSignals(scene, needs.baseline), {}, {}});
+        }
     }
     if (!needs.change.empty()) {
         change_ = std::make_unique<RealizationSignals>(scene, needs.change);
@@ -23,21 +35,58 @@ RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyRefere
 }
 
 void RealizationFeatures::load(const LaneSignals& gearbox, const Realization& realization) {
-    RealizationSignals::load(gearbox, realization);
-    const double noise_m_s2 = realization.inputs.noise_m_s2;
-    Realization earlier = realization;
-    if (baseline_) {
-        earlier.id.record = Record::baseline;
-        earlier.id.noise_sampling = NoiseSampling::plain;
-        earlier.inputs.noise_m_s2 = gearbox.baseline->noise_m_s2;
-        baseline_->load(*gearbox.baseline, earlier);
+    RecordWindow window;
+    if (has_record_length(scene_.study())) {
+        window = record_window(scene_, realization.id, record_turns(scene_, realization.inputs));
+        record_ = cut_record(scene_, gearbox, window, keeps_samples());
+        RealizationSignals::load(record_, realization);
+    } else {
+        RealizationSignals::load(gearbox, realization);
+    }
+    if (!baselines_.empty()) {
+        load_baselines(gearbox, realization, window);
     }
     if (change_) {
-        const double rms = noise_m_s2 > 0.0 ? earlier.inputs.noise_m_s2 / noise_m_s2 : 1.0;
-        changed_ = change_since_baseline(scene_, gearbox);
-        change_->load(changed_, realization.inputs,
-                      noise_of_change(scene_, changed_, noise(), baseline_->noise(), rms));
+        load_change(gearbox, realization);
     }
+}
+
+void RealizationFeatures::load_baselines(const LaneSignals& gearbox, const Realization& realization,
+                                         const RecordWindow& window) {
+    Realization earlier = realization;
+    earlier.id.record = Record::baseline;
+    earlier.id.noise_sampling = NoiseSampling::plain;
+    for (std::size_t k = 0; k < baselines_.size(); ++k) {
+        const LaneSignals& signals = baseline_of(gearbox, k);
+        Baseline& baseline = baselines_[k];
+        earlier.id.baseline = k;
+        earlier.inputs.noise_m_s2 = baseline.noise_m_s2 = signals.noise_m_s2;
+        if (window.turns == 0) {
+            baseline.signals.load(signals, earlier);
+            continue;
+        }
+        const bool samples = baseline.signals.keeps_samples();
+        baseline.cut =
+            cut_record(scene_, signals, record_window(scene_, earlier.id, window.turns), samples);
+        baseline.signals.load(baseline.cut, earlier);
+        if (change_) {
+            baseline.aligned = cut_record(scene_, signals, window, samples);
+        }
+    }
+}
+
+void RealizationFeatures::load_change(const LaneSignals& gearbox, const Realization& realization) {
+    const double noise_m_s2 = realization.inputs.noise_m_s2;
+    std::vector<const LaneSignals*> before;
+    std::vector<BaselineNoise> noises;
+    for (std::size_t k = 0; k < baselines_.size(); ++k) {
+        const Baseline& baseline = baselines_[k];
+        before.push_back(record().turns > 0 ? &baseline.aligned : &baseline_of(gearbox, k));
+        noises.push_back(
+            {&baseline.signals.noise(), noise_m_s2 > 0.0 ? baseline.noise_m_s2 / noise_m_s2 : 1.0});
+    }
+    changed_ = change_since_baseline(scene_, record(), before);
+    change_->load(changed_, realization.inputs, noise_of_change(scene_, changed_, noise(), noises));
 }
 
 std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
@@ -46,27 +95,32 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
     std::vector<double> values(features_.size() * levels_);
     load(gearbox, realization);
     for (std::size_t level = 0; level < levels_; ++level) {
-        features::FeatureInput input = at(level), before, change;
-        if (baseline_) {
-            before = baseline_->at(level);
-            input.baseline = &before;
+        features::FeatureInput input = at(level), change;
+        std::vector<features::FeatureInput> before;
+        for (Baseline& baseline : baselines_) {
+            before.push_back(baseline.signals.at(level));
         }
+        input.baseline = before.data();
+        input.baselines = static_cast<int>(before.size());
         if (change_) {
             change = change_->at(level);
             input.change = &change;
         }
-        for (features::FeatureInput* of : {&input, &before}) {
-            if (!healthy_->amplitude.empty()) {
-                of->get<features::HealthyRecords>() = healthy_->at(level);
+        if (!healthy_->amplitude.empty()) {
+            input.get<features::HealthyRecords>() = healthy_->at(level);
+            for (features::FeatureInput& of : before) {
+                of.get<features::HealthyRecords>() = healthy_->at(level);
             }
         }
         if (signals != nullptr) {
-            const auto copy_of = [](std::span<const double> signal) {
-                return std::vector<double>(signal.begin(), signal.end());
+            const auto from_first_tooth = [&](std::span<const double> turn, int per_mesh) {
+                std::vector<double> copy(turn.begin(), turn.end());
+                rotate_to_first_tooth(record(), per_mesh, copy);
+                return copy;
             };
             signals->push_back(
-                {copy_of(input.get<features::TeTurn>().turn),
-                 copy_of(input.get<features::ToothRms<features::Gear::planet>>().rms)});
+                {from_first_tooth(input.get<features::TeTurn>().turn, scene_.te_samples_per_mesh()),
+                 from_first_tooth(input.get<features::ToothRms<features::Gear::planet>>().rms, 1)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
             const double value = features_[f]->value(input);

@@ -6,13 +6,14 @@
 
 #include "mc/gearbox/healthy_reference.hpp"
 #include "mc/gearbox/realization_signals.hpp"
+#include "mc/gearbox/record_window.hpp"
 
 namespace gearpod::mc {
 
 // Signals from which features are computed at one noise level.
 struct LevelSignals {
-    std::vector<double> te_turn;    // rad, Z_p P_te samples
-    std::vector<double> tooth_rms;  // m/s^2, Z_p values; empty without a sensor
+    std::vector<double> te_turn;    // rad, Z_p P_te samples, from tooth 0
+    std::vector<double> tooth_rms;  // m/s^2, Z_p values, from tooth 0; empty without a sensor
 };
 
 // Computes the features that a study uses.
@@ -27,14 +28,26 @@ class RealizationFeatures : public RealizationSignals {
                                 std::vector<LevelSignals>* signals = nullptr);
 
   private:
+    // A baseline record with noise. If records have a length, `cut` is the record, and `aligned`
+    // are its signals at the tooth position of the test record.
+    struct Baseline {
+        RealizationSignals signals;
+        LaneSignals cut, aligned;
+        double noise_m_s2 = 0.0;  // rms noise of the sensor at noise level 1
+    };
     void load(const LaneSignals& gearbox, const Realization& realization);
+    void load_baselines(const LaneSignals& gearbox, const Realization& realization,
+                        const RecordWindow& window);
+    void load_change(const LaneSignals& gearbox, const Realization& realization);
 
     const Scene& scene_;
     std::vector<const features::Feature*> features_;
     const HealthyReference* healthy_;
     std::size_t levels_;
-    // Null unless a feature compares with the baseline record.
-    std::unique_ptr<RealizationSignals> baseline_, change_;
+    LaneSignals record_;               // cut from the signals if records have a length
+    std::vector<Baseline> baselines_;  // empty unless a feature compares with baseline records
+    // Null unless a feature uses the change since the baseline.
+    std::unique_ptr<RealizationSignals> change_;
     LaneSignals changed_;
 };
 

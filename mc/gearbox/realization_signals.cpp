@@ -37,8 +37,8 @@ signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& i
 }
 
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
-                                 std::span<const double> clean,
-                                 const signals::NoiseVariates& draw) {
+                                 std::span<const double> clean, const signals::NoiseVariates& draw,
+                                 int turns) {
     if (noise_by_density(scene.study())) {
         const auto normals = [&](StreamPurpose purpose) {
             return Normals::of_noise(scene.study(), realization.id, purpose);
@@ -54,7 +54,7 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
     Normals engine =
         Normals::of_noise(scene.study(), realization.id, StreamPurpose::sensor_noise_direction);
     const std::size_t bins = draw.along.size();
-    const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
+    const std::size_t span = bins * static_cast<std::size_t>(turns);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
     unit.resize(clean.size());
     signals::draw_normals(engine, std::span(unit).subspan(span));
@@ -72,6 +72,7 @@ RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet n
 
 RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet needs, int turns)
     : scene_(scene),
+      default_turns_(turns),
       span_{scene.span().planet_teeth, turns, scene.span().carrier_meshes},
       sensor_noise_(turns),
       windowing_(span_, scene.samples_per_mesh(), scene.study().features.tukey_taper),
@@ -82,6 +83,20 @@ RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet n
       highest_level_(std::ranges::max(scene.study().sensor.noise_levels)),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
+
+bool RealizationSignals::keeps_samples() const {
+    return needs_samples_ || noise_by_density(scene_.study());
+}
+
+void RealizationSignals::set_turns(int turns) {
+    const int needed = turns > 0 ? turns : default_turns_;
+    if (needed != span_.ring_teeth) {
+        span_.ring_teeth = needed;
+        sensor_noise_ = signals::SensorNoise(needed);
+        windowing_ = signals::Windowing(span_, scene_.samples_per_mesh(),
+                                        scene_.study().features.tukey_taper);
+    }
+}
 
 bool RealizationSignals::has_sensor_noise(const InstanceInputs& inputs) const {
     return highest_level_ * inputs.noise_m_s2 > 0.0;
@@ -100,7 +115,8 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
         }
     }
     if (!gearbox.sensor.empty()) {
-        noise_.samples = sample_noise(scene_, realization, gearbox.sensor, noise_.sensor);
+        noise_.samples =
+            sample_noise(scene_, realization, gearbox.sensor, noise_.sensor, span_.ring_teeth);
     }
     if (by_density) {
         const std::size_t span = bins * static_cast<std::size_t>(span_.ring_teeth);
@@ -112,9 +128,10 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
 void RealizationSignals::sample_sensor_noise(const LaneSignals& gearbox,
                                              const Realization& realization) {
     const GearboxId& id = realization.id;
+    // Records of a gearbox have the same signals without noise unless they were cut from them.
     const auto same = [&](const GearboxId& other) {
         return other.group == id.group && other.index == id.index &&
-               other.noise_sampling == id.noise_sampling;
+               other.noise_sampling == id.noise_sampling && gearbox.turns == 0;
     };
     if (!sampler_ || !same(sampled_gearbox_)) {
         std::vector<double> sigmas;
@@ -159,12 +176,14 @@ void RealizationSignals::draw_noise(const LaneSignals& gearbox, const Realizatio
 }
 
 void RealizationSignals::load(const LaneSignals& gearbox, const Realization& realization) {
+    set_turns(gearbox.turns);
     draw_noise(gearbox, realization);
     load_signals(gearbox, realization.inputs);
 }
 
 void RealizationSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
                               RealizationNoise noise) {
+    set_turns(gearbox.turns);
     noise_ = std::move(noise);
     load_signals(gearbox, inputs);
 }

@@ -21,12 +21,14 @@
 
 namespace gearpod::mc {
 
-// Unit noise for every sample of a gearbox's noise-free sensor signal. The signal begins with the
-// span. Within the span, the noise folds exactly to `draw`; after it, each sample is independent.
+// Unit noise for every sample of a gearbox's noise-free sensor signal. The signal begins with
+// `turns` turns of the monitored gear. Within them, the noise folds exactly to `draw`; after them,
+// each sample is independent.
 // Noise given by its spectral density is generated sample by sample throughout, and `draw` follows
 // from it.
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
-                                 std::span<const double> clean, const signals::NoiseVariates& draw);
+                                 std::span<const double> clean, const signals::NoiseVariates& draw,
+                                 int turns);
 // Low-pass filter for the unit noise of a sensor whose noise is given by its spectral density.
 // Samples count as evenly spaced even if the speed fluctuates.
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
@@ -64,7 +66,8 @@ class RealizationSignals {
     // `needs`: signals that features need.
     RealizationSignals(const Scene& scene, features::SignalSet needs);
     // The same for signals folded over `turns` planet turns instead of the scene's span, at least
-    // 3. Only for features that do not need samples.
+    // 3. Only for features that do not need samples. Signals with LaneSignals::turns have their own
+    // number of turns.
     RealizationSignals(const Scene& scene, features::SignalSet needs, int turns);
 
     // Number of mesh periods of sensor signal that LaneSignals must hold; may be 0.
@@ -77,6 +80,9 @@ class RealizationSignals {
     // Signals of the loaded gearbox at a noise level; valid until the next call.
     features::FeatureInput at(std::size_t level);
 
+    // True if sensor samples of the records are used, by features or for noise of a given density.
+    bool keeps_samples() const;
+    const LaneSignals& record() const { return *gearbox_; }  // loaded last
     const RealizationNoise& noise() const { return noise_; }
     // Importance weight of the record loaded last; 1 without importance sampling.
     double noise_weight() const;
@@ -84,6 +90,8 @@ class RealizationSignals {
     double noise_s() const { return noise_s_; }
 
   private:
+    // Prepares for signals of this many turns; 0 for those of the constructor.
+    void set_turns(int turns);
     // True if any noise level adds noise to the sensor.
     bool has_sensor_noise(const InstanceInputs& inputs) const;
     void draw_sensor_noise(const LaneSignals& gearbox, const Realization& realization);
@@ -97,7 +105,8 @@ class RealizationSignals {
     void te_features(double noise, features::FeatureInput& input);
 
     const Scene& scene_;
-    const signals::SpanLayout span_;
+    const int default_turns_;
+    signals::SpanLayout span_;
     signals::SensorNoise sensor_noise_;
     signals::Windowing windowing_;
     std::optional<signals::NoiseImportanceSampler>

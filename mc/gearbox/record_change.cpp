@@ -2,22 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "signals/spectra/synchronous_average.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-std::vector<double> less(std::span<const double> a, std::span<const double> b) {
-    std::vector<double> difference(a.size());
-    std::transform(a.begin(), a.end(), b.begin(), difference.begin(), std::minus<>());
-    return difference;
+// Subtracts `factor` times the values of b.
+void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
+    std::transform(a.begin(), a.end(), b.begin(), a.begin(),
+                   [&](double x, double y) { return x - factor * y; });
 }
 
-// The part of a signal that is folded: the span. The signal may continue after it.
-std::span<const double> folding(const Scene& scene, std::span<const double> samples) {
-    return samples.first(static_cast<std::size_t>(scene.span_meshes()) *
+// The part of a signal that is folded: the record's turns. The signal may continue after it.
+std::span<const double> folding(const Scene& scene, const LaneSignals& record,
+                                std::span<const double> samples) {
+    const int turns = record.turns > 0 ? record.turns : scene.span().ring_teeth;
+    return samples.first(static_cast<std::size_t>(turns * scene.span().planet_teeth) *
                          static_cast<std::size_t>(scene.samples_per_mesh()));
 }
 
@@ -28,24 +29,36 @@ std::size_t turn_samples(const Scene& scene) {
 
 }  // namespace
 
-LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record) {
+LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record,
+                                  std::span<const LaneSignals* const> baselines) {
     LaneSignals change;
-    change.te_turn = less(record.te_turn, record.baseline->te_turn);
-    change.sensor = less(record.sensor, record.baseline->sensor);
-    change.folded = signals::fold_of_squares(folding(scene, change.sensor), turn_samples(scene));
+    change.te_turn = record.te_turn;
+    change.sensor = record.sensor;
+    change.turns = record.turns;
+    const double share = 1.0 / static_cast<double>(baselines.size());
+    for (const LaneSignals* baseline : baselines) {
+        subtract(baseline->te_turn, share, change.te_turn);
+        subtract(baseline->sensor, share, change.sensor);
+    }
+    change.folded =
+        signals::fold_of_squares(folding(scene, change, change.sensor), turn_samples(scene));
     return change;
 }
 
 RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
-                                 const RealizationNoise& record, const RealizationNoise& baseline,
-                                 double baseline_rms) {
+                                 const RealizationNoise& record,
+                                 std::span<const BaselineNoise> baselines) {
     RealizationNoise noise;
-    noise.samples.resize(record.samples.size());
-    std::transform(record.samples.begin(), record.samples.end(), baseline.samples.begin(),
-                   noise.samples.begin(), [&](double a, double b) { return a - baseline_rms * b; });
-    noise.encoder = less(record.encoder, baseline.encoder);
-    noise.sensor = signals::noise_variates_of_samples(
-        folding(scene, change.sensor), folding(scene, noise.samples), turn_samples(scene));
+    noise.samples = record.samples;
+    noise.encoder = record.encoder;
+    const double share = 1.0 / static_cast<double>(baselines.size());
+    for (const BaselineNoise& one : baselines) {
+        subtract(one.noise->samples, share * one.rms, noise.samples);
+        subtract(one.noise->encoder, share, noise.encoder);
+    }
+    noise.sensor = signals::noise_variates_of_samples(folding(scene, change, change.sensor),
+                                                      folding(scene, change, noise.samples),
+                                                      turn_samples(scene));
     return noise;
 }
 

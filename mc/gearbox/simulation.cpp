@@ -10,6 +10,7 @@
 #include "mc/gearbox/realization_features.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/results/failure_text.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/study/fluctuations.hpp"
 
 namespace gearpod::mc {
@@ -17,12 +18,17 @@ namespace {
 
 using Column = SignalColumn;
 
-// Values of the first lane over `meshes` mesh periods, repeating the recorded ones. value(record,
+// Mesh periods of the signals that are written.
+struct MeshRange {
+    long first = 0, count = 0;
+};
+
+// Values of the first lane over these mesh periods, repeating the recorded ones. value(record,
 // sample) reads one value.
 template <typename Value>
-std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
+std::vector<double> unroll(const GearboxTile& tile, int samples, MeshRange meshes, Value value) {
     std::vector<double> all;
-    for (long k = 0; k < meshes; ++k) {
+    for (long k = meshes.first; k < meshes.first + meshes.count; ++k) {
         const auto& content = tile.integration.content;
         const int id = content[static_cast<std::size_t>(k) % content.size()];
         for (int p = 0; p < samples; ++p) {
@@ -33,7 +39,7 @@ std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Va
     return all;
 }
 
-void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simulation& out) {
+void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, Simulation& out) {
     const auto names = dynamics::motion_names(scene.plan().layout);
     const int samples = scene.samples_per_mesh();
     const std::size_t lanes = tile.realizations.size();
@@ -58,8 +64,11 @@ void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simula
 void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::PathGrid& path,
                 const RealizationFeatures& features, std::size_t rows, Simulation& out) {
     const Realization& realization = tile.realizations[0];
-    const auto clean = lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
-    const auto noise = sample_noise(scene, realization, clean, features.noise().sensor);
+    const LaneSignals record =
+        drawn_record(scene, lane_signals(scene, path, tile, 0, scene.signal_meshes()), realization);
+    const std::vector<double>& clean = record.sensor;
+    const auto noise = sample_noise(scene, realization, clean, features.noise().sensor,
+                                    record.turns > 0 ? record.turns : scene.span().ring_teeth);
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
@@ -73,26 +82,33 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
 }
 
 // Time of every sample, s. A fluctuating speed makes the spacing uneven.
-std::vector<double> sample_times(const Scene& scene, const Realization& realization, long meshes) {
+std::vector<double> sample_times(const Scene& scene, const Realization& realization,
+                                 MeshRange meshes) {
     const auto& grid = scene.plan().grid;
     const std::vector<dynamics::GearboxInputs> inputs{scene.inputs(realization.inputs)};
     std::vector<double> times;
     if (!speed_fluctuates(scene.study())) {
         const double period_s = dynamics::mesh_period_s(inputs[0]);
         const int samples = scene.samples_per_mesh();
-        for (long i = 0; i < meshes * samples; ++i) {
+        for (long i = 0; i < meshes.count * samples; ++i) {
             times.push_back(static_cast<double>(i) / samples * period_s);
         }
         return times;
     }
     const auto excitation = draw_excitation(scene, std::span(&realization, 1));
     lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
-    for (long mesh = 0; mesh < meshes; ++mesh) {
+    for (long mesh = meshes.first; mesh < meshes.first + meshes.count; ++mesh) {
         rows.fill(static_cast<int>(mesh));
         for (std::size_t step = 0; step < grid.steps.size(); ++step) {
             if (grid.steps[step].sample >= 0) {
                 times.push_back(*rows.time(static_cast<int>(step)));
             }
+        }
+    }
+    if (meshes.first > 0) {
+        const double start = times.front();
+        for (double& time : times) {
+            time -= start;
         }
     }
     return times;
@@ -112,9 +128,16 @@ GearboxId id_of_row(const Study& study, long row) {
 
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
-    const GearboxTile tile = run_gearboxes(
-        scene, path, std::span(&id, 1), 1,
-        {.records = lockstep::RecordOptions{.motion_meshes = static_cast<int>(meshes)}});
+    const MeshRange range{
+        has_record_length(scene.study())
+            ? record_window(scene, id, record_turns(scene, scene.sampler().draw(id).inputs))
+                  .first_mesh
+            : 0,
+        meshes};
+    const GearboxTile tile =
+        run_gearboxes(scene, path, std::span(&id, 1), 1,
+                      {.records = lockstep::RecordOptions{
+                           .motion_meshes = static_cast<int>(range.first + range.count)}});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
@@ -133,11 +156,11 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         angle{"carrier_angle", "rad", {}};
     const double period_s = dynamics::mesh_period_s(inputs);
     for (std::size_t i = 0; i < rows; ++i) {
-        const double mesh = static_cast<double>(i) / samples;
+        const double mesh = static_cast<double>(range.first) + static_cast<double>(i) / samples;
         phase.values.push_back(mesh);
         angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
     }
-    time.values = sample_times(scene, tile.realizations[0], meshes);
+    time.values = sample_times(scene, tile.realizations[0], range);
     out.columns = {time, phase};
     if (scene.study().gearbox.kind == GearboxKind::planetary) {
         out.columns.push_back(angle);
@@ -145,7 +168,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     if (!scene.study().effects.quasi_static()) {
         add_sensor(scene, tile, path, features, rows, out);
     }
-    add_motion(scene, tile, meshes, out);
+    add_motion(scene, tile, range, out);
     if (!tile.integration.contact_loss.empty()) {
         const auto meshes_of_kind = meshes_of(scene.study().gearbox.kind);
         const auto loss = contact_loss(tile, 0, meshes_of_kind.size());

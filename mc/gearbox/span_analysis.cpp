@@ -77,8 +77,9 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
             views(average_, *sensor_turn_, scene_.span().planet_teeth)};
     }
     if (needs_.has<features::FilteredSensor>()) {
-        input.get<features::FilteredSensor>().rms = signals::rms_without_average(
-            span, static_cast<std::size_t>(scene_.path_meshes()) * phases);
+        const std::size_t path = static_cast<std::size_t>(scene_.path_meshes()) * phases;
+        input.get<features::FilteredSensor>().rms =
+            span.size() < path ? std::nan("") : signals::rms_without_average(span, path);
     }
     if (needs_.has<features::ToothMoments<Gear::planet>>()) {
         planet_ = signals::tooth_statistics(span, planet, window_, planet_offset);
@@ -103,6 +104,13 @@ void SpanAnalysis::central_teeth(std::span<const double> samples, Member member,
     const int teeth = *teeth_of(scene_.study(), member);
     const signals::GearTurns gear = central_turns(scene_.span(), teeth);
     const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
+    if (samples.size() < static_cast<std::size_t>(gear.meshes()) * phases) {
+        const std::vector<double> none(static_cast<std::size_t>(teeth), std::nan(""));
+        statistics = {none, none, none, none};
+        input.get<Rms>() = {statistics.rms};
+        input.get<Moments>() = {statistics.kurtosis, statistics.crest, statistics.m8a};
+        return;
+    }
     const auto span = samples.first(static_cast<std::size_t>(gear.meshes()) * phases);
     signals::Windowing windowing(gear.layout(), scene_.samples_per_mesh(),
                                  scene_.study().features.tukey_taper);

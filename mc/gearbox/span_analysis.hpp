@@ -20,8 +20,9 @@ class SpanAnalysis {
     // `needs`: signals that features need.
     SpanAnalysis(const Scene& scene, features::SignalSet needs);
 
-    // `samples`: m/s^2, P per mesh period, at least meshes_needed() mesh periods. Features of the
-    // planets' teeth and turns need only `planet_turns` turns: Z_r, or fewer in a short recording.
+    // `samples`: m/s^2, P per mesh period. Features of the planets' teeth and turns need
+    // `planet_turns` turns: Z_r, or fewer in a short recording. Signals that need more mesh periods
+    // than there are (meshes_needed()) become NaN.
     // `planet_offset`: first sample of the best window of the planets' teeth. Fills the needed
     // parts of `input`, which refer to memory of this object.
     void sensor(std::span<const double> samples, int planet_turns, int planet_offset,

@@ -4,6 +4,7 @@
 
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
+#include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
 
@@ -38,7 +39,8 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const signals::PathGr
         path, scene.span(),
         signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents, &tones,
                                       scene.te_samples_per_mesh(), signal_meshes_,
-                                      kept_meshes < 0 ? signal_meshes_ : kept_meshes});
+                                      kept_meshes < 0 ? signal_meshes_ : kept_meshes,
+                                      has_record_length(scene.study())});
 }
 
 void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {

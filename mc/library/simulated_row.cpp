@@ -4,6 +4,7 @@
 
 #include "mc/input/bad_input.hpp"
 #include "mc/results/batch_rows.hpp"
+#include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
 
@@ -11,10 +12,12 @@ Simulation simulate_row(const Scene& scene, long row, long meshes) {
     const Study& study = scene.study();
     const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
     const long simulated = meshes > 0 ? meshes : scene.span().planet_teeth;
-    if (row < 0 || row >= rows || simulated > scene.signal_meshes()) {
+    // A record of given length begins within the span.
+    const int most = scene.signal_meshes() - (has_record_length(study) ? scene.span_meshes() : 0);
+    if (row < 0 || row >= rows || simulated > most) {
         throw BadInput(fmt::format(
             "--instance must be a row of the results, 0 to {}; --meshes must be at most {}",
-            rows - 1, scene.signal_meshes()));
+            rows - 1, most));
     }
     return simulate(scene, id_of_row(study, row), simulated);
 }

@@ -21,27 +21,13 @@ double mesh_frequency_Hz(const Scene& scene, double speed_rad_s) {
 }  // namespace
 
 RecordSpan record_span(const Scene& scene, double speed_rad_s) {
-    constexpr int kLeast = 3;
-    const Life& life = scene.study().life;
     const signals::SpanLayout& span = scene.span();
-    RecordSpan record{span.ring_teeth, span.ring_teeth, life.recordings};
-    if (!life.record_s && !life.record_turns) {
-        return record;
-    }
-    const double mesh_Hz = mesh_frequency_Hz(scene, speed_rad_s);
-    const double meshes =
-        life.record_s ? *life.record_s * mesh_Hz : *life.record_turns * span.carrier_meshes;
-    record.turns = static_cast<int>(std::min(1e6, meshes / span.planet_teeth + 1e-9));
-    if (record.turns < kLeast) {
-        throw SceneError(
-            life.record_s ? "life.record_s" : "life.record_turns",
-            fmt::format("{:.1f} mesh periods, but windows repeat every {}", meshes,
-                        span.planet_teeth),
-            fmt::format("give at least {} of these, {:.3g} {}", kLeast,
-                        life.record_s
-                            ? kLeast * span.planet_teeth / mesh_Hz
-                            : static_cast<double>(kLeast * span.planet_teeth) / span.carrier_meshes,
-                        life.record_s ? "s" : "turns"));
+    const RecordLength length = life_record_length(scene.study());
+    RecordSpan record{span.ring_teeth, span.ring_teeth, scene.study().life.recordings};
+    if (length.given()) {
+        const double mesh_Hz = mesh_frequency_Hz(scene, speed_rad_s);
+        check_record_length(length, span, mesh_Hz);
+        record.turns = whole_turns(length, span, mesh_Hz);
     }
     return record;
 }
@@ -85,18 +71,15 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
                    "change_window_z");
         }
     }
-    const bool short_records = study.life.record_s || study.life.record_turns;
+    const bool short_records = life_record_length(study).given();
     for (const std::string& name : study.features.use) {
         if (short_records && name.starts_with("te_")) {
             reject("features.use",
                    "\"" + name +
                        "\" averages the transmission error over the whole span, but recordings "
                        "have another length",
-                   "remove it, or life.record_s and life.record_turns");
+                   "remove it, or record_s and record_turns");
         }
-    }
-    if (study.life.record_turns && scene.span().carrier_meshes == 1) {
-        reject("life.record_turns", "the carrier stands still", "use record_s");
     }
     if (study.effects.quasi_static()) {
         reject("effects.motion", "a quasi-static gearbox has no sensor signal",

@@ -23,6 +23,8 @@ enum class StreamPurpose : std::uint64_t {
     torque_noise = fnv1a("operation.torque_noise.knots"),
     speed_noise = fnv1a("operation.speed_noise.knots"),
     tone_phases = fnv1a("sensor.tones.phase"),
+    record_start = fnv1a("sensor.record.start"),        // tooth position at which a record begins
+    assembled_teeth = fnv1a("gearbox.assembly.teeth"),  // of a baseline's assembly
     // Noise of records.
     sensor_noise = fnv1a("noise.sensor"),
     sensor_noise_direction = fnv1a("noise.sensor.direction"),  // from folded noise to samples

@@ -39,7 +39,7 @@ std::string why_unavailable(const Feature& feature, const Scene& scene,
         return feature.from_sensor ? "no sensor signal" : "no transmission error";
     }
     const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
-    const int needed = meshes_of(feature, scene);
+    const int needed = least_meshes(feature, scene.study(), scene.span());
     if (has < needed) {
         return fmt::format("{} mesh periods, but {} are needed", has, needed);
     }
@@ -211,13 +211,6 @@ int planet_turns(const MeasuredSignal& signal, const Scene& scene) {
     return signal.has_sensor
                ? std::min(signal.sensor_meshes / scene.span().planet_teeth, scene.span().ring_teeth)
                : 0;
-}
-
-int meshes_of(const Feature& feature, const Scene& scene) {
-    return feature.needs.overlaps(features::kCentralGears) ||
-                   feature.needs.has<features::FilteredSensor>()
-               ? meshes_needed(scene.study(), scene.span(), feature.needs)
-               : scene.span().planet_teeth;
 }
 
 std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,

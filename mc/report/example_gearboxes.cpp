@@ -9,6 +9,7 @@
 
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/realization_features.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/report/thinning.hpp"
@@ -181,6 +182,8 @@ class Examples {
         const LaneSignals gearbox_signals =
             lane_signals(scene_, path_, tile, 0, features_.meshes());
         const auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
+        std::vector<double> te_turn = features_.record().te_turn;
+        rotate_to_first_tooth(features_.record(), scene_.te_samples_per_mesh(), te_turn);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
@@ -191,7 +194,7 @@ class Examples {
                   {"same_bits", same_bits(values, stored)},
                   {"engagements", engagements(scene_, row.size)},
                   {"te",
-                   {{"clean", time_json(gearbox_signals.te_turn, scene_.te_samples_per_mesh())},
+                   {{"clean", time_json(te_turn, scene_.te_samples_per_mesh())},
                     {"noisy", time_json(levels[level_].te_turn, scene_.te_samples_per_mesh())}}},
                   {"sensor", nullptr},
                   {"spectrum", nullptr},
@@ -207,7 +210,7 @@ class Examples {
                                         {"value", std::isfinite(value) ? Json(value) : Json()}});
         }
         if (!gearbox_signals.folded.empty()) {
-            add_sensor(tile, gearbox_signals, period_s, levels[level_].tooth_rms, json);
+            add_sensor(tile, period_s, levels[level_].tooth_rms, json);
         }
         return json;
     }
@@ -215,25 +218,37 @@ class Examples {
     double noise_level() const { return frame_.noise_levels[level_]; }
 
   private:
-    void add_sensor(const GearboxTile& tile, const LaneSignals& gearbox_signals, double period_s,
-                    const std::vector<double>& noisy_rms, Json& json) {
+    void add_sensor(const GearboxTile& tile, double period_s, const std::vector<double>& noisy_rms,
+                    Json& json) {
         const Realization& realization = tile.realizations[0];
-        const signals::SpanLayout layout = scene_.span();
+        signals::SpanLayout layout = scene_.span();
         const int samples = scene_.samples_per_mesh();
-        const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
+        const bool cut = features_.record().turns > 0;
+        const LaneSignals record =
+            drawn_record(scene_,
+                         lane_signals(scene_, path_, tile, 0,
+                                      cut ? scene_.signal_meshes() : scene_.span_meshes()),
+                         realization);
+        layout.ring_teeth = cut ? record.turns : layout.ring_teeth;
+        const std::vector<double>& clean = record.sensor;
         auto noisy = clean;
-        add_noise(sample_noise(scene_, realization, clean, features_.noise().sensor),
-                  noise_level() * realization.inputs.noise_m_s2, noisy);
-        const std::size_t turn =
-            static_cast<std::size_t>(layout.planet_teeth) * static_cast<std::size_t>(samples);
-        json["sensor"] = {{"clean", time_json({clean.data(), turn}, samples)},
-                          {"noisy", time_json({noisy.data(), turn}, samples)}};
+        add_noise(
+            sample_noise(scene_, realization, clean, features_.noise().sensor, layout.ring_teeth),
+            noise_level() * realization.inputs.noise_m_s2, noisy);
+        // A turn from tooth 0 on.
+        const int before = record.first_mesh % layout.planet_teeth;
+        const std::size_t first = static_cast<std::size_t>(
+                              before > 0 ? (layout.planet_teeth - before) * samples : 0),
+                          turn = static_cast<std::size_t>(layout.planet_teeth * samples);
+        json["sensor"] = {{"clean", time_json({clean.data() + first, turn}, samples)},
+                          {"noisy", time_json({noisy.data() + first, turn}, samples)}};
         json["spectrum"] =
-            spectrum_json(clean, noisy, static_cast<std::size_t>(scene_.span_meshes()), period_s);
+            spectrum_json(clean, noisy, static_cast<std::size_t>(layout.meshes()), period_s);
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(layout, samples, scene_.study().features.tukey_taper);
-        windowing.load(gearbox_signals.folded);
+        windowing.load(features_.record().folded);
         windowing.search(0.0, clean_rms);
+        rotate_to_first_tooth(features_.record(), 1, clean_rms);
         json["tooth_rms"] = {{"clean", clean_rms}, {"noisy", noisy_rms}};
     }
 

@@ -7,11 +7,11 @@
 #include "analysis/report/reliability_json.hpp"
 #include "analysis/report/report_json.hpp"
 #include "features/feature.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/study/assumptions.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
@@ -118,7 +118,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     Json json = examples_json(frame, rows);
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     json["title"] = study ? study->title : "";
-    json["assumptions"] = study ? assumptions(*study, false) : "";
+    json["assumptions"] = study ? run_conditions(*study) : "";
     json["fault"] = study && study->fault.kind ? Json(study->fault.kind->words()) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =

@@ -1,8 +1,12 @@
 #include "mc/scene/feature_needs.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <stdexcept>
 
+#include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -82,6 +86,108 @@ int meshes_needed(const Study& study, const signals::SpanLayout& span, SignalSet
 signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth) {
     const auto turns = signals::turns_of_span(teeth, span.carrier_meshes, span.meshes());
     return turns.turns > 0 ? turns : signals::fewest_turns(teeth, span.carrier_meshes);
+}
+
+int least_meshes(const features::Feature& feature, const Study& study,
+                 const signals::SpanLayout& span) {
+    return feature.needs.overlaps(features::kCentralGears) ||
+                   feature.needs.has<features::FilteredSensor>()
+               ? meshes_needed(study, span, feature.needs)
+               : span.planet_teeth;
+}
+
+std::string RecordLength::text() const {
+    return seconds ? fmt::format("{:g} s", *seconds)
+                   : fmt::format("{:g} carrier turns", *carrier_turns);
+}
+
+RecordLength record_length(const Study& study) {
+    return {"sensor", study.sensor.record_s, study.sensor.record_turns};
+}
+
+bool has_record_length(const Study& study) {
+    return record_length(study).given();
+}
+
+RecordLength life_record_length(const Study& study) {
+    const RecordLength own{"life", study.life.record_s, study.life.record_turns};
+    return own.given() ? own : record_length(study);
+}
+
+namespace {
+
+double meshes_of_record(const RecordLength& length, const signals::SpanLayout& span,
+                        double mesh_frequency_Hz) {
+    return length.seconds ? *length.seconds * mesh_frequency_Hz
+                          : *length.carrier_turns * span.carrier_meshes;
+}
+
+// Throws SceneError if features need longer records than these.
+void check_covered_features(const Study& study, const signals::SpanLayout& span, int meshes) {
+    std::vector<std::string> names;
+    int needed = 0;
+    for (const features::Feature* feature : used_features(study)) {
+        const int least = least_meshes(*feature, study, span);
+        if (least > meshes) {
+            names.push_back(fmt::format("\"{}\"", feature->name));
+            needed = std::max(needed, least);
+        }
+    }
+    if (!names.empty()) {
+        const RecordLength length = record_length(study);
+        throw SceneError("features.use",
+                         fmt::format("{} need{} {} mesh periods, but a record has {} (sensor.{})",
+                                     fmt::join(names, ", "), names.size() == 1 ? "s" : "", needed,
+                                     meshes, length.key()),
+                         "remove them, or record longer");
+    }
+}
+
+}  // namespace
+
+int whole_turns(const RecordLength& length, const signals::SpanLayout& span,
+                double mesh_frequency_Hz) {
+    const double turns = meshes_of_record(length, span, mesh_frequency_Hz) / span.planet_teeth;
+    return static_cast<int>(std::min(1e6, turns + 1e-9));
+}
+
+void check_record_length(const RecordLength& length, const signals::SpanLayout& span,
+                         double mesh_frequency_Hz) {
+    const std::string key = length.section + "." + length.key();
+    if (length.carrier_turns && span.carrier_meshes == 1) {
+        throw SceneError(key, "the carrier stands still", "use record_s");
+    }
+    if (whole_turns(length, span, mesh_frequency_Hz) < kLeastRecordTurns) {
+        const double least = kLeastRecordTurns * span.planet_teeth;
+        throw SceneError(
+            key,
+            fmt::format("{:.1f} mesh periods, but windows repeat every {}",
+                        meshes_of_record(length, span, mesh_frequency_Hz), span.planet_teeth),
+            fmt::format("give at least {} of these, {:.3g} {}", kLeastRecordTurns,
+                        least / (length.seconds ? mesh_frequency_Hz : double(span.carrier_meshes)),
+                        length.seconds ? "s" : "turns"));
+    }
+}
+
+int signal_meshes(const Study& study, const signals::SpanLayout& span, double mesh_frequency_Hz) {
+    const int of_features = meshes_needed(study, span, needs_of(used_features(study)));
+    const RecordLength length = record_length(study);
+    if (!length.given()) {
+        return of_features;
+    }
+    constexpr int kMostSpans = 100;
+    check_record_length(length, span, mesh_frequency_Hz);
+    const int turns = whole_turns(length, span, mesh_frequency_Hz);
+    if (turns > kMostSpans * span.ring_teeth) {
+        throw SceneError("sensor." + std::string(length.key()),
+                         fmt::format("is more than {} times the {} mesh periods after which all "
+                                     "teeth have met",
+                                     kMostSpans, span.meshes()),
+                         "shorten the record");
+    }
+    const int meshes = turns * span.planet_teeth;
+    check_covered_features(study, span, meshes);
+    return span.meshes() + meshes;
 }
 
 }  // namespace gearpod::mc

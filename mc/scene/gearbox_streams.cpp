@@ -26,7 +26,9 @@ bool is_replaced(const Study& study, Group group, const analysis::InputExchange&
 }
 
 StreamPurpose record_purpose(const GearboxId& id, StreamPurpose purpose) {
-    return id.record == Record::test ? purpose : with_suffix(purpose, ".baseline");
+    return id.record == Record::test ? purpose
+           : id.baseline == 0        ? with_suffix(purpose, ".baseline")
+                              : with_suffix(purpose, ".baseline." + std::to_string(id.baseline));
 }
 
 StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {

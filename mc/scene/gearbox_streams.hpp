@@ -31,6 +31,7 @@ struct GearboxId {
     // (analysis/detection/splitting.hpp), in order. May be empty; the caller owns the memory. If
     // set, all random inputs that have a quantile are computed from normal variates.
     std::optional<std::span<const analysis::InputExchange>> exchanged = {};
+    std::uint64_t baseline = 0;  // number of a baseline record, from 0
 };
 
 // Index of the gearbox whose random numbers for a purpose are used, where all of them are exchanged

@@ -1,6 +1,9 @@
 #include "mc/scene/planets.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace gearpod::mc {
@@ -40,7 +43,7 @@ Planets given_planets(const Study& study) {
 }
 
 void add_random_planets(const InputValues& values, std::function<double()> normal,
-                        Planets& planets) {
+                        std::function<double()> normal_of_pins, Planets& planets) {
     const Study& study = values.study();
     const PlanetDifferences& drawn = study.planets;
     const double tangential_m = values.of(drawn.pin_tangential_rms_m),
@@ -49,12 +52,14 @@ void add_random_planets(const InputValues& values, std::function<double()> norma
                  damping = values.of(drawn.bearing_damping_scatter),
                  mass = values.of(drawn.mass_scatter);
     for (std::size_t n = 0; n < static_cast<std::size_t>(study.gearbox.planets); ++n) {
-        const double tangential = normal(), radial = normal();
-        move_pin(angle_of(study.gearbox, n), tangential_m * tangential, radial_m * radial,
+        std::array<double, 5> own{}, of_pins{};
+        std::ranges::generate(own, std::ref(normal));
+        std::ranges::generate(of_pins, std::ref(normal_of_pins));
+        move_pin(angle_of(study.gearbox, n), tangential_m * of_pins[0], radial_m * of_pins[1],
                  planets[n]);
-        planets[n].bearing_stiffness *= std::exp(stiffness * normal());
-        planets[n].bearing_damping *= std::exp(damping * normal());
-        planets[n].mass *= std::exp(mass * normal());
+        planets[n].bearing_stiffness *= std::exp(stiffness * own[2]);
+        planets[n].bearing_damping *= std::exp(damping * own[3]);
+        planets[n].mass *= std::exp(mass * own[4]);
     }
 }
 

@@ -20,9 +20,9 @@ using Planets = std::array<PlanetInstance, dynamics::kMaxPlanets>;
 // Planets as given in the study; identical if nothing is given.
 Planets given_planets(const Study& study);
 
-// Adds the random deviations. Uses five standard normal variates per planet, whatever the study
-// contains.
+// Adds the random deviations. Uses five standard normal variates per planet from both sources,
+// whatever the study contains; positions of pins follow from `normal_of_pins`.
 void add_random_planets(const InputValues& values, std::function<double()> normal,
-                        Planets& planets);
+                        std::function<double()> normal_of_pins, Planets& planets);
 
 }  // namespace gearpod::mc

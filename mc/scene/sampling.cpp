@@ -76,6 +76,14 @@ double standard_normal_quantile(double share) {
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
 }
 
+// Record whose random numbers an input has: that of the gearbox is the test record, and that of the
+// baseline's assembly the first baseline record.
+GearboxId owner(GearboxId id, DrawnPer per) {
+    id.record = per == DrawnPer::gearbox ? Record::test : id.record;
+    id.baseline = per == DrawnPer::record ? id.baseline : 0;
+    return id;
+}
+
 }  // namespace
 
 NoiseSampling threshold_noise_sampling(const Study& study) {
@@ -110,8 +118,7 @@ std::vector<double> Sampler::uniform_variates(const GearboxId& id) const {
 // Value of an input that is neither correlated nor sampled by the plan.
 double Sampler::draw_alone(const DrawnInput& drawn, const GearboxId& id) const {
     const Distribution& distribution = drawn.input->distribution;
-    GearboxId own = id;
-    own.record = distribution.per_record() ? id.record : Record::test;
+    const GearboxId own = owner(id, distribution.per());
     if (id.exchanged && distribution.has_quantile()) {
         return distribution.quantile(
             standard_normal_cdf(Normals::of_record(study_, own, drawn.whole)()));
@@ -128,9 +135,12 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     for (std::size_t i = 0, correlated = 0; i < inputs_.size(); ++i) {
         const DrawnInput& drawn = inputs_[i];
         const Distribution& distribution = drawn.input->distribution;
+        // A baseline's own values are not points of the plan.
+        const bool planned =
+            plan_.has(i) && (id.record == Record::test || distribution.per() == DrawnPer::gearbox);
         const double value =
             drawn.input->to_si * (copula_.has(i) ? distribution.quantile(uniform[correlated++])
-                                  : plan_.has(i)
+                                  : planned
                                       ? distribution.quantile(plan_.variate(i, id.group, id.index))
                                       : draw_alone(drawn, id));
         values.set(drawn.place, value);
@@ -147,7 +157,13 @@ Realization Sampler::draw(const GearboxId& id, std::span<const GivenInput> given
     InstanceInputs& inputs = realization.inputs;
     inputs = instance_inputs(values);
     if (has_random_planets(study_)) {
-        add_random_planets(values, Normals(study_, id, StreamPurpose::planets), inputs.planets);
+        const auto normals = [&](DrawnPer per) {
+            return Normals::of_record(study_, owner(id, per), StreamPurpose::planets);
+        };
+        add_random_planets(
+            values, normals(DrawnPer::gearbox),
+            normals(redraws(study_, "pins") ? DrawnPer::assembly : DrawnPer::gearbox),
+            inputs.planets);
     }
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;

@@ -1,5 +1,6 @@
 #include "mc/scene/scene.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -44,7 +45,7 @@ Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrai
       span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(
           drivetrain_->mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s) / (2.0 * pi)),
-      signal_meshes_(meshes_needed(study_, span_, needs_of(used_features(study_)))),
+      signal_meshes_(mc::signal_meshes(study_, span_, std::abs(nominal_mesh_frequency_Hz_))),
       most_recorded_(most_recorded),
       max_meshes_(study_.effects.quasi_static()
                       ? 1

@@ -60,8 +60,8 @@ class Scene {
     // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
     // its mate.
     int span_meshes() const { return span_.meshes(); }
-    // Number of mesh periods of sensor signal that the study's features need: the span, or more for
-    // the teeth of the sun or the ring.
+    // Number of mesh periods of sensor signal from which records are taken: the span, or more for
+    // the teeth of the sun or the ring, or the span and a record of given length.
     int signal_meshes() const { return signal_meshes_; }
     // Number of mesh periods that are recorded individually where every mesh period is integrated:
     // those of the signal, limited by recording_at_most().

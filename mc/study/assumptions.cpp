@@ -24,6 +24,23 @@ std::string teeth(const Study& study) {
                : "teeth with individual errors";
 }
 
+// Keys of the random inputs that the baseline does not share with the test record, and redrawn
+// properties.
+std::string baseline_differences(const Study& study) {
+    std::vector<std::string> names;
+    for (const RandomInput& input : study.random) {
+        if (input.distribution.per() != DrawnPer::gearbox) {
+            names.push_back(input.key +
+                            (input.distribution.per_record() ? " (in each record)" : ""));
+        }
+    }
+    for (const std::string& property : study.features.baseline_redraws) {
+        names.push_back(property == "pins" ? "pin positions" : "teeth in mesh");
+    }
+    return names.empty() ? "that has the same assembly, path and sensor mounting"
+                         : fmt::format("that differs in {}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 std::string assumptions(const Study& study, bool lives) {
@@ -47,10 +64,13 @@ std::string assumptions(const Study& study, bool lives) {
     std::string text = fmt::format("Holds for {}, with thresholds from {} gearboxes.",
                                    fmt::join(all, ", "), lives ? "the lives of other" : "other");
     if (compares_records(study) && !lives) {
+        const int records = study.features.baseline_records;
         text += fmt::format(
-            " own_ and change_ features also need a healthy record of the same gearbox, taken at a "
-            "torque that differs by {:g} % (rms).",
-            100.0 * study.features.baseline_torque_scatter);
+            " own_ and change_ features also need {} of the same gearbox, taken at a torque that "
+            "differs by {:g} % (rms), {}.",
+            records > 1 ? fmt::format("the mean of {} healthy records", records)
+                        : "a healthy record",
+            100.0 * study.features.baseline_torque_scatter, baseline_differences(study));
     }
     const bool alike =
         std::all_of(study.random.begin(), study.random.end(),

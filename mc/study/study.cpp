@@ -24,4 +24,9 @@ bool compares_records(const Study& study) {
         });
 }
 
+bool redraws(const Study& study, std::string_view property) {
+    const std::vector<std::string>& named = study.features.baseline_redraws;
+    return std::ranges::find(named, property) != named.end();
+}
+
 }  // namespace gearpod::mc

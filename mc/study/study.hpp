@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
@@ -257,6 +258,9 @@ struct Sensor {
     double encoder_sampling_Hz = 0.0;
     double encoder_noise_rad = 0.0;         // rms
     std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
+    // Length of a record, in seconds or in carrier turns; by default every tooth of the monitored
+    // gear meets every tooth of its mate once.
+    std::optional<double> record_s, record_turns;
 
     bool operator==(const Sensor&) const = default;
 };
@@ -268,6 +272,9 @@ struct Features {
     // Standard deviation of the logarithm of the torque in a gearbox's baseline record, normal
     // about that of its test record.
     double baseline_torque_scatter = 0.0;
+    int baseline_records = 1;  // number of baseline records that are averaged
+    // Properties of an assembly that are drawn again for that of the baseline: "pins", "teeth".
+    std::vector<std::string> baseline_redraws;
 
     bool operator==(const Features&) const = default;
 };
@@ -361,6 +368,8 @@ struct Study {
 
 // True if any feature compares a gearbox with its baseline record.
 bool compares_records(const Study& study);
+// True if that property of an assembly (features.baseline_redraws) is drawn again for the baseline.
+bool redraws(const Study& study, std::string_view property);
 
 struct StudyReading {
     std::optional<Study> study;  // empty if there are problems

@@ -11,6 +11,7 @@
 
 #include "analysis/report/findings/findings.hpp"
 #include "analysis/report/wording.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
@@ -164,7 +165,7 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
     const auto contributions = numerical_contributions(frame, rows, reliability);
     analysis::Report report;
     report.add(state_section(frame, failures.counts));
-    report.add(analysis::headline_section(findings, study ? assumptions(*study, false) : "",
+    report.add(analysis::headline_section(findings, study ? run_conditions(*study) : "",
                                           facts_text(findings, failures.counts, study)));
     report.add(analysis::limits_section(findings, numerical_of(findings, contributions)));
     analysis::Section values = feature_values(frame, rows);

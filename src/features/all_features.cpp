@@ -216,6 +216,14 @@ class Catalogue {
     std::vector<Feature> all_;
 };
 
+double mean_of_baselines(const Feature& feature, const FeatureInput& input) {
+    double sum = feature.compute(*input.baseline);
+    for (int i = 1; i < input.baselines; ++i) {
+        sum += feature.compute(input.baseline[i]);
+    }
+    return sum / input.baselines;
+}
+
 }  // namespace
 
 double Feature::value(const FeatureInput& input) const {
@@ -223,7 +231,7 @@ double Feature::value(const FeatureInput& input) const {
         case BaselineUse::change:
             return compute(*input.change);
         case BaselineUse::baseline:
-            return compute(input) / compute(*input.baseline);
+            return compute(input) / mean_of_baselines(*this, input);
         case BaselineUse::nothing:
         case BaselineUse::record_and_change:
             break;

@@ -16,7 +16,8 @@ enum class AlarmSide { high, low };
 // Comparison with the baseline record.
 // - nothing: the feature of the record.
 // - change: the feature of the change since the baseline record.
-// - baseline: the feature of the record divided by that of the baseline record.
+// - baseline: the feature of the record divided by that of the baseline record, or by the mean over
+//   several.
 // - record_and_change: the feature of both signals together.
 enum class BaselineUse { nothing, change, baseline, record_and_change };
 

@@ -68,9 +68,10 @@ using AllSignals = std::tuple<TeTurn, SensorPower, ToothRms<Gear::planet>, TePar
 
 // Signals of one record. Signals that no requested feature needs are empty.
 struct FeatureInput {
-    // Signals of the gearbox's own baseline record, and of the change since then (record minus
-    // baseline, sample by sample). Null unless requested.
+    // Signals of the gearbox's own baseline records, and of the change since then (record minus the
+    // baselines' mean, sample by sample). Null unless requested.
     const FeatureInput* baseline = nullptr;
+    int baselines = 1;  // number of baseline records; `baseline` is the first
     const FeatureInput* change = nullptr;
 
     template <class Signal>

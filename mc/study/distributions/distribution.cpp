@@ -34,7 +34,7 @@ using AnyLaw = std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNorma
 
 struct DistributionKind {
     AnyLaw law;
-    bool per_record = false;
+    DrawnPer per = DrawnPer::gearbox;
 };
 
 namespace {
@@ -185,20 +185,25 @@ class FieldReader {
     Problems& problems_;
 };
 
-// True if `per` is "record", false if it is "gearbox" or missing; empty after a problem.
-std::optional<bool> read_per(const Value& table, const std::string& key, Problems& problems) {
+constexpr std::pair<std::string_view, DrawnPer> kPerNames[] = {
+    {"gearbox", DrawnPer::gearbox}, {"assembly", DrawnPer::assembly}, {"record", DrawnPer::record}};
+
+// Value of `per`, by default that of the gearbox; empty after a problem.
+std::optional<DrawnPer> read_per(const Value& table, const std::string& key, Problems& problems) {
     const Entry* per = table.find(kPer);
-    const bool text = per != nullptr && per->value.kind == Value::Kind::text;
-    if (per == nullptr || (text && per->value.text == "gearbox")) {
-        return false;
+    if (per == nullptr) {
+        return DrawnPer::gearbox;
     }
-    if (text && per->value.text == "record") {
-        return true;
+    for (const auto& [text, value] : kPerNames) {
+        if (per->value.kind == Value::Kind::text && per->value.text == text) {
+            return value;
+        }
     }
     problems.push_back({per->position.file, per->position.line, fmt::format("{}.{}", key, kPer),
-                        "must be \"record\" or \"gearbox\"",
-                        "write per = \"record\" for a new value in every record; per = \"gearbox\" "
-                        "is the default"});
+                        "must be \"record\", \"assembly\" or \"gearbox\"",
+                        "write per = \"record\" for a new value in every record, per = "
+                        "\"assembly\" for one in each assembly (that of the baseline and the "
+                        "tested one); per = \"gearbox\" is the default"});
     return std::nullopt;
 }
 
@@ -280,12 +285,15 @@ Distribution::Rows Distribution::rows() const {
         kind_->law);
 }
 
-bool Distribution::per_record() const {
-    return kind_->per_record;
+DrawnPer Distribution::per() const {
+    return kind_->per;
 }
 
 std::string Distribution::toml() const {
-    const std::string per = per_record() ? fmt::format(", {} = \"record\"", kPer) : "";
+    const std::string per =
+        kind_->per == DrawnPer::gearbox
+            ? ""
+            : fmt::format(", {} = \"{}\"", kPer, kPerNames[static_cast<int>(kind_->per)].first);
     return std::visit(
         [&](const auto& law) {
             std::string text = fmt::format("{{ distribution = \"{}\"", law.kName);
@@ -301,7 +309,7 @@ std::string Distribution::toml() const {
 }
 
 bool Distribution::operator==(const Distribution& other) const {
-    return kind_->law == other.kind_->law && kind_->per_record == other.kind_->per_record;
+    return kind_->law == other.kind_->law && kind_->per == other.kind_->per;
 }
 
 std::optional<Distribution> Distribution::read(const Value& table, const std::string& key,
@@ -327,10 +335,10 @@ std::optional<Distribution> Distribution::read(const Value& table, const std::st
     for_each_law([&](auto law) {
         if (law.kName == kind->value.text) {
             known = true;
-            const std::optional<bool> per_record = read_per(table, key, problems);
-            if (FieldReader(table, key, problems).read(law) && per_record) {
+            const std::optional<DrawnPer> drawn_per = read_per(table, key, problems);
+            if (FieldReader(table, key, problems).read(law) && drawn_per) {
                 distribution = Distribution(std::make_shared<const DistributionKind>(
-                    DistributionKind{std::move(law), *per_record}));
+                    DistributionKind{std::move(law), *drawn_per}));
             }
         }
     });

@@ -18,6 +18,10 @@ namespace gearpod::mc {
 struct Value;             // mc/input/document.hpp
 struct DistributionKind;  // distribution.cpp
 
+// What has one value of a random input: a gearbox, each of its assemblies (the one in which the
+// baseline was recorded and the one that is tested), or each record.
+enum class DrawnPer { gearbox, assembly, record };
+
 // Immutable distribution; copies share their state. Values are in the unit of the study file's key.
 class Distribution {
   public:
@@ -41,9 +45,9 @@ class Distribution {
         std::size_t count = 0;
     };
     Rows rows() const;
-    // True if every record of a gearbox has its own value (per = "record"), false if the gearbox
-    // has one.
-    bool per_record() const;
+    DrawnPer per() const;
+    // True if every record of a gearbox has its own value (per = "record").
+    bool per_record() const { return per() == DrawnPer::record; }
     // Inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
     std::string toml() const;
     bool operator==(const Distribution& other) const;

@@ -218,6 +218,37 @@ void check_importance_sampling(StudyDraft& draft) {
     }
 }
 
+void check_record_keys(StudyDraft& draft) {
+    const Sensor& sensor = draft.study.sensor;
+    if (sensor.record_s && sensor.record_turns) {
+        draft.reject("sensor.record_turns",
+                     "conflicts with record_s (both give the length of a record)",
+                     "remove one of them");
+    }
+}
+
+// Rejects unknown properties of an assembly, and properties that no gearbox of the study has.
+void check_baseline_redraws(StudyDraft& draft) {
+    const Study& study = draft.study;
+    const std::vector<std::string> named = study.features.baseline_redraws;
+    for (auto one = named.begin(); one != named.end(); ++one) {
+        const auto reject = [&](const std::string& what, const std::string& remedy) {
+            draft.reject("features.baseline_redraws", what, remedy);
+        };
+        const bool pins = *one == "pins";
+        if (!pins && *one != "teeth") {
+            reject(fmt::format("unknown property \"{}\"", *one), suggest(*one, {"pins", "teeth"}));
+        } else if (std::find(named.begin(), one, *one) != one) {
+            reject(fmt::format("names \"{}\" twice", *one), "name it once");
+        } else if (!(pins ? has_random_planets(study) : has_tooth_errors(study))) {
+            reject(pins ? "\"pins\", but no pin has a random position"
+                        : "\"teeth\", but all teeth are alike",
+                   pins ? "give gearbox.pin_tangential_rms_um or pin_radial_rms_um, or remove it"
+                        : "give gearbox.tooth_quality, or remove it");
+        }
+    }
+}
+
 }  // namespace
 
 void check_consistency(StudyDraft& draft) {
@@ -230,6 +261,8 @@ void check_consistency(StudyDraft& draft) {
     check_detectors(draft);
     check_sustained(draft);
     check_uncertain_inputs(draft);
+    check_record_keys(draft);
+    check_baseline_redraws(draft);
 }
 
 }  // namespace gearpod::mc

@@ -74,9 +74,10 @@ class CorrelationReader {
         } else if (key.starts_with("fault.")) {
             reject(key + " is the fault size, which cannot be correlated with other inputs",
                    "correlate other inputs");
-        } else if (input->distribution.per_record()) {
+        } else if (input->distribution.per() != DrawnPer::gearbox) {
             reject(key +
-                       " varies from record to record (per), so it cannot be correlated with "
+                       " varies between the records of a gearbox (per), so it cannot be correlated "
+                       "with "
                        "inputs of the gearbox",
                    "correlate other inputs");
         } else if (!input->distribution.has_quantile()) {

@@ -68,19 +68,17 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     return table;
 }
 
-// Checks a distribution with per = "record". Such values are quantiles of a variate of the record,
-// so the distribution needs a quantile function.
+// Checks a distribution with per = "record" or "assembly". Such values are quantiles of a variate
+// of the record or assembly, so the distribution needs a quantile function.
 void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
                       const Distribution& distribution) {
     const std::string per = key.path() + ".per";
-    if (!distribution.per_record()) {
+    if (distribution.per() == DrawnPer::gearbox) {
         return;
     }
-    if (!record_quantity(key.path())) {
+    if (key.section == "fault" || key.section == "life") {
         reject(draft, entry, per,
-               fmt::format("{} is the same in all records of a gearbox", key.name),
-               "remove per; only operation.torque_N_m, a speed, sensor.gain and sensor.noise_m_s2 "
-               "can vary from record to record");
+               fmt::format("{} is the same in all records of a gearbox", key.name), "remove per");
     } else if (distribution.rows().group > 0) {
         reject(draft, entry, per, "values that vary from record to record cannot be sampled by row",
                "remove rows, and give values");

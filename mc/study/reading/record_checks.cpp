@@ -32,18 +32,24 @@ ShortForm short_form(const Study& study, RecordQuantity quantity) {
 
 void check_input(StudyDraft& draft, const RandomInput& input) {
     const Study& study = draft.study;
-    const Position at = draft.given_random[input.key];
+    const auto quantity = record_quantity(input.key);
+    const auto reject = [&](const std::string& what, const std::string& remedy) {
+        draft.reject(draft.given_random[input.key], "random." + input.key + ".per", what, remedy);
+    };
     const std::size_t dot = input.key.find('.');
     const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
-    if (std::get<NumberAccess>(key.access).get(study).value_or(0.0) <= 0.0) {
-        draft.reject(at, "random." + input.key + ".per",
-                     "needs a nominal value above 0, about which the records scatter",
-                     fmt::format("give {} in [{}]", key.name, key.section));
+    if (!quantity && study.life.interval_h) {
+        reject(fmt::format("{} is the same in all records of a life", key.name),
+               "remove per; only operation.torque_N_m, a speed, sensor.gain and sensor.noise_m_s2 "
+               "can vary from record to record of a life");
     }
-    const ShortForm same = short_form(study, *record_quantity(input.key));
+    if (quantity && std::get<NumberAccess>(key.access).get(study).value_or(0.0) <= 0.0) {
+        reject("needs a nominal value above 0, about which the records scatter",
+               fmt::format("give {} in [{}]", key.name, key.section));
+    }
+    const ShortForm same = quantity ? short_form(study, *quantity) : ShortForm{};
     if (same.scatter > 0.0) {
-        draft.reject(at, "random." + input.key + ".per", "conflicts with " + same.key,
-                     "give the scatter of records only once");
+        reject("conflicts with " + same.key, "give the scatter of records only once");
     }
     if (study.ensemble.threshold_records > 1) {
         draft.reject("ensemble.threshold_records",

@@ -64,11 +64,15 @@ const Key kRunKeys[] = {
     {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
     {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
     {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on the noise of accelerometer and encoders, ascending"},
+    {"sensor", "record_s", number<&Sensor::record_s>, kS, kPositive, may, kShared, "length of a record, which begins at a random tooth position; without it and record_turns, a record lasts until every tooth of a planet has met every tooth of the ring (of a pinion, of the gear)"},
+    {"sensor", "record_turns", number<&Sensor::record_turns>, kNone, kPositive, planetary<may>, kShared, "length of a record in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
 
     {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z. change_... and own_... compare with a healthy baseline record of the same gearbox"},
     {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the window that selects the mesh periods of a tooth (0: rectangular)"},
     {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "number of mesh harmonics in te_fm0"},
     {"features", "baseline_torque_scatter", number<&Features::baseline_torque_scatter>, kNone, from_to(0, 1), with_baseline, kShared, "rms relative difference of torque between a gearbox's healthy baseline record and its test record (standard deviation of the logarithm)"},
+    {"features", "baseline_records", integer<&Features::baseline_records>, kNone, from_to(1, 100), with_baseline, kShared, "number of a gearbox's healthy baseline records that are averaged: their values for own_..., their signals for change_..."},
+    {"features", "baseline_redraws", list<&Features::baseline_redraws>, kNone, kAny, with_baseline, kShared, "random properties that the assembly of the baseline does not share with the tested one: pins (random pin positions), teeth (teeth in mesh, and with them the phases of run-out and of all tooth errors). Random inputs differ with per = \"assembly\" or \"record\" in [random]"},
 
     {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, kShare, may, kShared, "fraction of healthy records that may alarm, for each feature"},
     {"detection", "false_alarms_per_1000_h", number<&Detection::false_alarms_per_1000_h>, kNone, kPositive, may, kShared, "instead of false_alarm_rate: false alarms of a feature in 1000 hours of healthy machines, all machines together"},
@@ -111,7 +115,7 @@ const Key kRunKeys[] = {
     {"life", "integrated_speeds", integer<&Life::polynomial_speeds>, kNone, from_to(3, 17), with_life, kShared, "the same as integrated_torques for the speed"},
     {"life", "marched_torques", integer<&Life::given_torques>, kNone, from_to(2, 16), with_life, kShared, "earlier alternative to integrated_torques: number of evenly spaced torques, with linear interpolation in between"},
     {"life", "marched_speeds", integer<&Life::given_speeds>, kNone, from_to(2, 16), with_life, kShared, "earlier alternative to integrated_speeds: number of evenly spaced speeds, with linear interpolation in between"},
-    {"life", "record_s", number<&Life::record_s>, kS, kPositive, with_life, kShared, "length of a recording; without it and record_turns, every tooth of a planet meets every tooth of the ring once"},
+    {"life", "record_s", number<&Life::record_s>, kS, kPositive, with_life, kShared, "length of a recording, by default that of [sensor]; without both, every tooth of a planet meets every tooth of the ring once"},
     {"life", "record_turns", number<&Life::record_turns>, kNone, kPositive, planetary<with_life>, kShared, "length of a recording in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
     {"life", "recordings", integer<&Life::recordings>, kNone, from_to(1, 1000), with_life, kShared, "number of recordings that a record averages; short ones each begin with other teeth in mesh"},
 
@@ -133,7 +137,7 @@ const Key kRunKeys[] = {
 
     {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "number of gearboxes over all fault sizes"},
     {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "number of additional healthy gearboxes that set the thresholds"},
-    {"ensemble", "threshold_records", integer<&Ensemble::threshold_records>, kNone, from_to(1, 10000), may, kShared, "number of records of each of these healthy gearboxes: the same vibration with new sensor and encoder noise, for false-alarm rates below one in the number of gearboxes"},
+    {"ensemble", "threshold_records", integer<&Ensemble::threshold_records>, kNone, from_to(1, 10000), may, kShared, "number of records of each of these healthy gearboxes: the same vibration with new sensor and encoder noise (and another first tooth if records have a length), for false-alarm rates below one in the number of gearboxes"},
     {"ensemble", "threshold_tilt", boolean<&Ensemble::importance_sampling>, kNone, kAny, white_records, kShared, "importance sampling of the noise by exponential tilting: three in four of those records have a stretch of noise tilted towards an alarm, and a weight that corrects for it. For false-alarm rates down to 1e-6 of accelerometer features whose alarms are caused by noise rather than by the gearbox"},
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
     {"ensemble", "sampling", choice<&Ensemble::sampling>(kSamplings), kNone, kAny, may, kShared, "sampling of the random inputs: plain (every gearbox independently) or sobol (a Sobol sequence that fills the inputs' ranges evenly, so that thresholds and rates scatter less where inputs rather than noise decide; best with a power of 2 of gearboxes for each fault size)"},

@@ -122,9 +122,10 @@ std::string schema_help(std::string_view word) {
         text += std::string(random ? "" : "[random]\n") +
                 "  SECTION.KEY = { ..., per = \"record\" }\n" +
                 wrapped(
-                    "a new random value for every record of a gearbox; for operation.torque_N_m, a "
-                    "speed, sensor.gain or sensor.noise_m_s2. By default there is one value for "
-                    "each gearbox",
+                    "a new random value for every record of a gearbox, baseline records included; "
+                    "in lives for operation.torque_N_m, a speed, sensor.gain or sensor.noise_m_s2. "
+                    "per = \"assembly\" gives the baseline records another value than the test "
+                    "record. By default there is one value for each gearbox",
                     6);
         random = true;
     }

@@ -33,10 +33,17 @@ SensorResponse::SensorResponse(const PathGrid& path, const SpanLayout& layout, c
     te_.assign(static_cast<std::size_t>(layout.planet_teeth * te_phases_) * lanes_, 0.0);
     signal_.resize(samples(kept_meshes_));
     discarded_.resize(samples(1));
+    if (tile.keeps_te) {
+        te_signal_.resize(te_samples(kept_meshes_));
+    }
 }
 
 std::size_t SensorResponse::samples(int meshes) const {
     return static_cast<std::size_t>(meshes) * static_cast<std::size_t>(phases_) * lanes_;
+}
+
+std::size_t SensorResponse::te_samples(int meshes) const {
+    return static_cast<std::size_t>(meshes) * static_cast<std::size_t>(te_phases_) * lanes_;
 }
 
 void SensorResponse::record_mesh(int k, const double* accel, const double* te) {
@@ -54,6 +61,10 @@ void SensorResponse::record_mesh(int k, const double* accel, const double* te) {
     mesh.signal = k < kept_meshes_ ? signal_.data() + samples(k) : discarded_.data();
     mesh.folded = in_span ? folded_.data() + samples(tooth) : nullptr;
     sensor_response(static_cast<int>(lanes_), mesh);
+    if (te_samples(k + 1) <= te_signal_.size()) {
+        add_te_mesh({te, samples(1)}, 1.0, te_phases_,
+                    std::span(te_signal_).subspan(te_samples(k), te_samples(1)));
+    }
     if (in_span) {
         add_te_mesh({te, samples(1)}, 1.0 / layout_.ring_teeth, te_phases_,
                     std::span(te_).subspan(static_cast<std::size_t>(tooth * te_phases_) * lanes_,
@@ -88,6 +99,15 @@ std::vector<double> SensorResponse::signal(int lane, int meshes) const {
     }
     std::vector<double> own(samples(meshes) / lanes_);
     copy_lane(std::span(signal_).first(samples(meshes)), static_cast<int>(lanes_), lane, own);
+    return own;
+}
+
+std::vector<double> SensorResponse::te_signal(int lane, int meshes) const {
+    if (te_samples(meshes) > te_signal_.size()) {
+        throw std::invalid_argument("sensor response: more meshes requested than were kept");
+    }
+    std::vector<double> own(te_samples(meshes) / lanes_);
+    copy_lane(std::span(te_signal_).first(te_samples(meshes)), static_cast<int>(lanes_), lane, own);
     return own;
 }
 

@@ -22,6 +22,7 @@ class SensorResponse {
         int te_phases = 0;                  // P_te, encoder samples per mesh period, divides P
         int signal_meshes = 0;              // number of meshes of the signal
         int kept_meshes = 0;                // number of first meshes whose samples are kept
+        bool keeps_te = false;              // true if those of the transmission error are kept, too
     };
 
     // `path` must outlive the object. Throws std::invalid_argument if the shapes disagree.
@@ -39,16 +40,19 @@ class SensorResponse {
     // one lane. The bits are those of synthesize.
     std::vector<std::vector<double>> signals(std::size_t lanes, int meshes) const;
     std::vector<double> signal(int lane, int meshes) const;
+    // Transmission error of one lane in the first meshes, rad, [k * P_te + p]; needs keeps_te.
+    std::vector<double> te_signal(int lane, int meshes) const;
 
   private:
     std::size_t samples(int meshes) const;
+    std::size_t te_samples(int meshes) const;
 
     const PathGrid* const path_;
     const int phases_;
     const SpanLayout layout_;
     const std::size_t lanes_;
     const int te_phases_, kept_meshes_, signal_meshes_;
-    machine::AlignedVector weight_, folded_, te_, signal_, discarded_;
+    machine::AlignedVector weight_, folded_, te_, signal_, te_signal_, discarded_;
     std::optional<ToneTable> tones_;
 };
 

@@ -149,9 +149,9 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
         CHECK(std::ranges::count(text, '\n') == 1);
     };
     refuses({law("gearbox.mesh_damping_ratio", "distribution=\"uniform\",low=0.04,high=0.1")},
-            "mesh_damping_ratio is the same in all records of a gearbox");
+            "mesh_damping_ratio is the same in all records of a life");
     refuses({"random.sensor.gain={distribution=\"uniform\",low=1,high=2,per=\"day\"}"},
-            "must be \"record\" or \"gearbox\"");
+            "must be \"record\", \"assembly\" or \"gearbox\"");
     refuses({law("sensor.gain", "distribution=\"levels\",values=[1,2]")},
             "takes its values in turn");
     refuses({kTorque, "life.torque_scatter=0.1"}, "conflicts with life.torque_scatter");

@@ -28,6 +28,8 @@ constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
     {StreamPurpose::torque_noise, 0x4d1a8f8adcd86c06u},
     {StreamPurpose::speed_noise, 0x830ea67b5ae5fd07u},
     {StreamPurpose::tone_phases, 0x2aebedb682410a19u},
+    {StreamPurpose::record_start, 0x6cfd7dd3525916a4u},
+    {StreamPurpose::assembled_teeth, 0x256fdde146e2f937u},
     {StreamPurpose::sensor_noise, 0x270990c91ac696a3u},
     {StreamPurpose::sensor_noise_direction, 0x2a558d854e0ef780u},
     {StreamPurpose::sensor_noise_kind, 0x9f3a2b42eb7f6ea0u},
@@ -74,7 +76,7 @@ TEST_CASE("No two streams of a gearbox have the same purpose") {
             repeats.push_back(".repeat." + std::to_string(repeat));
         }
         for (const std::string& repeat : repeats) {
-            for (const char* record : {"", ".baseline"}) {
+            for (const char* record : {"", ".baseline", ".baseline.1", ".baseline.99"}) {
                 for (const char* exchange : {"", ".exchange"}) {
                     const std::string suffix = repeat + record + exchange;
                     add(with_suffix(purpose, suffix), name + suffix);

@@ -1,0 +1,161 @@
+#include "mc/gearbox/record_window.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "mc/scene/drivetrain.hpp"
+#include "mc/scene/feature_needs.hpp"
+#include "mc/study/assumptions.hpp"
+#include "mc/study/gears.hpp"
+#include "signals/spectra/synchronous_average.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::vector<double> part(const std::vector<double>& samples, std::size_t first, std::size_t count) {
+    const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(first);
+    return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+}
+
+// Distinct teeth of a mate that the faulty tooth meets in a record, and in any number of turns.
+struct Meetings {
+    Member mate;
+    int met = 0, all = 0;
+};
+
+// Meetings of the faulty tooth, or of any planet or pinion tooth without a fault, in a number of
+// mesh periods. A planet's tooth meets only one mate on each side.
+std::vector<Meetings> meetings_in(const Study& study, int meshes) {
+    const Member faulty = study.fault.member.value_or(
+        study.gearbox.kind == GearboxKind::planetary ? Member::planet : Member::pinion);
+    const bool sun_side = !study.fault.side || *study.fault.side != FaultSide::ring,
+               ring_side = !study.fault.side || *study.fault.side != FaultSide::sun;
+    std::vector<Meetings> all;
+    for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+        if (mesh.member_1 != faulty && mesh.member_2 != faulty) {
+            continue;
+        }
+        const Member mate = mesh.member_1 == faulty ? mesh.member_2 : mesh.member_1;
+        if ((mate == Member::sun && !sun_side) || (mate == Member::ring && !ring_side)) {
+            continue;
+        }
+        const int own = *teeth_of(study, faulty), mates = *teeth_of(study, mate);
+        const int distinct = mates / std::gcd(own, mates);
+        all.push_back({mate, std::min(distinct, meshes / own), distinct});
+    }
+    return all;
+}
+
+double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain) {
+    return std::abs(drivetrain.mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) /
+           (2.0 * std::numbers::pi);
+}
+
+std::string record_conditions(const Study& study) {
+    const auto drivetrain = make_drivetrain(study);
+    const signals::SpanLayout span = drivetrain->span();
+    const double mesh_Hz = nominal_mesh_frequency_Hz(study, *drivetrain);
+    const RecordLength length = record_length(study);
+    const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
+    const int meshes = turns * span.planet_teeth;
+    std::vector<std::string> mates;
+    for (const Meetings& one : meetings_in(study, meshes)) {
+        mates.push_back(fmt::format("{} of the {} {} teeth that it can meet ({:.0f} %)", one.met,
+                                    one.all, member_name(one.mate), 100.0 * one.met / one.all));
+    }
+    std::string text =
+        fmt::format(" A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
+                    length.given() ? " and begins at a random tooth position"
+                                   : ", until all teeth have met (sensor.record_s)",
+                    study.fault.kind != nullptr ? "the faulty" : "a", fmt::join(mates, " and "));
+    if (study.life.interval_h) {
+        text += fmt::format(" There are {:g} h between two records.", *study.life.interval_h);
+    }
+    return text;
+}
+
+}  // namespace
+
+int record_turns(const Scene& scene, const InstanceInputs& inputs) {
+    const signals::SpanLayout& span = scene.span();
+    const double mesh_Hz = 1.0 / dynamics::mesh_period_s(scene.inputs(inputs));
+    return std::clamp(whole_turns(record_length(scene.study()), span, mesh_Hz), kLeastRecordTurns,
+                      scene.signal_meshes() / span.planet_teeth);
+}
+
+RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns) {
+    Philox engine = noise_stream(scene.study(), id, StreamPurpose::record_start);
+    boost::random::uniform_int_distribution<int> first(
+        0, scene.signal_meshes() - turns * scene.span().planet_teeth);
+    return {turns, first(engine)};
+}
+
+LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const RecordWindow& window,
+                       bool samples) {
+    const auto teeth = static_cast<std::size_t>(scene.span().planet_teeth);
+    const auto first = static_cast<std::size_t>(window.first_mesh),
+               meshes = static_cast<std::size_t>(window.turns) * teeth;
+    LaneSignals record;
+    record.noise_m_s2 = signals.noise_m_s2;
+    record.turns = window.turns;
+    record.first_mesh = window.first_mesh;
+    if (!signals.sensor.empty()) {
+        const auto phases = static_cast<std::size_t>(scene.samples_per_mesh());
+        record.sensor = part(signals.sensor, first * phases, meshes * phases);
+        record.folded = signals::fold_of_squares(record.sensor, teeth * phases);
+    }
+    if (!samples) {
+        record.sensor.clear();
+    }
+    const auto phases = static_cast<std::size_t>(scene.te_samples_per_mesh());
+    const std::vector<double> te = part(signals.te, first * phases, meshes * phases);
+    record.te_turn = signals::synchronous_average(te, teeth * phases);
+    const double mean = std::accumulate(record.te_turn.begin(), record.te_turn.end(), 0.0) /
+                        static_cast<double>(record.te_turn.size());
+    for (double& value : record.te_turn) {
+        value -= mean;
+    }
+    return record;
+}
+
+LaneSignals drawn_record(const Scene& scene, LaneSignals signals, const Realization& realization) {
+    if (!has_record_length(scene.study())) {
+        return signals;
+    }
+    return cut_record(scene, signals,
+                      record_window(scene, realization.id, record_turns(scene, realization.inputs)),
+                      true);
+}
+
+void rotate_to_first_tooth(const LaneSignals& record, int per_mesh, std::vector<double>& turn) {
+    if (turn.empty()) {
+        return;
+    }
+    const std::size_t first = static_cast<std::size_t>(record.first_mesh) *
+                              static_cast<std::size_t>(per_mesh) % turn.size();
+    std::ranges::rotate(turn, turn.end() - static_cast<std::ptrdiff_t>(first));
+}
+
+std::string record_length_text(const Scene& scene) {
+    const RecordLength length = record_length(scene.study());
+    const signals::SpanLayout& span = scene.span();
+    const double mesh_Hz = std::abs(scene.nominal_mesh_frequency_Hz());
+    const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
+    return fmt::format(
+        "{:.3g} s, {} of the {} turns of {} mesh periods after which all teeth have "
+        "met{}",
+        turns * span.planet_teeth / mesh_Hz, turns, span.ring_teeth, span.planet_teeth,
+        length.given() ? ", from a random tooth position" : "");
+}
+
+std::string run_conditions(const Study& study) {
+    return has_gears(study) ? assumptions(study, false) + record_conditions(study) : "";
+}
+
+}  // namespace gearpod::mc

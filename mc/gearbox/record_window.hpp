@@ -1,0 +1,45 @@
+// Records that are shorter than the span: part of a gearbox's signals, from a random tooth
+// position.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+// Mesh periods of a gearbox's signals that a record contains.
+struct RecordWindow {
+    int turns = 0;       // whole turns of the monitored gear
+    int first_mesh = 0;  // mesh period at which the record begins
+};
+
+// Number of turns in a record of a gearbox with these inputs if the study gives the length of its
+// records. It follows from the gearbox's speed, but is at least kLeastRecordTurns.
+int record_turns(const Scene& scene, const InstanceInputs& inputs);
+// Random window of a record with this many turns. Every first mesh period of the signal that leaves
+// room for the record is equally likely.
+RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns);
+
+// Record cut from signals of scene.signal_meshes() mesh periods: sensor samples (if `samples`),
+// folded squares and averaged transmission error, all from the window's first mesh period on.
+LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const RecordWindow& window,
+                       bool samples);
+
+// The record of a gearbox with its samples: cut at random if records have a length, or else the
+// whole signals.
+LaneSignals drawn_record(const Scene& scene, LaneSignals signals, const Realization& realization);
+
+// Rotates values of a turn, `per_mesh` for each mesh period, so that they begin with tooth 0.
+void rotate_to_first_tooth(const LaneSignals& record, int per_mesh, std::vector<double>& turn);
+
+// Conditions for which the results of `run` hold: assumptions(), the length of a record, the part
+// of the faulty tooth's meetings that it contains, and the baseline.
+std::string run_conditions(const Study& study);
+
+// Length of a record at nominal speed, for example "10 s, 7 turns of 39 mesh periods".
+std::string record_length_text(const Scene& scene);
+
+}  // namespace gearpod::mc
