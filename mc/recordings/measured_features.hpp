@@ -31,7 +31,6 @@ struct WorstTooth {
 // most the span's. With fewer turns, each tooth meets fewer ring teeth and is averaged less.
 int planet_turns(const MeasuredSignal& signal, const Scene& scene);
 
-
 // Empty if `source` is empty. Throws SignalError.
 std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
                                                   const SignalColumns& columns, const Scene& scene);
