@@ -220,8 +220,10 @@ double largest(const std::string& csv, const std::string& column) {
         std::istringstream cells(line);
         for (int c = 0; std::getline(cells, field, ',') && c < at; ++c) {
         }
-        found =
-            row == Recorded::kCorrupt || field.empty() ? found : std::max(found, std::stod(field));
+        // After the baseline, whose first averages are of fewer, and without those of the corrupt
+        // one.
+        const bool used = row >= 20 && (row < Recorded::kCorrupt || row > Recorded::kCorrupt + 4);
+        found = used && !field.empty() ? std::max(found, std::stod(field)) : found;
     }
     return found;
 }
