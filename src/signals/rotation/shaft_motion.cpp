@@ -30,7 +30,8 @@ class IntervalSpeeds {
             if (side >= 2) {
                 std::array<double, 2 * kNeighbours> near{};
                 const auto end = copy_neighbours(k, side, near.begin());
-                std::sort(near.begin(), end);
+                std::partial_sort(near.begin(),
+                                  near.begin() + static_cast<std::ptrdiff_t>(side) + 1, end);
                 usual_[k] = 0.5 * (near[side - 1] + near[side]);
                 off.push_back(std::abs(speed_[k] - usual_[k]));
             }
