@@ -271,10 +271,11 @@ int campaign(const Arsenal& arsenal, const std::string& kind, std::uint64_t seed
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 5 || !kKinds.contains(argv[2])) {
-        std::fprintf(
-            stderr,
-            "attack PROGRAM study|results|checkpoint|signal|table|roles|options SEED SECONDS\n");
+    const std::string all = "all";
+    if (argc < 5 || (argv[2] != all && !kKinds.contains(argv[2]))) {
+        std::fprintf(stderr,
+                     "attack PROGRAM all|study|results|checkpoint|signal|table|roles|options SEED "
+                     "SECONDS\n");
         return 2;
     }
     std::string folder = (fs::temp_directory_path() / "gearpod-attack-XXXXXX").string();
@@ -287,8 +288,15 @@ int main(int argc, char** argv) {
     int code = 2;
     if (arm(arsenal)) {
         const std::uint64_t most = argc > 5 ? std::strtoull(argv[5], nullptr, 10) : kNumbersOfSeed;
-        code = campaign(arsenal, argv[2], std::strtoull(argv[3], nullptr, 10), most,
-                        std::atof(argv[4]));
+        const std::uint64_t seed = std::strtoull(argv[3], nullptr, 10);
+        const double seconds = std::atof(argv[4]);
+        code = 0;
+        for (const auto& [kind, attack] : kKinds) {
+            if (argv[2] == kind || argv[2] == all) {
+                const double share = argv[2] == all ? static_cast<double>(kKinds.size()) : 1.0;
+                code = std::max(code, campaign(arsenal, kind, seed, most, seconds / share));
+            }
+        }
     } else {
         std::fprintf(stderr, "the program does not make the genuine files\n");
     }

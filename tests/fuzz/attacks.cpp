@@ -111,6 +111,60 @@ void edit(hid_t root, const Arsenal& arsenal, std::uint64_t number, Dice& dice) 
     }
 }
 
+// The same table as other programs write it: other separators, decimal commas, units, missing
+// values, quotes, preambles, index columns and encodings, any of them wrong now and then.
+std::string in_dialect(const std::string& table, Dice& dice) {
+    constexpr std::array kPreambles{"sep=;\n", "# made by\n", "\xEF\xBB\xBF", "Recorder;7\n\n",
+                                    "\n\n"};
+    constexpr std::array kUnits{
+        " [g (peak)]", " (m/s**2)",      " [mV]", " [\xB5m]", " [r/min]", " []",
+        " [m/s\xB2]",  " [kg m/s^2/kg]", " [[g]", " [sec]",   ""};
+    constexpr std::array kMissing{"NA",   "NaN", "",        "-",  "null",
+                                  "#N/A", "1,5", "1.234,5", "1e", "inf"};
+    constexpr std::array kSeparators{",", ";", "\t", " ", ", ", "|"};
+    constexpr std::array kEnds{"\n", "\r\n", "\r", ",\n", ";\n"};
+    const std::string separator = dice.one_of(kSeparators), end = dice.one_of(kEnds);
+    const bool comma = dice.below(3) == 0, quoted = dice.below(4) == 0, index = dice.below(4) == 0;
+    std::string out = dice.below(3) == 0 ? dice.one_of(kPreambles) : "";
+    std::size_t line = 0;
+    std::string field;
+    const auto put = [&] {
+        if (line == 0 && dice.below(3) == 0) {
+            field = field.substr(0, field.find(" [")) + dice.one_of(kUnits);
+        } else if (line > 0 && dice.below(500) == 0) {
+            field = dice.one_of(kMissing);
+        }
+        if (comma && line > 0) {
+            std::replace(field.begin(), field.end(), '.', ',');
+        }
+        out += quoted ? '"' + field + '"' : field;
+        field.clear();
+    };
+    for (const char c : table) {
+        if (c == ',') {
+            put();
+            out += separator;
+        } else if (c == '\n') {
+            put();
+            out += end;
+            ++line;
+            if (index) {
+                out += std::to_string(line) + separator;
+            }
+        } else {
+            field += c;
+        }
+    }
+    if (dice.below(8) == 0) {  // UTF-16
+        std::string wide = "\xFF\xFE";
+        for (const char c : out) {
+            wide += {c, '\0'};
+        }
+        return wide;
+    }
+    return dice.below(4) == 0 ? damaged(out, dice) : out;
+}
+
 // Rows of numbers, some of them hostile, with a sampling rate and a speed that may be hostile, too.
 std::string hostile_csv(Dice& dice) {
     constexpr std::array kColumns{"time", "mesh_phase", "speed_rpm", "sensor", "te"};
@@ -224,9 +278,11 @@ Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::
          {"/x.uff", &arsenal.uff},
          {"/x.tdms", &arsenal.tdms},
          {"/x.csv", &arsenal.csv}}};
-    const std::size_t kind = dice.below(9);
+    const std::size_t kind = dice.below(13);
     const std::string path = folder + (kind < 6 ? genuine[kind].first : "/x.csv");
-    write(path, kind < 6 ? damaged(*genuine[kind].second, dice) : hostile_csv(dice));
+    write(path, kind < 6   ? damaged(*genuine[kind].second, dice)
+                : kind < 9 ? hostile_csv(dice)
+                           : in_dialect(arsenal.csv, dice));
     Attack attack{{"features", path, "--study", arsenal.small_study}};
     if (dice.below(2) == 0) {
         attack.arguments.insert(attack.arguments.end(), {"--json", "-"});
@@ -250,7 +306,8 @@ Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::u
         constexpr std::array kOptions{"--link=logit",       "--link=probit", "--link=cloglog",
                                       "--link=loglog",      "--bounds=wald", "--size-scale=log",
                                       "--size-scale=linear"};
-        write(path, damaged(dice.one_of(arsenal.inspections), dice));
+        const std::string& table = dice.one_of(arsenal.inspections);
+        write(path, dice.below(2) == 0 ? damaged(table, dice) : in_dialect(table, dice));
         Attack attack{{"pod", path, "--json", "-"}, false};  // the output quotes the table's names
         for (std::size_t i = 0; i < dice.below(3); ++i) {
             attack.arguments.emplace_back(dice.one_of(kOptions));

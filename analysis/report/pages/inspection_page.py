@@ -142,6 +142,7 @@ def parts(data, page):
     method = [inspection.text(block["key"]) for block in data["findings"][-1]["blocks"]
               if "text" in block]
     body += page.section("facts", "Data and method",
-                         blocks.bullets([text for text in map(inspection.text, ("bound", "coverage"))
+                         blocks.bullets([text for text in map(inspection.text, ("bound", "coverage",
+                                                                         "measured_coverage"))
                                         if text] + method))
     return inspection.title(), inspection.text("headline"), verdict, body
