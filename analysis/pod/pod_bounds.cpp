@@ -101,17 +101,17 @@ SizeEstimate size_bound(const HitMissTable& table, const PodLikelihood& likeliho
         return estimate;
     }
     profile.restart();
-    // Searches outwards, each step from the last one's curve. The first step is somewhat longer
-    // than Wald's.
+    // Searches outwards in growing steps, each from the last one's curve. The first step is
+    // somewhat longer than Wald's error, and short enough not to miss a range of sizes that the
+    // bound leaves.
     const double u = likelihood.standardised(*size), span = edge - u;
     const Eigen::Matrix2d information = maximum.information.topLeftCorner<2, 2>();
     const Eigen::Vector2d direction(1.0, u);
     const double error = std::sqrt(direction.dot(information.ldlt().solve(direction))) /
                          std::abs(maximum.parameters[1]);
+    constexpr double kLongestShare = 1.0 / 32.0, kShortestShare = 1e-6;
     double share = 1.2 * profile.limit() * error / std::abs(span);
-    if (!(share > 1e-6)) {
-        share = 1.0 / 32.0;
-    }
+    share = share > kShortestShare ? std::min(share, kLongestShare) : kLongestShare;
     double inside = u, at_inside = -profile.limit();
     for (;; share *= 2.0) {
         const double at = share < 1.0 ? u + share * span : edge;

@@ -12,6 +12,7 @@
 #include "mc/scene/drivetrain.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/assumptions.hpp"
+#include "mc/study/false_alarm_target.hpp"
 #include "mc/study/gears.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
@@ -74,8 +75,8 @@ std::string record_conditions(const Study& study) {
                     length.given() ? " and begins at a random tooth position"
                                    : ", until all teeth have met (sensor.record_s)",
                     study.fault.kind != nullptr ? "the faulty" : "a", fmt::join(mates, " and "));
-    if (study.life.interval_h) {
-        text += fmt::format(" There are {:g} h between two records.", *study.life.interval_h);
+    if (const std::optional<double> interval_h = record_interval_h(study)) {
+        text += fmt::format(" There are {:g} h between two records.", *interval_h);
     }
     return text;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analysis/report/wording.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 
@@ -37,7 +38,8 @@ void check_on_face(StudyDraft& draft) {
 }
 
 std::string face_share_text(const Study& study, double size_m) {
-    return fmt::format("{:.0f} % of the face width", 100.0 * size_m / *study.gearbox.face_width_m);
+    return analysis::number_text(100.0 * size_m / *study.gearbox.face_width_m, 2) +
+           " % of the face width";
 }
 
 void check_helical(StudyDraft& draft, const std::string& key) {

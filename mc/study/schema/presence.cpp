@@ -47,7 +47,7 @@ Presence alarm_target_needs(const Study& s) {
                ? Presence{Need::required,
                           "hours between two records turn the target into a rate",
                           {}}
-               : with_alarm_target(s);
+               : may(s);
 }
 Presence of_life(const Study& s, Need need) {
     const Need there = s.life.interval_h ? need : Need::forbidden;

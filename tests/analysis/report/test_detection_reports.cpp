@@ -153,7 +153,7 @@ TEST_CASE("The headline names the fault as the study does, or what finds most") 
         CHECK(headline_text(findings, 0) ==
               std::string(found) +
                   "2 mm is found with 90 % probability at 95 % "
-                  "confidence by the vibration at the worst planet "
+                  "confidence by the vibration at the worst "
                   "tooth against the scatter of its teeth (window_z) at "
                   "noise x 1.");
         findings.smallest[0].reset();

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a new user's ten tasks, each in at most three commands: ten_tasks.sh PROGRAM SOURCES [small]
+# Runs a new user's tasks, each in at most three commands: user_tasks.sh PROGRAM SOURCES [small]
 # Prints one line per task with its seconds; `small` uses a few gearboxes of each study. Exits with
 # 1 if a task fails or does not give its result. Tasks that need a missing program are skipped with
 # a message.
@@ -32,6 +32,19 @@ compare_two_sensors() {
     gearpod run "$studies/planet-crack-ideal.toml" $few --quiet --set 'sensor.noise_m_s2={distribution="lognormal", median=2, cv=0.2}' --out b.h5 &&
     gearpod compare a.h5 b.h5 --html compare.html > out && has out 'graded gearboxes that are the same' &&
     has out 'Smallest fault found with 90 % probability'
+}
+record_length_and_interval() {
+    gearpod run stage.toml $few --set sensor.record_s=10 --set detection.record_interval_h=24 --out short.h5 > out &&
+    tail -n 12 out > end && has end "$sentence" && has end 'A record lasts 9.19 s and begins at a random tooth position' &&
+    has end 'There are 24 h between two records'
+}
+one_false_alarm_a_year() {
+    gearpod describe stage.toml --set detection.false_alarms_per_year=1 --set detection.record_interval_h=24 > out &&
+    has out 'is a rate of 0.00274 in a record for each feature' && has out 'Healthy records needed for a rate of 0.00274: 364'
+}
+own_csv_with_tachometer() {
+    gearpod features tachometer.csv --study "$studies/planet-crack-ideal.toml" --sensor 'a (g)' --tachometer tacho > out &&
+    has out window_ratio
 }
 signals_in_python() {
     python -c 'import gearpod; print(sorted(gearpod.open("a.h5").signals(3)))' > out && has out "'sensor'"
@@ -70,6 +83,10 @@ gearpod simulate "$studies/planet-crack-ideal.toml" --instance 2000 --meshes 837
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i ~ /^time/) t = i; if ($i ~ /^sensor_noise_1/) s = i }; print "time,a"; next }
     { printf "%s,%.9g\n", $t, $s / 9.80665 }' made.csv > recording.csv
 
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i ~ /^time/) t = i; if ($i ~ /^sensor_noise_1/) s = i; if ($i ~ /^mesh_phase/) m = i };
+        print "time (s),a (g),tacho (V)"; next }
+    { turn = int($m / 81); printf "%s,%.9g,%d\n", $t, $s / 9.80665, (turn > last || NR == 2) ? 5 : 0; last = turn }' made.csv > tachometer.csv
+
 # Processor seconds used by finished commands.
 processors() {
     times > times
@@ -77,7 +94,7 @@ processors() {
 }
 
 failed=0
-for task in datasheet_to_pod compare_two_sensors signals_in_python own_feature recording_in_g pdf_for_a_manager sweep \
+for task in datasheet_to_pod record_length_and_interval one_false_alarm_a_year compare_two_sensors signals_in_python own_feature recording_in_g own_csv_with_tachometer pdf_for_a_manager sweep \
     more_gearboxes array_of_jobs published_figure; do
     case $task in
         datasheet_to_pod | pdf_for_a_manager) has_what='import matplotlib' what=python3-matplotlib ;;
