@@ -190,9 +190,13 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     const bool good_limit = check_time_limit(run, limit);
     const Interruption interruption(limit);
     double interpolation_error = 0.0;
-    const StudyScene made = load_scene_on_all_ranks(
-        ranks, run.study, interruption,
-        [&](StudyScene& scene) { interpolation_error = prepare_lives(run, scene); });
+    const StudyScene made =
+        load_scene_on_all_ranks(ranks, run.study, interruption, [&](StudyScene& scene) {
+            if (ranks.leads()) {
+                print_omitted(run, scene.scene->study());
+            }
+            interpolation_error = prepare_lives(run, scene);
+        });
     const auto tiles = made ? std::make_unique<LifeTiles>(*made.scene) : nullptr;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
@@ -202,9 +206,6 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
         const bool good_page =
             can_write({"--html", options.html}, {study, results, json}, {page_output(), run.force});
         const bool good_out = check_output(run), good_progress = check_progress(run);
-        if (made) {
-            print_omitted(run, made.scene->study());
-        }
         if (tiles && good_limit && good_json && good_page && good_out && good_progress) {
             checkpoint = lives_checkpoint(run, made.scene->study());
         }

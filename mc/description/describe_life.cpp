@@ -12,7 +12,7 @@ namespace {
 
 // Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
-                      const std::optional<int>& nodes, double tolerance) {
+                      const std::optional<int>& nodes, std::optional<double> tolerance) {
     const LoadAxis axis(law, evenly_spaced.value_or(2), nodes);
     return law.text() +
            (axis.factors().size() > 1
@@ -20,11 +20,11 @@ std::string load_text(const RecordDistribution& law, const std::optional<int>& e
                       "; records between are interpolated from solutions at {:.3g} times {}{}",
                       fmt::join(axis.factors(), ", "),
                       law.given() ? "the study's value" : "the gearbox's value",
-                      evenly_spaced || nodes
+                      evenly_spaced || nodes || !tolerance
                           ? ""
                           : fmt::format(", or at more if the error is above {:g} "
                                         "(life.interpolation_tolerance)",
-                                        tolerance))
+                                        *tolerance))
                 : "");
 }
 

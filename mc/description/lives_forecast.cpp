@@ -150,8 +150,10 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
     constexpr double kMostPilots_s = 5.0;
     const Life& life = scene.study().life;
     const RecordDistributions distributions(scene.study());
-    const int axes =
-        (distributions.torque.varies() ? 1 : 0) + (distributions.speed.varies() ? 1 : 0);
+    // Torques and speeds whose number pilots choose.
+    const int axes = !life.interpolation_tolerance ? 0
+                                                   : (distributions.torque.varies() ? 1 : 0) +
+                                                         (distributions.speed.varies() ? 1 : 0);
     const int threads = thread_count(scene.study());
     // One load and five more for each quantity that varies are integrated at least.
     const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -72,7 +73,9 @@ EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const E
 void store_run_costs(const Scene& scene, double interpolation_error, const EnsembleOutcome& outcome,
                      Results& frame) {
     frame.provenance.emplace_back(kRecordText, record_text(scene));
-    frame.provenance.emplace_back(kInterpolationError, fmt::format("{}", interpolation_error));
+    if (!std::isnan(interpolation_error)) {
+        frame.provenance.emplace_back(kInterpolationError, fmt::format("{}", interpolation_error));
+    }
     const Seconds work = outcome.work();
     frame.timing.push_back({kGearboxTime, work.integration});
     frame.timing.push_back({kRecordTime, work.features});

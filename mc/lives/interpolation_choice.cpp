@@ -143,6 +143,9 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
         best.error = 0.0;
         return best;
     }
+    if (!life.interpolation_tolerance) {
+        return best;
+    }
     Pilots pilots(tiles);
     for (ChosenAxis& axis : axes) {
         axis.measure(pilots);
@@ -165,7 +168,7 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
                 next = &axis;
             }
         }
-        if (!(error > life.interpolation_tolerance) || next == nullptr) {
+        if (!(error > *life.interpolation_tolerance) || next == nullptr) {
             break;
         }
         next->nodes = next->more();

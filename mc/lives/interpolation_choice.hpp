@@ -17,14 +17,16 @@ struct InterpolationChoice {
     Life life;  // with the numbers of torques and speeds
     // Sum of the errors along torque and speed, each the largest over the pilots: rms over the
     // span, relative to the change made by the smallest crack of interest at the gearbox's own
-    // load. 0 if all records have the same load; NaN if no pilot was integrated.
+    // load. 0 if all records have the same load; NaN if no pilot was integrated, as without a
+    // tolerance.
     double error = std::numeric_limits<double>::quiet_NaN();
     int loads = 0;  // number of loads at which the pilots were integrated
 };
 
-// Raises the numbers that the study does not give until the error is at most
-// life.interpolation_tolerance; if that cannot be reached, the numbers of the least error are
-// taken. Depends on the study only. Throws SceneError if its records cannot be superposed.
+// With life.interpolation_tolerance, raises the numbers that the study does not give until the
+// error is at most life.interpolation_tolerance; if that cannot be reached, the numbers of the
+// least error are taken. Depends on the study only. Throws SceneError if its records cannot be
+// superposed.
 InterpolationChoice choose_interpolation(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -34,7 +34,8 @@ struct Life {
     std::optional<int> polynomial_torques, polynomial_speeds;
     // Largest error of signals between them, relative to the change made by the smallest crack of
     // interest. Numbers that are not given are raised until pilots keep it.
-    double interpolation_tolerance = 0.1;
+    // Without it the numbers of torques and speeds are not chosen.
+    std::optional<double> interpolation_tolerance;
     std::optional<double> smallest_depth_m;  // by default half the last depth
     // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
     // meets every tooth of the ring once. A record averages `recordings` recordings.

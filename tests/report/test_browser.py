@@ -175,13 +175,13 @@ class InBrowser(unittest.TestCase):
                 .map(e => e.outerHTML.slice(0, 80));""")
         self.assertEqual(outside, [])
 
-    def test_the_table_and_the_omissions_are_on_the_first_screen(self):
+    def test_answer_figure_and_conditions_are_on_the_first_screen(self):
         for screen in (PHONE, DESKTOP):
             self.open("planet", screen)
-            for part in (".answer", "#answer table", "#limits + ul li"):
+            for part, edge in ((".answer", "bottom"), (".lead figure svg", "bottom"), (".holds", "top")):
                 self.assertLess(self.script(
-                    "return document.querySelector(arguments[0]).getBoundingClientRect().bottom",
-                    part), screen[1], part)
+                    "return document.querySelector(arguments[0]).getBoundingClientRect()[arguments[1]]",
+                    part, edge), screen[1], part)
 
     def test_every_chart_has_a_name_and_a_description(self):
         self.open("planet", DESKTOP)

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "analysis/report/wording.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/teeth/crack_path.hpp"
@@ -67,8 +66,7 @@ double critical_section_m(const Study& study) {
 }
 
 std::string crack_share_text(const Study& study, double depth_m) {
-    return analysis::number_text(100.0 * section_share(study, depth_m), 2) +
-           " % of the tooth section";
+    return part_text(section_share(study, depth_m)) + " of the tooth section";
 }
 
 std::string crack_origin(const Study& study, std::span<const double> depths_m) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "analysis/report/wording.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 
@@ -37,9 +36,13 @@ void check_on_face(StudyDraft& draft) {
     check_size(draft, {face_mm, fmt::format("wider than the face, {:.6g} mm", face_mm)});
 }
 
+std::string part_text(double share) {
+    const double percent = 100.0 * share;
+    return percent < 10.0 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
+}
+
 std::string face_share_text(const Study& study, double size_m) {
-    return analysis::number_text(100.0 * size_m / *study.gearbox.face_width_m, 2) +
-           " % of the face width";
+    return part_text(size_m / *study.gearbox.face_width_m) + " of the face width";
 }
 
 void check_helical(StudyDraft& draft, const std::string& key) {

@@ -24,6 +24,9 @@ void check_size(StudyDraft& draft, const SizeLimit& limit);
 // The same with the face width as the limit.
 void check_on_face(StudyDraft& draft);
 
+// "12 %" or "0.21 %".
+std::string part_text(double share);
+
 // "12 % of the face width": part of the face width that a size along it takes.
 std::string face_share_text(const Study& study, double size_m);
 

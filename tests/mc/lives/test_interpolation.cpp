@@ -17,7 +17,7 @@ using namespace gearpod::test;
 namespace {
 
 const std::vector<std::string> kVarying{"life.torque_scatter=0.05", "life.speed_scatter=0.02",
-                                        "ensemble.instances=8"};
+                                        "life.interpolation_tolerance=0.5", "ensemble.instances=8"};
 
 mc::Study varying(std::vector<std::string> more) {
     more.insert(more.begin(), kVarying.begin(), kVarying.end());
@@ -75,12 +75,12 @@ TEST_CASE("A polynomial axis reproduces polynomials and continues them as a line
 TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept") {
     const mc::Scene scene(varying({}));
     const auto choice = mc::choose_interpolation(scene);
-    CHECK(choice.error <= 0.1);
+    CHECK(choice.error <= 0.5);
     // A gearbox that keeps contact is linear in its torque.
     CHECK_FALSE(choice.life.polynomial_torques);
     REQUIRE(choice.life.polynomial_speeds);
     const auto finer =
-        mc::choose_interpolation(mc::Scene(varying({"life.interpolation_tolerance=0.001"})));
+        mc::choose_interpolation(mc::Scene(varying({"life.interpolation_tolerance=0.3"})));
     CHECK(finer.error < choice.error);
     CHECK(finer.life.polynomial_speeds > choice.life.polynomial_speeds);
     // Numbers that are given stay.
