@@ -175,7 +175,7 @@ class InBrowser(unittest.TestCase):
                 .map(e => e.outerHTML.slice(0, 80));""")
         self.assertEqual(outside, [])
 
-    def test_answer_figure_and_conditions_are_on_the_first_screen(self):
+    def test_result_figure_and_conditions_are_on_the_first_screen(self):
         for screen in (PHONE, DESKTOP):
             self.open("planet", screen)
             for part, edge in ((".answer", "bottom"), (".lead figure svg", "bottom"), (".holds", "top")):
