@@ -63,8 +63,8 @@ struct InspectionResult {
     bool once_per_specimen = false;  // the table divides specimens over their repeats
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
-    // Of responses of which no line passes the checks, with default bounds and without censored
-    // values.
+    // Curve where no line through the responses passes the checks; needs default bounds and
+    // uncensored values.
     std::optional<SmoothResponse> smooth;
     double threshold = 0.0;                // for responses
     long without_flaw = 0;                 // number of values of size 0

@@ -163,7 +163,7 @@ struct FeaturesOptions {
     SignalColumns columns;
     std::vector<std::string> healthy;  // recordings of healthy gearboxes
     std::string baseline;              // earlier recording of the same gearbox, "": none
-    // Of many recordings; average 0: monitoring.average_records.
+    // Baselines of many recordings; average 0: monitoring.average_records.
     BaselineOptions baselines{0, {}, false, 0};
     double noise_level = 1.0;  // of simulated healthy gearboxes, used without `healthy`
     std::string json;          // "": none; "-": standard output

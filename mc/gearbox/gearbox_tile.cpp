@@ -236,10 +236,11 @@ std::size_t computed_baselines(const Study& study) {
 
 // Baseline records of the gearboxes, one gearbox after the other.
 std::vector<GearboxId> baselines_of(const Study& study, std::span<const GearboxId> ids) {
+    const std::size_t records = computed_baselines(study);
     std::vector<GearboxId> earlier;
     for (GearboxId id : ids) {
         id.record = Record::baseline;
-        for (id.baseline = 0; id.baseline < computed_baselines(study); ++id.baseline) {
+        for (id.baseline = 0; id.baseline < records; ++id.baseline) {
             earlier.push_back(id);
         }
     }

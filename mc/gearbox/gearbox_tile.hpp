@@ -31,8 +31,8 @@ struct LaneSignals {
     const LaneSignals* baseline = nullptr;
     std::size_t baselines = 0;
     double noise_m_s2 = 0.0;  // rms noise of the sensor in this record, at noise level 1
-    // Of a record that was cut from the signals (record_window.hpp): turns of the monitored gear,
-    // or 0 for the scene's span, and mesh period of the signals at which the record begins.
+    // Window of a record that was cut from the signals (record_window.hpp): turns of the monitored
+    // gear, or 0 for the scene's span, and mesh period of the signals at which the record begins.
     int turns = 0, first_mesh = 0;
 };
 

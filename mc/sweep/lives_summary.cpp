@@ -203,7 +203,7 @@ std::string lives_headline_text(const LivesSweep& sweep) {
     return text + ".";
 }
 
-// Which shares differ from the largest beyond scatter.
+// Sentence on the shares that differ from the largest beyond scatter.
 std::string lives_differences_text(const LivesSweep& sweep) {
     const std::vector<KnownShare> known =
         sweep.order.empty() ? std::vector<KnownShare>{} : known_shares(sweep);

@@ -134,7 +134,7 @@ std::string headline_text(const RunSweep& sweep) {
     return text + ".";
 }
 
-// Which differences of a90 from the smallest one exceed the scatter.
+// Sentence on the differences of a90 from the smallest one that exceed the scatter.
 std::string differences_text(const RunSweep& sweep) {
     const SweepDifferences& all = sweep.differences;
     if (!all.best || sweep.points.size() < 2) {

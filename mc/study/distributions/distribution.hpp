@@ -18,7 +18,7 @@ namespace gearpod::mc {
 struct Value;             // mc/input/document.hpp
 struct DistributionKind;  // distribution.cpp
 
-// What has one value of a random input: a gearbox, each of its assemblies (the one in which the
+// Owner of one value of a random input: a gearbox, each of its assemblies (the one in which the
 // baseline was recorded and the one that is tested), or each record.
 enum class DrawnPer { gearbox, assembly, record };
 
