@@ -88,9 +88,9 @@ double corner_reach_m(const Study& study, double force_N, const SceneMesh& mesh)
                   pitch_error_m(study, mesh.members.member_2));
 }
 
-// Adds relief, crowning and extended contact. The slices of helical teeth have individual gaps.
+// Adds relief, crowning and extended contact. Gaps of crowned teeth vary across the face.
 void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
-    constexpr int kSlices = 8;
+    constexpr int kSlices = 8, kHelicalSlices = 4;
     stiffness::FlankGaps gaps{*mesh.geometry, relief_of(study, mesh.members.member_1),
                               relief_of(study, mesh.members.member_2)};
     if (study.effects.contact_onset == ContactOnset::extended) {
@@ -98,10 +98,11 @@ void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
     }
     const double overlap = study.gearbox.helix_angle_rad > 0.0 ? overlap_ratio(study) : 0.0;
     const bool crowned = gaps.relief_1.crowning_m + gaps.relief_2.crowning_m > 0.0;
-    const int requested = study.numerics.face_slices > 0 ? study.numerics.face_slices : kSlices;
+    const int chosen = !crowned ? 1 : overlap > 0.0 ? kHelicalSlices : kSlices;
+    const bool given = study.numerics.face_slices > 0 && (overlap > 0.0 || crowned);
     mesh.stiffness = std::make_unique<const stiffness::GappedMesh>(
         std::move(mesh.stiffness), overlap, gaps, force_N,
-        overlap > 0.0 || crowned ? requested : 1);
+        given ? study.numerics.face_slices : chosen);
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "stiffness/helical_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"
+#include "stiffness/nominal_pairs.hpp"
 #include "stiffness/teeth/position_range.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
@@ -15,51 +17,6 @@ namespace gearpod::stiffness {
 namespace {
 
 constexpr double kCurveTolerance = 4e-10;  // relative to the mean mesh stiffness
-
-class HealthyPairs final : public NominalPairs {
-  public:
-    explicit HealthyPairs(const MeshStiffness& spur) : spur_(spur) {}
-    void total(std::span<const double> tau, double inside,
-               std::span<double> stiffness) const override {
-        spur_.total(tau, inside, stiffness);
-    }
-    void pair(int tooth, std::span<const double> tau, double inside,
-              std::span<double> stiffness) const override {
-        std::vector<double> own(tau.begin(), tau.end());
-        for (double& at : own)
-            at -= tooth;
-        spur_.slice_stiffness(0, own, inside - tooth, stiffness);
-    }
-
-  private:
-    const MeshStiffness& spur_;
-};
-
-class FaultyPairs final : public NominalPairs {
-  public:
-    FaultyPairs(const MeshStiffness& spur, const FaultyMesh& faulty)
-        : healthy_(spur), faulty_(faulty) {}
-    void total(std::span<const double> tau, double inside,
-               std::span<double> stiffness) const override {
-        if (passes(inside))
-            faulty_.total(tau, inside, stiffness);
-        else
-            healthy_.total(tau, inside, stiffness);
-    }
-    void pair(int tooth, std::span<const double> tau, double inside,
-              std::span<double> stiffness) const override {
-        if (passes(inside))
-            faulty_.tooth_pair(tooth, tau, inside, stiffness);
-        else
-            healthy_.pair(tooth, tau, inside, stiffness);
-    }
-
-  private:
-    bool passes(double inside) const { return inside > 0 && inside < faulty_.duration(); }
-
-    const HealthyPairs healthy_;
-    const FaultyMesh& faulty_;
-};
 
 PathExtension make_extension(const FlankGaps& gaps, double force, double stiffness) {
     return gaps.reach_m > 0 ? PathExtension(gaps.geometry, gaps.reach_m, force / stiffness)
@@ -80,28 +37,61 @@ void add_phase(double at, std::vector<double>& phases) {
     phases.push_back(phase > 1 - kPositionTolerance ? 0 : phase);
 }
 
+// Writes the total of a gear pair without gaps, whose paths start `late` mesh periods after the
+// engagements. Within a stretch, helical pairs may change their teeth.
+template <class Total>
+void total_at_paths(std::span<const double> tau, double inside, double late, bool helical,
+                    const Total& total, std::span<double> stiffness) {
+    std::vector<double> own(tau.begin(), tau.end());
+    for (double& at : own)
+        at -= late;
+    if (!helical) {
+        total(std::span<const double>(own), inside - late, stiffness);
+        return;
+    }
+    for (std::size_t i = 0; i < own.size(); ++i)
+        total(std::span<const double>(&own[i], 1), own[i], stiffness.subspan(i, 1));
+}
+
+std::unique_ptr<const MeshStiffness> make_nominal(std::unique_ptr<const MeshStiffness> spur,
+                                                  double overlap_ratio) {
+    if (overlap_ratio > 0)
+        return std::make_unique<HelicalMesh>(std::move(spur), overlap_ratio);
+    return spur;
+}
+
 }  // namespace
 
 GappedMesh::GappedMesh(std::unique_ptr<const MeshStiffness> spur, double overlap_ratio,
                        const FlankGaps& gaps, double force_N, int slices)
-    : spur_(std::move(spur)),
+    : nominal_(make_nominal(std::move(spur), overlap_ratio)),
+      spur_(nominal_->slice()),
       overlap_(overlap_ratio),
-      gaps_(checked(gaps, overlap_ratio, force_N, slices)),
       force_(force_N),
       slices_(slices),
-      extension_(make_extension(gaps, force_N, mean_total(*spur_))),
-      spur_ratio_(extension_.reach().before + spur_->contact_ratio() + extension_.reach().after) {
-    const HealthyPairs healthy(*spur_);
-    ExtendedPairs pairs(healthy, extension_);
-    joins_ = pairs.change(0, true);
-    leaves_ = pairs.change(0, false);
+      gap_{checked(gaps, overlap_ratio, force_N, slices),
+           make_extension(gaps, force_N, mean_total(spur_))},
+      spur_ratio_(gap_.extension.reach().before + spur_.contact_ratio() +
+                  gap_.extension.reach().after) {
+    const HealthyPairs healthy(spur_);
+    ExtendedPairs pairs(healthy, gap_.extension);
+    gap_.joins = pairs.change(0, true);
+    gap_.leaves = pairs.change(0, false);
     curve_ = fit(pairs, 0, breaks());
+    if (overlap_ > 0) {
+        std::vector<double> points = breaks();
+        points.insert(points.end(), {0, spur_ratio_});
+        for (const double kink : gears::relief_kinks(gaps.geometry, gaps.relief_1, gaps.relief_2))
+            points.push_back(path_begin() + kink);
+        sort_positions(points);
+        helical_slices_.emplace(curve_, points, gap_, overlap_, slices_, force_);
+    }
     transitions_ = make_transitions();
 }
 
 ToothPairCurve GappedMesh::fit(ExtendedPairs& pairs, int tooth,
                                const std::vector<double>& breaks) const {
-    const ToothPairFit make(kCurveTolerance * mean_total(*spur_));
+    const ToothPairFit make(kCurveTolerance * mean_total(spur_));
     const double from = tooth - path_begin();
     return make(
         [&](std::span<const double> tau, std::span<double> values) {
@@ -114,8 +104,8 @@ ToothPairCurve GappedMesh::fit(ExtendedPairs& pairs, int tooth,
 }
 
 std::vector<double> GappedMesh::breaks() const {
-    const double ratio = spur_->contact_ratio();
-    const auto& fade = extension_.fade();
+    const double ratio = spur_.contact_ratio();
+    const auto& fade = gap_.extension.fade();
     std::vector<double> all;
     const int reach = static_cast<int>(std::ceil(ratio)) + 1;
     for (int other = -reach; other <= reach; ++other)
@@ -123,31 +113,28 @@ std::vector<double> GappedMesh::breaks() const {
              {other - fade.before, other + 0.0, other + ratio, other + ratio + fade.after})
             if (const double own = path_begin() + at; own > 0 && own < spur_ratio_)
                 all.push_back(own);
-    for (const double phase : spur_->transitions())
+    for (const double phase : spur_.transitions())
         for (double at = path_begin() + phase; at < spur_ratio_; ++at)
             all.push_back(at);
     sort_positions(all);
     return all;
 }
 
-// Positions at which time steps must end: where slices engage or disengage abruptly, and where the
-// stiffness or the gap of spur teeth has a kink.
+// Positions at which time steps must end: starts and ends of engagements, abrupt changes of helical
+// teeth, and kinks of the stiffness or the gap of spur teeth.
 std::vector<double> GappedMesh::make_transitions() const {
     std::vector<double> phases;
     add_phase(0, phases);
     add_phase(contact_ratio(), phases);
-    const bool spur = overlap_ == 0;
-    for (int slice = 0; slice < slices_; ++slice) {
-        if (!spur && gaps_.reach_m > 0)
-            break;
-        add_phase(delay(slice), phases);
-        add_phase(delay(slice) + spur_ratio_, phases);
-    }
-    if (spur) {
-        for (const double phase : spur_->transitions())
+    if (helical()) {
+        if (gap_.flanks.reach_m == 0)
+            for (const double at : helical_slices_->changes())
+                add_phase(at, phases);
+    } else {
+        for (const double phase : spur_.transitions())
             add_phase(path_begin() + phase, phases);
         for (const double kink :
-             gears::relief_kinks(gaps_.geometry, gaps_.relief_1, gaps_.relief_2))
+             gears::relief_kinks(gap_.flanks.geometry, gap_.flanks.relief_1, gap_.flanks.relief_2))
             add_phase(path_begin() + kink, phases);
     }
     sort_positions(phases);
@@ -155,7 +142,7 @@ std::vector<double> GappedMesh::make_transitions() const {
 }
 
 double GappedMesh::flank_position(double tau) const {
-    const double ratio = spur_->contact_ratio(), at = tau - path_begin();
+    const double ratio = spur_.contact_ratio(), at = tau - path_begin();
     const double oldest = std::clamp(at, 0.0, ratio);
     const double youngest = std::clamp(at - overlap_, 0.0, ratio);
     return 0.5 * (oldest + youngest) / ratio - 0.5;
@@ -163,41 +150,37 @@ double GappedMesh::flank_position(double tau) const {
 
 void GappedMesh::slice_stiffness(int slice, std::span<const double> tau, double inside,
                                  std::span<double> stiffness) const {
+    if (helical()) {
+        for (std::size_t i = 0; i < tau.size(); ++i)
+            stiffness[i] = helical_slices_->stiffness(slice, tau[i]);
+        return;
+    }
     if (slices_ == 1) {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         if (inside > 0 && inside < contact_ratio())
             curve_(tau, stretch_around(transitions_, {}, inside), stiffness);
         return;
     }
-    std::vector<double> own(tau.begin(), tau.end());
-    for (double& at : own)
-        at -= delay(slice);
-    curve_(own, stiffness);
+    curve_(tau, stiffness);
     for (double& k : stiffness)
         k /= slices_;
 }
 
-// Gap of a slice. Outside the path of contact, the stiffness k of the curve differs from `own`, the
-// stiffness of the pair among all engaged pairs. The gap is scaled by own / k there, so that the
-// product of stiffness and gap is correct.
 double GappedMesh::slice_gap(int slice, double tau) const {
-    const double ratio = spur_->contact_ratio();
-    const double at = tau - delay(slice) - path_begin();
-    const double ground = gears::relief_gap(gaps_.geometry, gaps_.relief_1, gaps_.relief_2,
-                                            std::clamp(at, 0.0, ratio));
-    const double crown =
-        (gaps_.relief_1.crowning_m + gaps_.relief_2.crowning_m) * across(slice) * across(slice);
-    const double flank = ground + crown;
-    if (at >= 0 && at <= ratio)
-        return flank;
-    const ExtendedPairs::Change& end = at < 0 ? joins_ : leaves_;
-    const double k = end.stiffness(extension_.weight(at));
-    return (flank + gears::corner_gap(gaps_.geometry, at)) * (k > 0 ? end.own / k : 1);
+    return helical() ? helical_slices_->gap(slice, tau)
+                     : gap_(tau - path_begin(), gap_.flanks.crown_m(slice, slices_));
 }
 
 double GappedMesh::slice_flank_position(int slice, double tau) const {
-    const double ratio = spur_->contact_ratio();
-    return std::clamp((tau - delay(slice) - path_begin()) / ratio, 0.0, 1.0) - 0.5;
+    if (helical())
+        return helical_slices_->flank_position(slice, tau);
+    return std::clamp((tau - path_begin()) / spur_.contact_ratio(), 0.0, 1.0) - 0.5;
+}
+
+double GappedMesh::slice_on_path(int slice, double tau) const {
+    if (helical())
+        return helical_slices_->on_path(slice, tau);
+    return std::abs(slice_flank_position(slice, tau)) < 0.5 ? 1 : 0;
 }
 
 void GappedMesh::total(std::span<const double> tau, double inside,
@@ -210,30 +193,11 @@ void GappedMesh::total(std::span<const double> tau, double inside,
     }
 }
 
-template <class Weight>
-void GappedMesh::add_path_total(const NominalPairs& pairs, const Weight& weight,
-                                std::span<const double> tau, double inside,
-                                std::span<double> stiffness) const {
-    std::vector<double> own(tau.size()), one(tau.size());
-    for (int slice = 0; slice < slices_; ++slice) {
-        const double late = path_begin() + (slices_ == 1 ? 0 : delay(slice));
-        std::transform(tau.begin(), tau.end(), own.begin(), [&](double at) { return at - late; });
-        if (slices_ == 1) {
-            pairs.total(own, inside - late, one);
-        } else {  // slices change their pairs at different positions
-            for (std::size_t i = 0; i < own.size(); ++i)
-                pairs.total({&own[i], 1}, own[i], {&one[i], 1});
-        }
-        for (std::size_t i = 0; i < own.size(); ++i)
-            stiffness[i] += weight(slice) * one[i];
-    }
-}
-
 void GappedMesh::path_total(std::span<const double> tau, double inside,
                             std::span<double> stiffness) const {
-    std::fill(stiffness.begin(), stiffness.end(), 0.0);
-    add_path_total(
-        HealthyPairs(*spur_), [this](int) { return 1.0 / slices_; }, tau, inside, stiffness);
+    total_at_paths(
+        tau, inside, path_begin(), helical(),
+        [this](auto at, double within, auto k) { nominal_->total(at, within, k); }, stiffness);
 }
 
 void GappedMesh::share(std::span<const double> tau, double inside, std::span<double> share) const {
@@ -242,7 +206,7 @@ void GappedMesh::share(std::span<const double> tau, double inside, std::span<dou
         return;
     const LoadedMesh loaded(*this, force_);
     std::vector<double> k(tau.size());
-    for (int slice = 0; slice < slices_; ++slice) {
+    for (int slice = 0; slice < slices(); ++slice) {
         slice_stiffness(slice, tau, inside, k);
         for (std::size_t i = 0; i < tau.size(); ++i) {
             const double d = loaded.approach(tau[i], inside);
@@ -256,7 +220,10 @@ void GappedMesh::share(std::span<const double> tau, double inside, std::span<dou
 class FaultyGappedMesh : public FaultyMesh {
   public:
     FaultyGappedMesh(const GappedMesh& healthy, const ToothFault& fault)
-        : healthy_(healthy), spur_(healthy.spur_->with_fault(fault)), face_(fault.face()) {
+        : healthy_(healthy),
+          nominal_(healthy.nominal_->with_fault(fault)),
+          spur_(nominal_->slice()),
+          face_(fault.face()) {
         const double begin = healthy_.path_begin();
         std::vector<double> laws;
         for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
@@ -265,11 +232,11 @@ class FaultyGappedMesh : public FaultyMesh {
             for (const double at : fault.jumps())
                 laws.push_back(begin + tooth + at);
         }
-        if (healthy_.slices_ == 1)
-            for (const double jump : spur_->jumps())
+        if (healthy_.slices_ == 1 && !healthy_.helical())
+            for (const double jump : spur_.jumps())
                 jumps_.push_back(begin + jump);
-        const FaultyPairs faulty(*healthy_.spur_, *spur_);
-        ExtendedPairs pairs(faulty, healthy_.extension_);
+        const FaultyPairs faulty(healthy_.spur_, spur_);
+        ExtendedPairs pairs(faulty, healthy_.gap_.extension);
         for (int tooth = first_tooth(); tooth < duration(); ++tooth) {
             std::vector<double> breaks = healthy_.breaks();
             for (const double at : laws)
@@ -277,12 +244,14 @@ class FaultyGappedMesh : public FaultyMesh {
                     breaks.push_back(own);
             sort_positions(breaks);
             curves_.push_back(healthy_.fit(pairs, tooth, breaks));
+            if (healthy_.helical())
+                lost_.push_back(integral_of_loss(curves_.back(), breaks));
         }
     }
 
     double duration() const override {
-        const auto& reach = healthy_.extension_.reach();
-        return reach.before + spur_->duration() + reach.after + healthy_.overlap_;
+        const auto& reach = healthy_.gap_.extension.reach();
+        return reach.before + nominal_->duration() + reach.after;
     }
     std::vector<double> jumps() const override { return jumps_; }
 
@@ -293,7 +262,7 @@ class FaultyGappedMesh : public FaultyMesh {
         for (int tooth = first_tooth(); tooth < inside; ++tooth) {
             if (inside >= tooth + healthy_.contact_ratio())
                 continue;
-            for (int slice = 0; slice < healthy_.slices_; ++slice) {
+            for (int slice = 0; slice < healthy_.slices(); ++slice) {
                 slice_stiffness(tooth, slice, tau, inside, k);
                 for (std::size_t i = 0; i < tau.size(); ++i)
                     if (k[i] > 0)
@@ -306,18 +275,20 @@ class FaultyGappedMesh : public FaultyMesh {
 
     void path_total(std::span<const double> tau, double inside,
                     std::span<double> stiffness) const override {
-        healthy_.path_total(tau, inside, stiffness);
-        const auto lost = [this](int slice) { return -weight(slice); };
-        const auto kept = [this](int slice) { return weight(slice); };
-        healthy_.add_path_total(HealthyPairs(*healthy_.spur_), lost, tau, inside, stiffness);
-        healthy_.add_path_total(FaultyPairs(*healthy_.spur_, *spur_), kept, tau, inside, stiffness);
+        const auto total = [this](auto at, double within, auto k) {
+            if (within > 0 && within < nominal_->duration())
+                nominal_->total(at, within, k);
+            else
+                healthy_.nominal_->total(at, within, k);
+        };
+        total_at_paths(tau, inside, healthy_.path_begin(), healthy_.helical(), total, stiffness);
     }
 
     void tooth_pair(int tooth, std::span<const double> tau, double inside,
                     std::span<double> stiffness) const override {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         std::vector<double> one(tau.size());
-        for (int slice = 0; slice < healthy_.slices_; ++slice) {
+        for (int slice = 0; slice < healthy_.slices(); ++slice) {
             slice_stiffness(tooth, slice, tau, inside, one);
             std::transform(one.begin(), one.end(), stiffness.begin(), stiffness.begin(),
                            std::plus<>());
@@ -331,14 +302,23 @@ class FaultyGappedMesh : public FaultyMesh {
             return;
         std::vector<double> own(tau.begin(), tau.end());
         for (double& at : own)
-            at -= tooth + (healthy_.slices_ == 1 ? 0 : healthy_.delay(slice));
-        const ToothPairCurve& faulty = curves_[static_cast<std::size_t>(tooth - first_tooth())];
-        if (healthy_.slices_ == 1) {
-            const Stretch whole = stretch_around(healthy_.transitions_, jumps_, inside);
-            faulty(own, {whole.begin - tooth, whole.end - tooth}, stiffness);
+            at -= tooth;
+        const auto pair = static_cast<std::size_t>(tooth - first_tooth());
+        if (healthy_.helical()) {
+            healthy_.slice_stiffness(slice, own, inside - tooth, stiffness);
+            for (std::size_t i = 0; i < tau.size(); ++i) {
+                const double lost =
+                    healthy_.helical_slices_->mean(lost_[pair], slice, own[i], face_);
+                stiffness[i] = std::max(0.0, stiffness[i] - lost);
+            }
             return;
         }
-        faulty(own, stiffness);
+        if (healthy_.slices_ == 1) {
+            const Stretch whole = stretch_around(healthy_.transitions_, jumps_, inside);
+            curves_[pair](own, {whole.begin - tooth, whole.end - tooth}, stiffness);
+            return;
+        }
+        curves_[pair](own, stiffness);
         std::vector<double> whole(tau.size());
         healthy_.curve_(own, whole);
         const double part = weight(slice);
@@ -352,6 +332,20 @@ class FaultyGappedMesh : public FaultyMesh {
     // Index of the first tooth pair whose engagement overlaps that of the faulty pair.
     int first_tooth() const { return 1 - static_cast<int>(std::ceil(healthy_.contact_ratio())); }
 
+    RunningIntegral integral_of_loss(const ToothPairCurve& curve,
+                                     std::vector<double> points) const {
+        points.insert(points.end(), {0, healthy_.spur_ratio_});
+        sort_positions(points);
+        return {[&](std::span<const double> tau, double, std::span<double> lost) {
+                    std::vector<double> kept(tau.size());
+                    healthy_.curve_(tau, lost);
+                    curve(tau, kept);
+                    std::transform(lost.begin(), lost.end(), kept.begin(), lost.begin(),
+                                   std::minus<>());
+                },
+                points, kCurveTolerance * mean_total(healthy_.spur_)};
+    }
+
     // Fraction of the total stiffness loss that is assigned to a slice.
     double weight(int slice) const {
         const double low = static_cast<double>(slice) / healthy_.slices_;
@@ -361,10 +355,12 @@ class FaultyGappedMesh : public FaultyMesh {
     }
 
     const GappedMesh& healthy_;
-    std::unique_ptr<const FaultyMesh> spur_;
+    std::unique_ptr<const FaultyMesh> nominal_;  // without gaps
+    const FaultyMesh& spur_;
     FaceRange face_;
     std::vector<double> jumps_;
     std::vector<ToothPairCurve> curves_;  // for tooth pairs from first_tooth() on
+    std::vector<RunningIntegral> lost_;   // integrals of what these lose, helical teeth only
 };
 
 std::unique_ptr<const FaultyMesh> GappedMesh::with_fault(const ToothFault& fault) const {

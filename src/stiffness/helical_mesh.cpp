@@ -101,6 +101,7 @@ class FaultyHelicalMesh : public FaultyMesh {
           })) {}
 
     double duration() const override { return spur_->duration() + healthy_.overlap_; }
+    const FaultyMesh& slice() const override { return *spur_; }
 
     void total(std::span<const double> tau, double inside,
                std::span<double> stiffness) const override {

@@ -41,6 +41,8 @@ class FaultyMesh {
                             std::span<double> stiffness) const {
         total(tau, inside, stiffness);
     }
+    // Spur pair with the fault that represents the slices of a helical pair (MeshStiffness::slice).
+    virtual const FaultyMesh& slice() const { return *this; }
     // Ascending positions at which the fault itself makes the total jump.
     virtual std::vector<double> jumps() const { return {}; }
 };
@@ -87,6 +89,8 @@ class MeshStiffness {
     virtual double slice_flank_position(int /*slice*/, double tau) const {
         return flank_position(tau);
     }
+    // Share of the face of that slice that is on the nominal path of contact, 0 to 1.
+    virtual double slice_on_path(int /*slice*/, double /*tau*/) const { return 1; }
     // Phases in [0, 1), ascending, that bound the stretches: starts and ends of engagements, and
     // kinks of the total. The first is 0, the start of an engagement.
     virtual std::vector<double> transitions() const = 0;

@@ -36,7 +36,7 @@ inline constexpr double kNoBackContact = std::numeric_limits<double>::infinity()
 // Limits for unilateral contact: tooth pairs of a gear pair engaged at once, and springs of all of
 // them and their slices.
 inline constexpr int kMostToothPairs = 8;
-inline constexpr int kMostContacts = 48;
+inline constexpr int kMostContacts = 72;
 
 // Each law states whether it has an error of the pair, whether flanks can separate, and whether it
 // has single tooth pairs. `Pairs` holds the data of all gear pairs at one instant, [pair][lane].

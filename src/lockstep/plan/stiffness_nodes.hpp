@@ -65,9 +65,10 @@ struct StiffnessNodes {
     // - tooth_place: position on the path of contact, -1/2 at its start to 1/2 at its end in the
     //   sense of gears::MeshGeometry, clamped outside.
     // - tooth_gap: gap common to all lanes, m; empty if there is none.
+    // - tooth_on_path: share of the slice's face on the nominal path; empty if there are no gaps.
     int tooth_pairs = 0;
     int slices = 1;
-    std::vector<double> tooth_stiffness, tooth_place, tooth_gap;
+    std::vector<double> tooth_stiffness, tooth_place, tooth_gap, tooth_on_path;
     int contacts() const { return tooth_pairs * slices; }
     std::vector<ToothEngagement> engagements;  // of all pairs, in order
 };

@@ -60,6 +60,7 @@ void fill_node(const PairSet& pairs, int pair, double phase, double middle, std:
             nodes.tooth_place[i] = mesh.slice_flank_position(slice, at);
             if (!nodes.tooth_gap.empty()) {
                 nodes.tooth_gap[i] = mesh.slice_gap(slice, at);
+                nodes.tooth_on_path[i] = mesh.slice_on_path(slice, at);
             }
         }
     }
@@ -117,6 +118,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
     nodes.tooth_stiffness.assign(size, 0.0);
     nodes.tooth_place.assign(size, 0.0);
     nodes.tooth_gap.assign(gaps ? size : 0, 0.0);
+    nodes.tooth_on_path.assign(gaps ? size : 0, 0.0);
     fill_contacts(pairs, grid, nodes);
 }
 

@@ -82,7 +82,7 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
              static_error(plan_, step, node, pair),
              {}};
     if (plan_.nodes.tooth_pairs == 0) {  // one spring carries the whole load
-        own.teeth.push_back({0, 0, 0.0, 0.0, true});
+        own.teeth.push_back({0, 0, 0.0, 0.0, 1.0});
     }
     const bool gaps = !plan_.nodes.tooth_gap.empty();
     for (int contact = 0; contact < plan_.nodes.contacts(); ++contact) {
@@ -93,11 +93,11 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
             own.teeth.push_back({static_cast<std::size_t>(contact),
                                  static_cast<std::size_t>(contact / plan_.nodes.slices), place,
                                  tooth_gap(plan_, {}, pair, step, n, contact, 0),
-                                 !gaps || std::abs(place) < 0.5});
+                                 gaps ? plan_.nodes.tooth_on_path[at] : 1.0});
         }
     }
     for (const Tooth& tooth : own.teeth) {
-        engaged_[p] += own.first && tooth.nominal ? length : 0.0;
+        engaged_[p] += own.first ? tooth.on_path * length : 0.0;
     }
     nodes_[p].push_back(std::move(own));
 }
@@ -207,16 +207,17 @@ void ToothContact::add_separation(const Node& node, std::size_t pair, const doub
     const auto [gap, growth] = own.at(node.step);
     double* __restrict sum = apart.data() + pair * width;
     for (const Tooth& tooth : node.teeth) {
-        if (!tooth.nominal) {
+        if (tooth.on_path == 0.0) {
             continue;
         }
         const double shared = tooth.shared + node.error, place = tooth.place;
+        const double share = tooth.on_path;
         const double* __restrict constant = gap + tooth.tooth * width;
         const double* __restrict slope = growth + tooth.tooth * width;
 #pragma omp simd
         for (std::size_t l = 0; l < width; ++l) {
             const double compression = d[l] - shared - (place * slope[l] + constant[l]);
-            sum[l] += compression > 0.0 ? 0.0 : weight[l];
+            sum[l] += compression > 0.0 ? 0.0 : share * weight[l];
         }
     }
 }
@@ -262,7 +263,7 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
         }
         const Node& node = nodes_[pair][static_cast<std::size_t>(step) * stages];
         for (const Tooth& tooth : node.teeth) {
-            time.engaged[pair] += tooth.nominal ? weight : 0.0;
+            time.engaged[pair] += tooth.on_path * weight;
         }
         LaneGaps own(gaps, static_cast<int>(pair), contacts_ * width);
         add_separation(node, pair, d.data(), own, weights.data(), time.apart);

@@ -71,7 +71,7 @@ class ToothContact {
         std::size_t contact = 0, tooth = 0;  // indices in the tables of springs and of tooth pairs
         double place = 0.0;                  // on the path of contact (StiffnessNodes::tooth_place)
         double shared = 0.0;                 // part of its gap common to all lanes, m
-        bool nominal = false;                // within the nominal path of contact
+        double on_path = 0.0;                // share of its face on the nominal path of contact
     };
     // Stage node of a step, with the tooth pairs of a gear pair engaged at it.
     struct Node {

@@ -4,7 +4,7 @@ deflections, mesh forces and shares of time out of contact.
 
 Usage: compare.py GEARPOD [CASE ...] [--onset abrupt|extended] [--slices N] [--set key=value ...]
 
---slices: slices of helical teeth in both programs (gearpod's default is 8, the case's 64)."""
+--slices: slices of helical teeth in planetary.py (the case has 64)."""
 import argparse
 import json
 import pathlib
@@ -120,7 +120,6 @@ def compare(program, name, onset, settings, slices=None):
     case = json.loads((HERE / "cases" / f"{name}.json").read_text())
     if slices and "slices" in case:
         case["slices"] = slices
-        settings = settings + [f"numerics.face_slices={slices}"]
     gearbox = Planetary(case, onset)
     with tempfile.TemporaryDirectory() as folder:
         phase, q, force, extra, signals = gearpod_run(program, case, onset, settings, folder)

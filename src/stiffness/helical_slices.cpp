@@ -1,0 +1,199 @@
+#include "stiffness/helical_slices.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "stiffness/loaded_mesh.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+constexpr double kSliceTolerance = 1e-10;  // fraction of the largest stiffness or force
+constexpr int kPositions = 2000;           // at which an engagement is sampled
+constexpr int kContactHalvings = 50;       // of the interval in which a gap is reached
+constexpr double kShortestSlice = 1e-9;    // mesh periods
+// Gaps at which the engagement is cut, in nominal approaches.
+constexpr double kCuts[] = {0.25, 0.6, 1.0, 1.6};
+
+using Factor = std::function<double(double)>;
+
+double sampled_position(double ratio, int i) {
+    return ratio * (i + 0.5) / kPositions;
+}
+
+RunningIntegral integral_of(const ToothPairCurve& curve, const std::vector<double>& points,
+                            const Factor& factor) {
+    double largest = 0;
+    for (int i = 0; i < kPositions; ++i) {
+        const double at = sampled_position(points.back(), i);
+        largest = std::max(largest, std::abs(curve(at) * factor(at)));
+    }
+    return {[&](std::span<const double> at, double, std::span<double> values) {
+                curve(at, values);
+                for (std::size_t i = 0; i < at.size(); ++i)
+                    values[i] *= factor(at[i]);
+            },
+            points, kSliceTolerance * largest};
+}
+
+// Position with the least gap.
+double closest_position(const Factor& gap, double ratio) {
+    double closest = 0, least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kPositions; ++i) {
+        const double at = sampled_position(ratio, i);
+        if (const double own = gap(at); own < least) {
+            least = own;
+            closest = at;
+        }
+    }
+    return closest;
+}
+
+// Approach at which springs of all positions carry the force. They touch together on average over
+// a mesh period.
+double mean_approach(const ToothPairCurve& curve, const Factor& gap, double ratio,
+                     double crowning_m, double force_N) {
+    constexpr int kAcross = 16;
+    std::vector<ContactSpring> springs;
+    for (int i = 0; i < kPositions; ++i) {
+        const double at = sampled_position(ratio, i);
+        const double k = curve(at) * ratio / (kPositions * kAcross), own = gap(at);
+        for (int slice = 0; slice < kAcross; ++slice) {
+            const double across = (2 * slice + 1.0) / kAcross - 1;
+            springs.push_back({k, own + crowning_m * across * across});
+        }
+    }
+    return approach_of(springs, force_N);
+}
+
+}  // namespace
+
+HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<double>& points,
+                             const PairGap& gap, double overlap_ratio, int across, double force_N)
+    : gap_(gap),
+      ratio_(points.back()),
+      overlap_(overlap_ratio),
+      stiffness_{integral_of(curve, points, [](double) { return 1.0; }),
+                 integral_of(curve, points, [](double at) { return at; }),
+                 integral_of(curve, points, [](double at) { return at * at; })},
+      force_(integral_of(curve, points, [this](double at) { return gap_at(at); })),
+      place_(integral_of(curve, points, [this](double at) { return place_at(at); })) {
+    const auto own_gap = [this](double at) { return gap_at(at); };
+    const double closest = closest_position(own_gap, ratio_);
+    approach_ = force_N > 0
+                    ? mean_approach(curve, own_gap, ratio_, gap_.flanks.crowning_m(), force_N)
+                    : std::numeric_limits<double>::infinity();
+    Positions inner{closest, closest};
+    for (const double cut : kCuts) {
+        const Positions within{reaches(cut * approach_, closest, 0),
+                               reaches(cut * approach_, closest, ratio_)};
+        if (slices_.empty()) {
+            for (int i = 0; i < across; ++i)
+                add_slice(within, {static_cast<double>(i) / across, (i + 1.0) / across});
+        } else {
+            add_slice({within.begin, inner.begin}, {});
+            add_slice({inner.end, within.end}, {});
+        }
+        inner = within;
+    }
+    add_slice({0, inner.begin}, {});
+    add_slice({inner.end, ratio_}, {});
+}
+
+double HelicalSlices::gap_at(double position) const {
+    return gap_(position - gap_.extension.reach().before, 0);
+}
+
+double HelicalSlices::place_at(double position) const {
+    const double ratio = gap_.extension.contact_ratio();
+    return std::clamp((position - gap_.extension.reach().before) / ratio, 0.0, 1.0) - 0.5;
+}
+
+double HelicalSlices::reaches(double gap_m, double closest, double end) const {
+    if (gap_at(end) < gap_m)
+        return end;
+    for (int i = 0; i < kContactHalvings; ++i) {
+        const double middle = 0.5 * (closest + end);
+        (gap_at(middle) < gap_m ? closest : end) = middle;
+    }
+    return closest;
+}
+
+void HelicalSlices::add_slice(const Positions& engaged, const FaceRange& face) {
+    if (engaged.length() < kShortestSlice)
+        return;
+    Slice slice{engaged, face, std::numeric_limits<double>::infinity(), 0};
+    for (int i = 0; i <= kPositions; ++i) {
+        const double own = gap_at(engaged.begin + engaged.length() * i / kPositions);
+        slice.least_gap = std::min(slice.least_gap, own);
+        slice.largest_gap = std::max(slice.largest_gap, own);
+    }
+    slices_.push_back(slice);
+}
+
+HelicalSlices::Positions HelicalSlices::covered(int slice, double tau,
+                                                const FaceRange& part) const {
+    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const double first = std::max(own.face.begin, part.begin);
+    const double last = std::min(own.face.end, part.end);
+    return {std::max(own.engaged.begin, tau - overlap_ * last),
+            std::min(own.engaged.end, tau - overlap_ * first)};
+}
+
+double HelicalSlices::mean(const RunningIntegral& integral, int slice, double tau,
+                           const FaceRange& part) const {
+    const Positions own = covered(slice, tau, part);
+    if (own.length() < kShortestSlice)
+        return 0;
+    const double ends[] = {own.begin, own.end};
+    double values[2];
+    integral(ends, values);
+    return (values[1] - values[0]) / (overlap_ * (part.end - part.begin));
+}
+
+double HelicalSlices::stiffness(int slice, double tau) const {
+    return std::max(0.0, mean(stiffness_[0], slice, tau, {}));
+}
+
+// The contact at position s lies at y = (tau - s) / overlap on the face, where crowning is
+// C (1 - 2 y)^2.
+double HelicalSlices::gap(int slice, double tau) const {
+    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const double k = stiffness(slice, tau), crowning = gap_.flanks.crowning_m();
+    if (k <= 0)
+        return own.largest_gap;
+    const double gap = std::clamp(mean(force_, slice, tau, {}) / k, own.least_gap, own.largest_gap);
+    if (crowning == 0)
+        return gap;
+    const double at_zero = 1 - 2 * tau / overlap_, growth = 2 / overlap_;
+    const double first = mean(stiffness_[1], slice, tau, {}) / k;
+    const double second = mean(stiffness_[2], slice, tau, {}) / k;
+    const double across = at_zero * at_zero + growth * (2 * at_zero * first + growth * second);
+    return gap + crowning * std::clamp(across, 0.0, 1.0);
+}
+
+double HelicalSlices::flank_position(int slice, double tau) const {
+    const Positions& all = slices_[static_cast<std::size_t>(slice)].engaged;
+    const double k = stiffness(slice, tau), least = place_at(all.begin), most = place_at(all.end);
+    return k > 0 ? std::clamp(mean(place_, slice, tau, {}) / k, least, most) : 0.5 * (least + most);
+}
+
+double HelicalSlices::on_path(int slice, double tau) const {
+    const Positions own = covered(slice, tau, {});
+    const double begin = gap_.extension.reach().before;
+    const double end = begin + gap_.extension.contact_ratio();
+    return std::max(0.0, std::min(own.end, end) - std::max(own.begin, begin)) / overlap_;
+}
+
+std::vector<double> HelicalSlices::changes() const {
+    std::vector<double> phases;
+    for (const Slice& slice : slices_)
+        for (const double end : {slice.engaged.begin, slice.engaged.end})
+            for (const double face : {slice.face.begin, slice.face.end})
+                phases.push_back(end + overlap_ * face);
+    return phases;
+}
+
+}  // namespace gearpod::stiffness
