@@ -104,7 +104,7 @@ class Document:
         """Adds a table. Cells are wrapped; what is still too wide continues in further blocks, each
         with the first `labels` columns."""
         if title:
-            self.text(title, 8, "bold", keep=0.5)
+            self.text(title, 8, "bold", keep=0.75)
         for numbers, widths in _blocks(self.page, columns, rows, labels):
             self._block([columns[c] for c in numbers],
                         [[row[c] for c in numbers] for row in rows], widths)
