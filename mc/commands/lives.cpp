@@ -45,13 +45,9 @@ struct LivesOutputs {
 // Writes the evidence pack. Returns false after printing a problem.
 bool write_lives_evidence(const LivesOutputs& outputs, const LifeMonitor& monitor,
                           const Results& frame, nlohmann::json& json) {
-    std::vector<std::string> names;
-    for (const FeatureResult& feature : frame.features) {
-        names.push_back(feature.name);
-    }
     json["evidence"] =
         evidence_json(analysis::EvidenceKind::lives, lives_report(monitor, outputs.shows_withheld),
-                      names, outputs.results, &frame);
+                      monitor.study().features.use, outputs.results, &frame);
     const auto files = evidence_files(json);
     if (!can_write_folder({"--evidence", outputs.evidence}, files,
                           {{"the results file", outputs.results},
