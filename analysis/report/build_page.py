@@ -4,7 +4,8 @@
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
 With a final --figures FOLDER the figures are also written there, each as SVG and PNG. With a final
---pdf (for a report) its summary on one sheet is written instead, as PDF.
+--pdf (for a report) its summary on one sheet is written instead, as PDF. With a final --evidence
+the document of its evidence pack is written instead, as PDF.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -95,12 +96,19 @@ def summary_pdf(data):
     return summary_sheet.pdf(Report(data))
 
 
+def evidence_pdf(data):
+    from evidence import evidence_document
+
+    return evidence_document.pdf(data)
+
+
 def main(arguments):
     figures = None
-    summary = arguments[1:] == ["--pdf"]
+    documents = {"--pdf": summary_pdf, "--evidence": evidence_pdf}
+    document = documents.get(arguments[1]) if len(arguments) == 2 else None
     if len(arguments) == 3 and arguments[1] == "--figures":
         figures = pathlib.Path(arguments[2])
-    elif len(arguments) != 1 and not summary:
+    elif len(arguments) != 1 and not document:
         print(__doc__, file=sys.stderr)
         return 2
     missing = missing_packages()
@@ -112,8 +120,8 @@ def main(arguments):
         data = json.load(sys.stdin)
     else:
         data = json.loads(pathlib.Path(arguments[0]).read_text(encoding="utf-8"))
-    if summary:
-        sys.stdout.buffer.write(summary_pdf(data))
+    if document:
+        sys.stdout.buffer.write(document(data))
         return 0
     try:
         if figures is not None:

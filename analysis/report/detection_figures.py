@@ -8,6 +8,7 @@ from words import joined, noise, number, percent, rate
 
 REJECTED = "Dotted: curves that do not fit the hits and misses, without bounds."
 POOR = " (poor fit)"
+MOST_INSIDE = 12  # entries of a legend within the axes
 MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 
 
@@ -219,8 +220,9 @@ def heat_maps(report, page):
 def roc(report, page):
     """ROC curves, one chart per noise level."""
     charts = []
+    inside = len(report.names) <= MOST_INSIDE
     for n, level in enumerate(report.levels):
-        figure, axes = panel(3.9)
+        figure, axes = panel(3.9 if inside else 3.9 + 0.2 * len(report.names))
         axes.plot([0, 1], [0, 1], color=RULE, linewidth=1)
         axes.axvline(report.data["detection"]["false_alarm_rate"], color=MUTED, linewidth=0.9,
                      linestyle=(0, (4, 3)))
@@ -241,8 +243,12 @@ def roc(report, page):
         axes.set_ylabel("Detection rate")
         axes.set_title(f"noise × {number(level)}", fontsize=10, loc="left")
         if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="lower right", title="feature, area", title_fontsize=9,
-                        handlelength=2.4, labelspacing=0.25)
+            options = {"title": "feature, area", "title_fontsize": 9, "handlelength": 2.4,
+                       "labelspacing": 0.25}
+            if inside:
+                axes.legend(loc="lower right", **options)
+            else:
+                legend_below(axes, 1, **options)
         charts.append(to_svg(figure, f"Receiver operating characteristic at {noise(level)}",
                              "; ".join(texts), page.names))
     how = ("Each threshold gives one point; closer to the upper left corner is better. The grey "

@@ -30,8 +30,8 @@ def _title(text, series):
     return f"{text} of {series['name']}" if series["name"] else text
 
 
-def _indicators(page, monitoring, series, names):
-    figure, axes = panel(3.8)
+def _draw_indicators(axes, monitoring, series, names):
+    """Draws the indicators; returns the sustained alarms in words."""
     about = []
     places = {row: i for i, row in enumerate(series["rows"])}
     for position, name in enumerate(names):
@@ -51,16 +51,32 @@ def _indicators(page, monitoring, series, names):
     _boundary(axes, series, MUTED)
     axes.set_xlabel("Recording, in time order")
     axes.set_ylabel("Deviation from the first recordings,\nstandard deviations")
+    return "; ".join(about) or "no sustained alarm"
+
+
+def _indicators(page, monitoring, series, names):
+    figure, axes = panel(3.8)
+    about = _draw_indicators(axes, monitoring, series, names)
     legend_below(axes, 1)
-    title = _title("Indicators over the recordings", series)
-    return to_svg(figure, title, "; ".join(about) or "no sustained alarm", page.names)
+    return to_svg(figure, _title("Indicators over the recordings", series), about, page.names)
+
+
+def _tooth_count(series):
+    return max((len(rms) for rms in series["tooth_rms"]), default=0)
 
 
 def _teeth(page, series):
     """Image of tooth by recording; empty without tooth maps."""
-    teeth = max((len(rms) for rms in series["tooth_rms"]), default=0)
-    if teeth == 0:
+    if _tooth_count(series) == 0:
         return ""
+    figure, axes = panel(3.8)
+    about = _draw_teeth(axes, series)
+    return to_svg(figure, _title("Teeth over the recordings", series), about, page.names)
+
+
+def _draw_teeth(axes, series):
+    """Draws the image; returns the tooth that stands out at the end in words."""
+    teeth = _tooth_count(series)
     columns = []
     for rms, first in zip(series["tooth_rms"], series["first_tooth"]):
         column = [math.nan] * teeth
@@ -69,32 +85,57 @@ def _teeth(page, series):
             for tooth, value in enumerate(rms):
                 column[(tooth + round(first)) % teeth] = value / middle if middle else math.nan
         columns.append(column)
-    figure, axes = panel(3.8)
     image = axes.imshow(list(zip(*columns)), origin="lower", aspect="auto", cmap="viridis",
                         interpolation="nearest", vmin=1,
                         extent=(0.5, len(columns) + 0.5, 0.5, teeth + 0.5))
-    figure.colorbar(image, ax=axes, label="Tooth RMS over the median tooth's")
+    axes.figure.colorbar(image, ax=axes, label="Tooth RMS over the median tooth's")
     _boundary(axes, series, PAPER)
     axes.grid(False)
     axes.set_xlabel("Recording, in time order")
     axes.set_ylabel("Tooth, from the baseline's start")
     last = columns[-1]
     known = [value for value in last if not math.isnan(value)]
-    about = (f"in the last recording tooth {last.index(max(known)) + 1} stands out, "
-             f"{number(max(known))} times the median") if known else "no value at the end"
-    return to_svg(figure, _title("Teeth over the recordings", series), about, page.names)
+    return (f"in the last recording tooth {last.index(max(known)) + 1} stands out, "
+            f"{number(max(known))} times the median") if known else "no value at the end"
+
+
+def _monitored(report):
+    """Gearboxes that are monitored, each with the names of its indicators in the figures."""
+    monitoring = report.data.get("monitoring")
+    if not monitoring or not monitoring["watched"]:
+        return
+    for series in monitoring["recordings"]:
+        names = [name for name in series["deviations"] if name != "fused"][:MOST]
+        if names:
+            yield series, names
+
+
+def drawings(report):
+    """Functions that draw the figures, each on axes."""
+    def indicators(series, names):
+        def draw(axes):
+            _draw_indicators(axes, report.data["monitoring"], series, names)
+            axes.set_title(_title("Indicators over the recordings", series), fontsize=10, loc="left")
+            axes.legend(loc="upper left")
+        return draw
+
+    def teeth(series):
+        def draw(axes):
+            _draw_teeth(axes, series)
+            axes.set_title(_title("Teeth over the recordings", series), fontsize=10, loc="left")
+        return draw
+
+    for series, names in _monitored(report):
+        yield indicators(series, names)
+        if _tooth_count(series):
+            yield teeth(series)
 
 
 def figures(report, page):
     """HTML of the figures of every gearbox that is monitored."""
     monitoring = report.data.get("monitoring")
-    if not monitoring or not monitoring["watched"]:
-        return ""
     body = ""
-    for series in monitoring["recordings"]:
-        names = [name for name in series["deviations"] if name != "fused"][:MOST]
-        if not names:
-            continue
+    for series, names in _monitored(report):
         charts = [_indicators(page, monitoring, series, names)]
         teeth = _teeth(page, series)
         charts += [teeth] if teeth else []

@@ -13,7 +13,8 @@ nlohmann::json block_json(const Table& table) {
     return {{"key", table.key},
             {"title", table.title},
             {"columns", table.columns},
-            {"rows", table.rows}};
+            {"rows", table.rows},
+            {"labels", table.labels}};
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ struct ReportOptions {
     std::string html, pdf;  // "": none
     std::string csv;        // folder for every table; "": none
     std::string figures;    // folder for the page's figures as SVG and PNG; "": none
+    std::string evidence;   // folder for the evidence pack; "": none
     std::string condition;  // random input; each of its values gets its own threshold; "": none
     // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     std::optional<double> alarm_cost, miss_cost, fault_share;
@@ -196,6 +197,7 @@ int calibrate_command(const CalibrateOptions& options);
 struct PodOptions : InspectionOptions {
     std::string table;
     std::string json, html;  // "": none; JSON "-": standard output
+    std::string evidence;    // folder for the evidence pack; "": none
     bool force = false;      // replaces outputs of another kind
 };
 int pod_command(const PodOptions& options);

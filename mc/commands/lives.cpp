@@ -11,6 +11,7 @@
 
 #include "machine/wall_clock.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
@@ -18,6 +19,7 @@
 #include "mc/input/wrapped_text.hpp"
 #include "mc/lives/interpolation_choice.hpp"
 #include "mc/lives/life_rows.hpp"
+#include "mc/report/evidence.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
@@ -36,7 +38,27 @@ struct LivesOutputs {
     std::string json, html, figures;  // "": none; JSON "-": standard output instead of the text
     bool shows_withheld = false;
     bool prints_text = true;
+    std::string results = {}, evidence = {};  // results file, and folder for its evidence; "": none
+    bool force = false;
 };
+
+// Writes the evidence pack. Returns false after printing a problem.
+bool write_lives_evidence(const LivesOutputs& outputs, const LifeMonitor& monitor,
+                          const Results& frame, nlohmann::json& json) {
+    json["evidence"] =
+        evidence_json(analysis::EvidenceKind::lives, lives_report(monitor, outputs.shows_withheld),
+                      monitor.study().features.use, outputs.results, &frame);
+    const auto files = evidence_files(json);
+    if (!can_write_folder({"--evidence", outputs.evidence}, files,
+                          {{"the results file", outputs.results},
+                           {"--json", outputs.json},
+                           {"--html", outputs.html}},
+                          outputs.force)) {
+        return false;
+    }
+    write_files(outputs.evidence, files);
+    return true;
+}
 
 // Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
 // or if the results are withheld.
@@ -44,8 +66,12 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
                   const LivesOutputs& outputs) {
     const Campaign campaign = campaign_of(study, frame, rows);
     const LifeMonitor monitor(study, campaign);
-    if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty()) {
-        const auto json = lives_json(monitor, outputs.shows_withheld);
+    if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty() ||
+        !outputs.evidence.empty()) {
+        auto json = lives_json(monitor, outputs.shows_withheld);
+        if (!outputs.evidence.empty() && !write_lives_evidence(outputs, monitor, frame, json)) {
+            return kBadInput;
+        }
         if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
             return kBadInput;
         }
@@ -64,6 +90,9 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
         fmt::print("{}", report_text(lives_report(monitor, outputs.shows_withheld), kLineWidth));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
+        }
+        if (!outputs.evidence.empty()) {
+            fmt::print("\nevidence: {}\n", outputs.evidence);
         }
     }
     return withheld.empty() ? kDone : kBadInput;
@@ -245,7 +274,13 @@ int report_lives(const ReportOptions& options) {
         check_lives(options.results, frame, rows);
         const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
         return write_outputs(*study, frame, rows,
-                             {options.json, options.html, options.figures, options.shows_withheld});
+                             {.json = options.json,
+                              .html = options.html,
+                              .figures = options.figures,
+                              .shows_withheld = options.shows_withheld,
+                              .results = options.results,
+                              .evidence = options.evidence,
+                              .force = options.force});
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
         return kBadInput;

@@ -4,13 +4,16 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/inspection_report.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/bad_input.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/library/inspection_table.hpp"
+#include "mc/report/evidence.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 
@@ -25,7 +28,19 @@ int pod_command(const PodOptions& options) {
     }
     try {
         const InspectedTable inspected = inspect_table(read_text_table(options.table), options);
-        const nlohmann::json all = inspection_json(inspected);
+        nlohmann::json all = inspection_json(inspected);
+        if (!options.evidence.empty()) {
+            all["evidence"] = evidence_json(
+                analysis::EvidenceKind::inspections,
+                inspection_report(inspected.request, inspected.result, inspected.names), {},
+                options.table, nullptr);
+            const auto evidence = evidence_files(all);
+            if (!can_write_folder({"--evidence", options.evidence}, evidence,
+                                  {read, json, {"--html", options.html}}, options.force)) {
+                return kBadInput;
+            }
+            write_files(options.evidence, evidence);
+        }
         if (!options.html.empty() && !write_text_to(options.html, report_page(json_text(all)))) {
             return kBadInput;
         }
@@ -35,6 +50,9 @@ int pod_command(const PodOptions& options) {
         fmt::print("{}", inspection_text(inspected));
         if (!options.html.empty()) {
             fmt::print("\npage: {}\n", options.html);
+        }
+        if (!options.evidence.empty()) {
+            fmt::print("\nevidence: {}\n", options.evidence);
         }
     } catch (const SignalError& error) {
         fmt::print(stderr, "{}\n", printable(error.what()));

@@ -7,12 +7,14 @@
 #include <tuple>
 
 #include "mc/commands/commands.hpp"
+#include "mc/commands/output_folder.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/report/evidence.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
 #include "mc/report/tables.hpp"
@@ -25,48 +27,54 @@
 namespace gearpod::mc {
 namespace {
 
-// Checks that no table would overwrite another input or output file, or a file of another kind.
-// Returns false after printing the problem.
-bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>& tables) {
-    const std::vector<FileRole> others{{"the results file", options.results},
-                                       {"--json", options.json},
-                                       {"--html", options.html},
-                                       {"--pdf", options.pdf}};
-    bool good = true;
-    for (const CsvTable& table : tables) {
-        const std::string path = table_path(options.csv, table);
-        const OutputKind kind =
-            text_output("a table of `report` (CSV)", table.columns.front() + ",");
-        if (const std::string why = why_not_replaced(path, {kind, options.force}); !why.empty()) {
-            fmt::print(stderr, "--csv {}: {}\n", printable(path), why);
-            good = false;
-        }
-        for (const FileRole& other : others) {
-            if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
-                fmt::print(stderr, "--csv {}: would overwrite {}; choose another folder\n", path,
-                           other.role);
-                good = false;
-            }
-        }
-    }
-    return good;
+// Files of this command that no file of a folder may overwrite.
+std::vector<FileRole> other_files(const ReportOptions& options) {
+    return {{"the results file", options.results},
+            {"--json", options.json},
+            {"--html", options.html},
+            {"--pdf", options.pdf}};
 }
 
-// Writes the requested JSON, tables, page, sheet and figures. Returns false after printing a
-// problem.
-bool write_files(const ReportOptions& options, const Results& results, const RowSource& rows,
-                 const std::optional<analysis::Reliability>& reliability) {
+std::vector<std::string> feature_names(const Results& results) {
+    std::vector<std::string> names;
+    for (const FeatureResult& feature : results.features) {
+        names.push_back(feature.name);
+    }
+    return names;
+}
+
+// Writes the requested JSON, tables, page, sheet, figures and evidence. Returns false after
+// printing a problem.
+bool write_report_files(const ReportOptions& options, const Results& results, const RowSource& rows,
+                        const std::optional<analysis::Reliability>& reliability) {
     nlohmann::json json = report_json(results, rows, reliability);
     json["results"] = options.results;
-    const auto tables = options.csv.empty() ? std::vector<CsvTable>{} : report_tables(json);
-    if (!can_write_tables(options, tables)) {
+    const auto tables =
+        options.csv.empty() ? std::vector<NamedFile>{} : table_files(report_tables(json));
+    std::vector<NamedFile> evidence;
+    if (!options.evidence.empty()) {
+        const bool recorded = subject_of(results) == analysis::Subject::recordings;
+        json["evidence"] = evidence_json(
+            recorded ? analysis::EvidenceKind::recordings : analysis::EvidenceKind::gearboxes,
+            results_report(results, rows, reliability), feature_names(results), options.results,
+            &results);
+        evidence = evidence_files(json);
+    }
+    const auto others = other_files(options);
+    const bool tables_good =
+        can_write_folder({"--csv", options.csv}, tables, others, options.force);
+    if (!can_write_folder({"--evidence", options.evidence}, evidence, others, options.force) ||
+        !tables_good) {
         return false;
     }
     if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
         return false;
     }
     if (!options.csv.empty()) {
-        write_tables(options.csv, tables);
+        write_files(options.csv, tables);
+    }
+    if (!options.evidence.empty()) {
+        write_files(options.evidence, evidence);
     }
     if (!options.pdf.empty()) {
         const std::string sheet = report_summary(json_text(json));
@@ -123,8 +131,8 @@ int report_command(const ReportOptions& options) {
         const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
                                                 kMostAssessedValues, costs);
         if (!options.json.empty() || !options.html.empty() || !options.pdf.empty() ||
-            !options.csv.empty() || !options.figures.empty()) {
-            if (!write_files(options, results, rows, reliability)) {
+            !options.csv.empty() || !options.figures.empty() || !options.evidence.empty()) {
+            if (!write_report_files(options, results, rows, reliability)) {
                 return kBadInput;
             }
         }
@@ -139,10 +147,12 @@ int report_command(const ReportOptions& options) {
                        printable(state));
         }
         fmt::print("{}", report_text(results_report(results, rows, reliability)));
-        const std::pair<const char*, const std::string&> written[] = {{"page", options.html},
-                                                                      {"sheet", options.pdf},
-                                                                      {"tables", options.csv},
-                                                                      {"figures", options.figures}};
+        const std::pair<const char*, const std::string&> written[] = {
+            {"page", options.html},
+            {"sheet", options.pdf},
+            {"tables", options.csv},
+            {"figures", options.figures},
+            {"evidence", options.evidence}};
         for (const auto& [what, where] : written) {
             if (!where.empty()) {
                 fmt::print("\n{}: {}\n", what, where);

@@ -16,6 +16,10 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
     require_file_name(command->add_option("--csv", report.csv, "write all tables into a folder"));
     require_file_name(command->add_option(
         "--figures", report.figures, "write the page's figures into a folder, as SVG and PNG"));
+    require_file_name(command->add_option(
+        "--evidence", report.evidence,
+        "write an evidence pack into a folder: a document (PDF) by subjects of EASA AMC1 29.1465 "
+        "and MIL-HDBK-1823A, all tables, the JSON, the study and the hashes of these files"));
     command->add_option("--by", report.condition,
                         "random input, e.g. torque_N_m; also use a separate threshold for each of "
                         "its values");

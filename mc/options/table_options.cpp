@@ -79,6 +79,10 @@ void add_pod(CLI::App& app, PodOptions& pod, int& code) {
         command->add_option("--json", pod.json, "write JSON to a file, or - for standard output"));
     require_file_name(
         command->add_option("--html", pod.html, "write a page with figures to a file"));
+    require_file_name(command->add_option(
+        "--evidence", pod.evidence,
+        "write an evidence pack into a folder: a document (PDF) by subjects of MIL-HDBK-1823A, all "
+        "tables, the JSON and the hashes of these files"));
     add_force(*command, pod.force);
     command->callback([&] { code = pod_command(pod); });
 }

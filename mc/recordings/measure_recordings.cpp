@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/detection/feature_alarm.hpp"
+#include "mc/files/sha256.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/input/wrapped_text.hpp"
 #include "mc/results/provenance.hpp"
@@ -78,6 +79,20 @@ Grading grading_of(const RecordingList& list) {
         return {"label", "1", false};
     }
     return {"size", list.size->unit == "mm" ? "m" : unit_or_one(*list.size), true};
+}
+
+// Hashes of the files of the recordings, a line each (kRecordedFiles).
+std::string file_hashes(const RecordingList& list) {
+    std::set<std::string> files;
+    for (const Recording& recording : list.recordings) {
+        files.insert(recording.file);
+    }
+    std::string lines;
+    for (const std::string& file : files) {
+        const std::string hash = file_sha256(file);
+        lines += fmt::format("{}  {}\n", hash.empty() ? "unread" : hash, file);
+    }
+    return lines;
 }
 
 // Returns one group for each size, or twenty groups with about equal numbers of sizes.
@@ -244,6 +259,7 @@ Results recordings_results(const RecordingList& list,
     }
     results.provenance.emplace_back("kind", kRecordingsKind);
     results.provenance.emplace_back("recordings", names);
+    results.provenance.emplace_back(kRecordedFiles, file_hashes(list));
     results.provenance.emplace_back("recorded_gearboxes", gearboxes);
     if (compared) {
         results.provenance.emplace_back("recorded_alignments", alignments);

@@ -134,4 +134,8 @@ std::string report_summary(const std::string& json) {
     return build_page_output(json, {"--pdf"});
 }
 
+std::string report_evidence(const std::string& json) {
+    return build_page_output(json, {"--evidence"});
+}
+
 }  // namespace gearpod::mc

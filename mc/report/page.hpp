@@ -1,4 +1,5 @@
-// HTML page and one-page PDF summary of a report, made by the Python program in analysis/report.
+// HTML page, one-page PDF summary and evidence document of a report, made by the Python program in
+// analysis/report.
 #pragma once
 
 #include <filesystem>
@@ -21,5 +22,9 @@ std::filesystem::path schema_path();
 // Returns a one-page PDF: the result, its dependence on noise, its limits. `json` must come from
 // report_json(). Throws like report_page().
 std::string report_summary(const std::string& json);
+
+// Returns the document of an evidence pack (PDF). `json` must have evidence_json() under
+// "evidence". Throws like report_page().
+std::string report_evidence(const std::string& json);
 
 }  // namespace gearpod::mc

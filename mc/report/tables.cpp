@@ -10,7 +10,6 @@
 #include "mc/files/json_text.hpp"
 #include "mc/files/text/text_table.hpp"
 #include "mc/input/document.hpp"
-#include "mc/input/document.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -32,6 +31,9 @@ struct TableSource {
 
 const std::vector<TableSource>& table_sources() {
     static const std::vector<TableSource> all{
+        {"features",
+         {"/features"},
+         "feature=1/name title=1/title unit=1/unit alarm=1/alarm definition=1/doc"},
         {"detection",
          {"/detection/features", "/levels", "/sizes"},
          "feature=1/name alarm=1/alarm noise_level=2/noise_level threshold=2/threshold "
@@ -103,6 +105,39 @@ const std::vector<TableSource>& table_sources() {
          "first=1/first last=1/last recordings=1/recordings feature=2 values=1/values/{2} "
          "alarms=2/ "
          "median=1/medians/{2}"},
+        {"monitoring",
+         {"/monitoring/watched", "/gearboxes"},
+         "feature=1/feature detector=1/detector threshold=1/threshold "
+         "healthy_recordings=1/healthy/recordings healthy_alarms=1/healthy/alarms "
+         "healthy_sustained=1/healthy/sustained rate=1/healthy/rate rate_lower=1/healthy/lower "
+         "rate_upper=1/healthy/upper held_out_recordings=1/held_out/recordings "
+         "held_out_alarms=1/held_out/alarms held_out_lower=1/held_out/lower "
+         "held_out_upper=1/held_out/upper gearbox=2/name recordings=2/recordings alarms=2/alarms "
+         "first_time=2/first/time first_recording=2/first/recording "
+         "sustained_time=2/sustained/time sustained_recording=2/sustained/recording "
+         "confirmed_by=2/sustained/confirmed_by recordings_left=2/sustained/recordings_left "
+         "time_left=2/sustained/time_left tooth=2/tooth/number tooth_same=2/tooth/same "
+         "tooth_recordings=2/tooth/recordings"},
+        {"lives",
+         {"/monitored"},
+         "feature=1/feature detector=1/detector threshold=1/threshold "
+         "threshold_hours=1/threshold_hours false_alarms=1/false_alarms/count "
+         "healthy_hours=1/false_alarms/hours per_1000_h=1/false_alarms/per_1000_h "
+         "per_1000_h_lower=1/false_alarms/bounds/0 per_1000_h_upper=1/false_alarms/bounds/1 "
+         "ended=1/ended found=1/found share=1/share share_lower=1/share_bounds/0 "
+         "share_upper=1/share_bounds/1 share_by_chance=1/share_by_chance net_share=1/net_share "
+         "depth_50_m=1/depth_50_m depth_50_bound_m=1/depth_50_bound_m depth_90_m=1/depth_90_m "
+         "depth_90_bound_m=1/depth_90_bound_m warning_50_h=1/warning_50_h "
+         "warning_90_h=1/warning_90_h unranked=1/unranked"},
+        {"trade_offs",
+         {"/trade_offs", "/points"},
+         "feature=1/feature detector=1/detector stated_per_1000_h=2/stated_per_1000_h "
+         "per_1000_h=2/per_1000_h share=2/share depth_50_m=2/depth_50_m depth_90_m=2/depth_90_m"},
+        {"inspections", {"/data/size"}, "size@=1/ value=0/data/value/{1}"},
+        {"thresholds",
+         {"/trade_off"},
+         "threshold=1/threshold false_calls=1/false_calls a50@=1/a50/estimate/size "
+         "a90@=1/a90/estimate/size a90_upper@=1/a90/upper/size"},
         {"failures", {"/failures#gearboxes,diverged,not_settled"}, "what=1 gearboxes=1/"},
         {"provenance", {"/provenance"}, "name=1 value=1/"}};
     return all;
@@ -191,7 +226,11 @@ void add_rows(CsvTable& table, const TableSource& source, const std::vector<std:
 
 std::vector<CsvTable> report_tables(const nlohmann::json& report) {
     // Size columns have the unit as in the results file, "fault_depth_m".
-    const std::string unit = report["detection"]["size"]["unit"];
+    std::string unit = "1";
+    for (const char* path : {"/detection/size/unit", "/size/unit"}) {
+        const TableJson& found = value_at(report, path);
+        unit = found.is_string() ? found.get<std::string>() : unit;
+    }
     std::vector<CsvTable> tables;
     for (const TableSource& source : table_sources()) {
         CsvTable table{source.name, {}, {}};
@@ -213,18 +252,8 @@ std::vector<CsvTable> report_tables(const nlohmann::json& report) {
     return tables;
 }
 
-std::string table_path(const std::string& folder, const CsvTable& table) {
-    return (std::filesystem::path(folder) / (table.name + ".csv")).string();
-}
-
-std::vector<std::string> write_tables(const std::string& folder,
-                                      const std::vector<CsvTable>& tables) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed) {
-        throw std::runtime_error(folder + ": " + failed.message());
-    }
-    std::vector<std::string> names;
+std::vector<NamedFile> table_files(const std::vector<CsvTable>& tables) {
+    std::vector<NamedFile> files;
     for (const CsvTable& table : tables) {
         std::string text;
         for (const std::string& column : table.columns) {
@@ -234,10 +263,28 @@ std::vector<std::string> write_tables(const std::string& folder,
         for (const std::string& row : table.rows) {
             text += row + '\n';
         }
-        names.push_back(table_path(folder, table));
-        write_file(names.back(), std::as_bytes(std::span(text)));
+        files.push_back({table.name + ".csv", std::move(text)});
     }
-    return names;
+    return files;
+}
+
+std::string path_in(const std::string& folder, const std::string& name) {
+    return (std::filesystem::path(folder) / name).string();
+}
+
+std::vector<std::string> write_files(const std::string& folder,
+                                     const std::vector<NamedFile>& files) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        throw std::runtime_error(folder + ": " + failed.message());
+    }
+    std::vector<std::string> paths;
+    for (const NamedFile& file : files) {
+        paths.push_back(path_in(folder, file.name));
+        write_file(paths.back(), std::as_bytes(std::span(file.bytes)));
+    }
+    return paths;
 }
 
 }  // namespace gearpod::mc

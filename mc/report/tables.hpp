@@ -13,17 +13,27 @@ struct CsvTable {
     std::vector<std::string> rows;  // joined fields, without end of line
 };
 
-// Returns the tables of report_json()'s JSON that have rows: detection, smallest_fault, pod,
-// pod_band, roc, ranking, misses, sensitivity, inputs, a90_by_input, combined, conditions,
-// numerical, over_time, failures, provenance.
+// Returns the tables that have rows: of report_json()'s JSON features, detection, smallest_fault,
+// pod, pod_band, roc, ranking, misses, sensitivity, inputs, a90_by_input, combined, conditions,
+// numerical, over_time, monitoring, failures, provenance; of lives_json()'s lives, trade_offs; of
+// inspection_json()'s inspections, thresholds.
 std::vector<CsvTable> report_tables(const nlohmann::json& report);
 
-// Path of a table in the folder.
-std::string table_path(const std::string& folder, const CsvTable& table);
+// File of a folder.
+struct NamedFile {
+    std::string name;
+    std::string bytes;
+};
 
-// Writes the tables into the folder, which it creates if necessary. Returns the file names. Throws
+// The tables as CSV files.
+std::vector<NamedFile> table_files(const std::vector<CsvTable>& tables);
+
+// Path of a file in the folder.
+std::string path_in(const std::string& folder, const std::string& name);
+
+// Writes the files into the folder, which it creates if necessary. Returns their paths. Throws
 // std::runtime_error like write_file().
-std::vector<std::string> write_tables(const std::string& folder,
-                                      const std::vector<CsvTable>& tables);
+std::vector<std::string> write_files(const std::string& folder,
+                                     const std::vector<NamedFile>& files);
 
 }  // namespace gearpod::mc

@@ -22,6 +22,10 @@ std::string build_text();
 std::vector<std::pair<std::string, std::string>> provenance(const Study& study, int ranks,
                                                             int threads);
 
+// Attribute of recordings' results: a line for each measured file, its SHA-256 and its name as
+// sha256sum prints them.
+inline constexpr const char* kRecordedFiles = "recorded_files";
+
 // Name of this machine.
 std::string host_name();
 

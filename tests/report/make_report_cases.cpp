@@ -3,8 +3,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "mc/report/evidence.hpp"
 #include "mc/report/json.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/summary/run_report.hpp"
 #include "tests/report/report_cases.hpp"
 
 using namespace gearpod;
@@ -22,8 +24,16 @@ int main(int argc, char** argv) {
     bool good = true;
     for (const tests::ReportCase& each : tests::report_cases()) {
         const mc::ColumnRows rows(each.results);
-        good &= write(each.name, mc::report_json(each.results, rows,
-                                                 mc::reliability_of(each.results, rows, "", 2)));
+        const auto reliability = mc::reliability_of(each.results, rows, "", 2);
+        nlohmann::json report = mc::report_json(each.results, rows, reliability);
+        std::vector<std::string> names;
+        for (const mc::FeatureResult& feature : each.results.features) {
+            names.push_back(feature.name);
+        }
+        report["evidence"] = mc::evidence_json(analysis::EvidenceKind::gearboxes,
+                                               mc::results_report(each.results, rows, reliability),
+                                               names, "results.h5", &each.results);
+        good &= write(each.name, report);
         if (each.name == "usual") {
             good &= write("too_large", mc::report_json(each.results, rows, std::nullopt));
             good &= write("by_condition",

@@ -69,7 +69,8 @@ TEST_CASE("The tables hold the report's numbers, with sizes in the unit of their
     REQUIRE(usual != cases.end());
     const json report = report_of(*usual);
     const test::Folder folder;
-    const auto files = mc::write_tables(folder.file("new/tables"), mc::report_tables(report));
+    const auto files =
+        mc::write_files(folder.file("new/tables"), mc::table_files(mc::report_tables(report)));
     CHECK(files.size() > 8);
     const auto lines = [&](const std::string& name) {
         std::istringstream text(test::bytes_of(folder.file("new/tables/" + name + ".csv")));
@@ -91,8 +92,9 @@ TEST_CASE("The tables hold the report's numbers, with sizes in the unit of their
         const json& found = report["reliability"]["levels"][n]["smallest_fault"];
         CHECK(smallest[n + 1][1] == (found.is_object() ? found["feature"].get<std::string>() : ""));
     }
-    CHECK_THROWS_WITH(mc::write_tables(files.front() + "/below", mc::report_tables(report)),
-                      Catch::Contains(files.front()));
+    CHECK_THROWS_WITH(
+        mc::write_files(files.front() + "/below", mc::table_files(mc::report_tables(report))),
+        Catch::Contains(files.front()));
 }
 
 }  // namespace test_report_tables

@@ -32,14 +32,19 @@ def _bars(points, parts=12):
                sum(value for _, value in group) / len(group), len(group))
 
 
-def _curve(inspection, page):
+def _columns(pod):
+    """POD and its bounds by size; missing ones are gaps."""
+    gap = float("nan")
+    return {name: [gap if v is None else v for v in pod["band"][name]]
+            for name in ("pod", "lower", "upper")}
+
+
+def draw_curve(axes, inspection):
+    """Draws POD over size with its bounds, hits and misses."""
     pod, data = inspection.pod, inspection.data
-    figure, axes = panel(3.6)
     shown = inspection.sizes.shown
     x = [shown(size) for size in pod["band"]["size"]]
-    gap = float("nan")
-    column = {name: [gap if v is None else v for v in pod["band"][name]]
-              for name in ("pod", "lower", "upper")}
+    column = _columns(pod)
     axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     axes.fill_between(x, column["lower"], column["upper"], color=colour(0), alpha=0.16, linewidth=0)
     axes.plot(x, column["pod"], color=colour(0), label="POD")
@@ -60,7 +65,14 @@ def _curve(inspection, page):
     axes.set_ylim(-0.02, 1.03)
     axes.set_xlabel(inspection.sizes.axis())
     axes.set_ylabel("Probability of detection")
+
+
+def _curve(inspection, page):
+    pod = inspection.pod
+    figure, axes = panel(3.6)
+    draw_curve(axes, inspection)
     legend_below(axes, 3)
+    column = _columns(pod)
     svg = to_svg(figure, "Probability of detection over size", inspection.text("headline"), page.names)
     rows = [[number(inspection.sizes.shown(s), DIGITS), rate(p), rate(low), rate(high)]
             for s, p, low, high in zip(pod["band"]["size"], column["pod"], column["lower"],

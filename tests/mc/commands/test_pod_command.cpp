@@ -1,9 +1,13 @@
 // Checks gearpod pod on tables of inspections. The statistics are compared with other programs in
 // tests/analysis/pod/test_inspection.cpp.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "tests/mc/program.hpp"
 
@@ -136,6 +140,53 @@ TEST_CASE("pod reports data that determine no curve") {
     CHECK_THAT(without.output, Catch::Contains("do not overlap"));
     CHECK_THAT(without.output, Catch::Contains("--firth"));
     CHECK_THAT(program("pod " + table + " --firth").output, Catch::Contains("a90"));
+}
+
+// Shape of a test with seeded wear: 35 depths on one gear each, 8 records of each, and 250 records
+// of healthy gears. Truth: 1 + 0.02 a, standard deviations 0.15 between gears and 0.1 within.
+TEST_CASE(
+    "A clustered a-hat table of wear depths bounds the true a90, its threshold from healthy") {
+    constexpr double kSlope = 0.02, kBetween = 0.15, kWithin = 0.1;
+    const Folder folder;
+    int held = 0;
+    constexpr int kTablesTried = 3;
+    for (unsigned seed = 1; seed <= kTablesTried; ++seed) {
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> normal;
+        std::string text = "gear,depth [um],indicator\n";
+        for (int gear = 1; gear <= 35; ++gear) {
+            const double level = 1.0 + kSlope * 4.0 * gear + kBetween * normal(engine);
+            for (int record = 0; record < 8; ++record) {
+                text +=
+                    fmt::format("W{},{},{}\n", gear, 4 * gear, level + kWithin * normal(engine));
+            }
+        }
+        for (int record = 0; record < 250; ++record) {
+            text += fmt::format("H{},0,{}\n", record,
+                                1.0 + std::hypot(kBetween, kWithin) * normal(engine));
+        }
+        const auto json = pod_of(written(folder, "wear.csv", text) +
+                                 " --size depth --response indicator --specimen gear "
+                                 "--false-call-rate 0.01");
+        const auto& pod = json["signal_response"];
+        CHECK(pod["specimens"] == 35);
+        CHECK(json["false_calls"]["of"] == 250);
+        // Its own threshold is used, so that only the curve is judged: a record of another gear
+        // alarms with 90 % where the mean exceeds the threshold by 1.2816 standard deviations.
+        const double a90 =
+            (pod["threshold"].get<double>() - 1.0 + 1.2816 * std::hypot(kBetween, kWithin)) /
+            kSlope;
+        const double upper = pod["a90"]["upper"]["size"];
+        held += upper >= a90 ? 1 : 0;
+        CHECK(pod["a90"]["estimate"]["size"].get<double>() == Approx(a90).epsilon(0.2));
+        CHECK(upper < 1.4 * a90);
+        // Normal quantile of the false-call rate, from 250 healthy records: standard error 5 %.
+        CHECK(pod["threshold"].get<double>() - 1.0 ==
+              Approx(2.3263 * std::hypot(kBetween, kWithin)).epsilon(0.2));
+        const auto& line = pod["candidates"][pod["chosen"].get<std::size_t>()];
+        CHECK(line["within"].get<double>() == Approx(kWithin).epsilon(0.15));
+    }
+    CHECK(held >= kTablesTried - 1);  // 95 % each
 }
 
 }  // namespace

@@ -234,6 +234,19 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
         CHECK(outcome.code == 2);
         CHECK(outcome.mentions("holds lives"));
     }
+    // Their evidence has the detectors with their numbers.
+    const Outcome evidence = program("report " + file + " --evidence " + folder.file("pack"));
+    INFO(evidence.output);
+    CHECK(evidence.code == program("report " + file).code);
+    const auto report =
+        nlohmann::json::parse(test::bytes_of(folder.file("pack/report.json")))["evidence"];
+    CHECK(report["sections"][0]["key"] == "scope");
+    CHECK(report["sections"][1]["blocks"][0]["rows"].size() == 2);  // the study's two features
+    CHECK(test::bytes_of(folder.file("pack/evidence.pdf")).starts_with("%PDF-"));
+    const std::string table = test::bytes_of(folder.file("pack/lives.csv"));
+    CHECK(table.starts_with("feature,detector,threshold,"));
+    CHECK(std::count(table.begin(), table.end(), '\n') ==
+          1 + static_cast<long>(more["monitored"].size()));
 }
 
 TEST_CASE("Stopped lives resume to the same bits") {

@@ -1,0 +1,52 @@
+#include "mc/commands/output_folder.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "mc/files/atomic_file.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/run/output_kind.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+OutputKind kind_in_folder(const NamedFile& file) {
+    const auto extension = std::filesystem::path(file.name).extension();
+    if (extension == ".pdf") {
+        return sheet_output();
+    }
+    if (extension == ".json") {
+        return json_output();
+    }
+    if (extension == ".csv") {
+        return text_output("a table of `report` (CSV)",
+                           file.bytes.substr(0, file.bytes.find_first_of(",\n")));
+    }
+    return text_output("a file of `--evidence`", file.bytes.substr(0, file.bytes.find('\n')));
+}
+
+}  // namespace
+
+bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& files,
+                      const std::vector<FileRole>& others, bool force) {
+    bool good = true;
+    for (const NamedFile& file : files) {
+        const std::string path = path_in(folder.path, file.name);
+        if (const std::string why = why_not_replaced(path, {kind_in_folder(file), force});
+            !why.empty()) {
+            fmt::print(stderr, "{} {}: {}\n", folder.role, printable(path), why);
+            good = false;
+        }
+        for (const FileRole& other : others) {
+            if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
+                fmt::print(stderr, "{} {}: would overwrite {}; choose another folder\n",
+                           folder.role, printable(path), other.role);
+                good = false;
+            }
+        }
+    }
+    return good;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,18 @@
+// Folders that a command writes several files into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/report/tables.hpp"
+#include "mc/run/support.hpp"
+
+namespace gearpod::mc {
+
+// True if every file may be written into the folder of an option: none is also one of the others,
+// and none replaces a file of another kind without force. Prints each problem. The kind of a file
+// follows from its name and its first line.
+bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& files,
+                      const std::vector<FileRole>& others, bool force);
+
+}  // namespace gearpod::mc
