@@ -45,9 +45,10 @@ bool receive_all(int fd, void* data, std::size_t size, int timeout_ms) {
 
 }  // namespace
 
-bool send_framed(int fd, std::span<const char> bytes) {
-    const std::uint64_t length = bytes.size();
-    return send_all(fd, &length, sizeof length) && send_all(fd, bytes.data(), bytes.size());
+bool send_framed(int fd, std::span<const char> bytes, std::span<const std::byte> more) {
+    const std::uint64_t length = bytes.size() + more.size();
+    return send_all(fd, &length, sizeof length) && send_all(fd, bytes.data(), bytes.size()) &&
+           send_all(fd, more.data(), more.size());
 }
 
 bool receive_framed(int fd, std::string& bytes, int timeout_ms) {

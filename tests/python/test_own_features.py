@@ -89,9 +89,9 @@ class OwnFeatures(unittest.TestCase):
         """A study in another folder than the working folder, and its Python file next to it."""
         self.write("own.py", source)
         text = re.sub(r"^use = .*$", f"use = {use}\npython = {files}", STUDY, flags=re.M)
-        text = re.sub(r"^instances = .*$", "instances = 21", text, flags=re.M)
-        text = re.sub(r"^threshold_instances = .*$", "threshold_instances = 20", text, flags=re.M)
-        text = re.sub(r"^noise_levels = .*$", "noise_levels = [0, 1]", text, flags=re.M)
+        for key, value in (("instances", 14), ("threshold_instances", 20), ("noise_levels", [0, 1]),
+                           ("sampling_Hz", 1250), ("low_pass_Hz", 400)):
+            text = re.sub(rf"^{key} = .*$", f"{key} = {value}", text, flags=re.M)
         self.write("study.toml", text)
         return self.folder / "study.toml"
 
@@ -141,9 +141,7 @@ class OwnFeatures(unittest.TestCase):
     def test_values_do_not_depend_on_how_a_run_is_split(self):
         study = self.study(TWINS)
         whole = self.run_study(study, "whole.h5", "--set", "numerics.threads=1")
-        for name, more in (("threads.h5", ["--set", "numerics.threads=3"]),
-                           ("lanes.h5", ["--set", "numerics.lanes=1"])):
-            self.assert_same(whole, self.run_study(study, name, *more))
+        self.assert_same(whole, self.run_study(study, "threads.h5", "--set", "numerics.threads=3"))
         for part in (1, 2):
             self.run_study(study, f"part{part}.h5", "--part", f"{part}/2")
         self.program("merge", self.folder / "part1.h5", self.folder / "part2.h5", "--out",
@@ -270,8 +268,12 @@ class OwnFeatures(unittest.TestCase):
         self.assertTrue((self.values(out)["f"] == 2.5).all())
 
     def start(self, study):
-        process = subprocess.Popen([PROGRAM, "run", study, "--out", self.folder / "a.h5", "--quiet"],
-                                   stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+        self.errors = open(self.folder / "errors", "w+", encoding="utf-8")
+        self.addCleanup(self.errors.close)
+        process = subprocess.Popen([PROGRAM, "run", study, "--out", self.folder / "a.h5", "--set",
+                                    "numerics.threads=1"], stderr=self.errors,
+                                   stdout=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         marks = []
         end = time.monotonic() + 120
@@ -285,6 +287,10 @@ class OwnFeatures(unittest.TestCase):
              "    (pathlib.Path(__file__).parent / f'hangs-{os.getpid()}').touch()\n"
              "    while True:\n        time.sleep(1)\n")
 
+    def messages(self):
+        self.errors.seek(0)
+        return " ".join(self.errors.read().split())
+
     def is_gone(self, pid):
         for _ in range(100):
             try:
@@ -296,17 +302,21 @@ class OwnFeatures(unittest.TestCase):
 
     def test_a_feature_that_hangs_is_stopped(self):
         process, pid = self.start(self.study(self.HANGS))
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+            os.kill(pid, number)  # as batch queues and terminals do
+        time.sleep(0.3)
+        self.assertIsNone(process.poll())
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(60), 4)
         self.assertTrue(self.is_gone(pid))
-        self.assertIn("continue with --resume", process.stderr.read())
+        self.assertIn("continue with --resume", self.messages())
 
     def test_a_worker_that_is_killed_is_an_error(self):
         process, pid = self.start(self.study(self.HANGS))
         os.kill(pid, signal.SIGKILL)
         self.assertEqual(process.wait(60), 4)
-        self.assertRegex(process.stderr.read(), r"gearbox \d+, row \d+ of the results: the Python "
-                                                r"process was ended by signal 9")
+        self.assertRegex(self.messages(), r"gearbox \d+, row \d+ of the results: the Python "
+                                          r"process was ended by signal 9")
 
     def test_a_worker_ends_with_the_program(self):
         process, pid = self.start(self.study(self.HANGS))
@@ -330,12 +340,19 @@ class OwnFeatures(unittest.TestCase):
         for own, built_in in PAIRS.items():
             self.assertAlmostEqual(found[own] / found[built_in], 1.0, places=9)
         self.write("own.py", "def broken(record):\n    return 1 / 0\n")
-        self.program("features", record, "--study", study, "--json", self.folder / "f.json", "--force")
-        self.assertIn("own.py:2: ZeroDivisionError", self.output)
+        self.program("features", record, "--study", study, "--json", self.folder / "f.json")
+        self.assertIn("own.py:2: ZeroDivisionError",
+                      json.loads((self.folder / "f.json").read_text())["unavailable"]["broken"])
+        table = self.folder / "f.csv"
+        self.program("features", record, record, "--study", study, "--csv", table)
+        self.assertIn("broken: " + str(self.folder / "own.py") + ":2: ZeroDivisionError", self.output)
 
     def test_lives_refuse_what_they_cannot_compute(self):
-        self.program("lives", self.study(TWINS, use='["sensor_rms"]'), "--set", "life.interval_h=5",
-                     code=2)
+        life = {"interval_h": 5, "first_depth_mm": 1, "last_depth_mm": 4, "depth_steps": 2,
+                "paris_factor": 5e-7, "paris_exponent": 2.25, "records": 40, "healthy_lives": 2}
+        options = [f"life.{key}={value}" for key, value in life.items()]
+        self.program("lives", self.study(TWINS, use='["sensor_rms"]'), "--set", *options,
+                     "--set", "sensor.noise_levels=[1]", code=2)
         self.assertIn('"rms" needs samples', self.output)
 
     def test_sweeps_and_watching(self):

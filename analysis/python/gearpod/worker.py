@@ -258,7 +258,9 @@ def end_with(parent):
 
 def main():
     global numpy
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C: the program ends this process
+    # Sent to all processes of the run: the program decides when this one ends.
+    for request in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+        signal.signal(request, signal.SIG_IGN)
     connection = socket.socket(fileno=os.dup(0))
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     threading.Thread(target=end_with, args=(os.getppid(),), daemon=True).start()
@@ -276,7 +278,8 @@ def main():
         try:
             if missing:
                 raise Refused(missing)
-            reply, data = worker.reply(json.loads(message[:end].decode()), message[end + 1:])
+            reply, data = worker.reply(json.loads(message[:end].decode()),
+                                       memoryview(message)[end + 1:])
         except Refused as error:
             reply, data = {"refused": str(error)}, b""
         except MemoryError:

@@ -100,13 +100,8 @@ PythonWorker::Reply PythonWorker::ask(const nlohmann::json& request, std::span<c
     std::string message = request.dump();
     message.append(sizeof(double) - 1 - message.size() % sizeof(double), ' ');
     message += '\n';  // the doubles are aligned
-    const std::size_t text = message.size();
-    message.resize(text + values.size_bytes());
-    if (!values.empty()) {
-        std::memcpy(message.data() + text, values.data(), values.size_bytes());
-    }
     std::string bytes;
-    if (child_ < 0 || !send_framed(here_.get(), message)) {
+    if (child_ < 0 || !send_framed(here_.get(), message, std::as_bytes(values))) {
         report_end(work);
     }
     wait_for_reply(work);

@@ -126,7 +126,7 @@ void read_sections(StudyDraft& draft, const Value& document) {
 constexpr double kLeastRate = 1e-9, kMostRate = 0.5;
 
 // By default the basic features for which the type of motion has signals; then those in Python.
-void fill_features(Study& study) {
+void fill_features(Study& study, bool runs_python) {
     if (study.features.use.empty()) {
         for (const features::Feature& feature : features::all_features()) {
             if (feature.basic() && (!feature.from_sensor || !study.effects.quasi_static())) {
@@ -142,7 +142,9 @@ void fill_features(Study& study) {
             one.feature = &features::declare_feature(of_te);
         }
         const std::string name(one.feature->name);
-        if (std::ranges::find(study.features.use, name) == study.features.use.end()) {
+        // A stored study names all of them.
+        if (runs_python &&
+            std::ranges::find(study.features.use, name) == study.features.use.end()) {
             study.features.use.push_back(name);
         }
     }
@@ -240,7 +242,7 @@ StudyReading read_document(const Value& document, bool runs_python, Problems pro
     read_sections(draft, document);
     fill_horizon(draft);
     check_presence(draft);
-    fill_features(draft.study);
+    fill_features(draft.study, draft.runs_python);
     fill_detectors(draft.study);
     fill_operation(draft);
     fill_path(draft);
