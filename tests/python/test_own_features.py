@@ -172,11 +172,27 @@ class OwnFeatures(unittest.TestCase):
         (self.folder / "own.py").unlink()
         self.assertEqual(self.program("report", out).stdout, first)
         self.program("report", out, "--json", self.folder / "a.json")
+        examples = json.loads((self.folder / "a.json").read_text())["examples"]["gearboxes"]
+        self.assertEqual([one["same_bits"] for one in examples], [True, True])
         self.program("compare", out, out)
         self.program("run", study, code=2)
         self.assertIn("own.py: cannot be read: No such file or directory", self.output)
         with h5py.File(out) as file:
             self.assertIn(hashlib.sha256(TWINS.encode()).hexdigest(), str(file.attrs["study"]))
+
+    def test_reading_results_runs_no_code(self):
+        study = self.study(TWINS)
+        out = self.run_study(study, "a.h5", "--instances", "7")
+        self.write("evil.py", f"open({str(self.folder / 'was-run')!r}, 'w')\n" + TWINS)
+        with h5py.File(out, "r+") as file:
+            stored = file.attrs["study"]
+            stored = stored if isinstance(stored, str) else stored.decode()
+            file.attrs["study"] = re.sub(r"python = \[\n.*?\n\]",
+                                         f'python = ["{self.folder}/evil.py"]', stored, flags=re.S)
+        self.program("repair", out)
+        self.program("report", out, "--json", self.folder / "a.json")
+        self.program("misses", out, "--feature", "rms", "--size", 3, code=2)
+        self.assertFalse((self.folder / "was-run").exists())
 
     def test_a_changed_file_does_not_continue_a_run(self):
         study = self.study(TWINS)
