@@ -65,10 +65,10 @@ def main(program, sources, output):
         place = pathlib.Path("reference/_generated") / name
         put(text, pages / place)
         kept.add(place)
-    changelog = (sources / "CHANGELOG.md").read_text(encoding="utf-8")
-    place = pathlib.Path("developer/changelog.md")
-    put(changelog, pages / place)
-    kept.add(place)
+    for source, name in (("CHANGELOG.md", "developer/changelog.md"),
+                         ("studies/own_features.py", "guide/own_features.py")):
+        put((sources / source).read_text(encoding="utf-8"), pages / name)
+        kept.add(pathlib.Path(name))
     for old in sorted(pages.rglob("*")):
         if old.is_file() and old.relative_to(pages) not in kept \
                 and "__pycache__" not in old.parts:

@@ -16,6 +16,10 @@ FILE_COLUMN = {"type": "object", "properties": {"file": {"type": "string"}, "col
 TONE = {"type": "object",
         "properties": {"frequency_Hz": {"type": "number"}, "amplitude_m_s2": {"type": "number"}},
         "required": ["frequency_Hz", "amplitude_m_s2"], "additionalProperties": False}
+PYTHON_FEATURE = {"type": "object",
+                  "properties": {name: {"type": "string"} for name in
+                                 ("file", "sha256", "name", "title", "unit", "alarm", "uses", "doc")},
+                  "required": ["file", "sha256", "name"], "additionalProperties": False}
 
 
 def whole(value):
@@ -43,6 +47,8 @@ def value_schema(key):
         return {"type": "array", "items": {"type": "string"}}
     if kind == "tones":
         return {"type": "array", "items": TONE}
+    if kind == "python":
+        return {"type": "array", "items": {"anyOf": [{"type": "string"}, PYTHON_FEATURE]}}
     numbers = {"type": "array", "items": bounded({"type": "number"}, key)}
     return numbers if key["ascending"] else {"anyOf": [numbers, FILE_COLUMN]}
 

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/feature_alarm.hpp"
 #include "analysis/report/false_alarm_text.hpp"
+#include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
@@ -21,6 +23,7 @@
 #include "mc/description/wrapped_study.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/thread_count.hpp"
+#include "mc/files/python/python_worker.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/record_window.hpp"
@@ -98,6 +101,21 @@ void print_effect_costs(const Study& study) {
     }
 }
 
+void print_python_features(const Study& study) {
+    if (study.features.python.empty()) {
+        return;
+    }
+    print_heading("features in Python");
+    for (const PythonFeature& one : study.features.python) {
+        const features::Feature& feature = *one.feature;
+        print_entry(
+            std::string(feature.name),
+            fmt::format("{}unit {}, {} values alarm; {}",
+                        feature.title.empty() ? "" : std::string(feature.title) + "; ",
+                        feature.unit, analysis::alarm_name(analysis::alarm_of(feature)), one.file));
+    }
+}
+
 void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
@@ -160,11 +178,12 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     }
 }
 
-// Processor seconds that this process has used.
+// Processor seconds that this process has used, and time for which it waited for Python.
 double processor_s() {
     timespec used{};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec) +
+           PythonWorker::waited_s();
 }
 
 // Stops a description that takes more processor time. Other programs do not shorten it.
@@ -249,6 +268,7 @@ int describe_command(const DescribeOptions& options) {
         }
         const double setup_s = seconds_since(start);
         scene.emplace(*made.scene);
+        print_python_features(*study);
         print_gearbox(*scene);
         print_effects(*scene);
         print_life(*scene);

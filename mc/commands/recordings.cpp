@@ -76,11 +76,12 @@ RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
 
 // Prints one sentence for each recording.
 void print_verdicts(const FeaturesOptions& options, const Population& population,
-                    const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
+                    std::span<const features::Feature* const> features, const RecordingList& list,
+                    const std::vector<MeasuredRecording>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (measured[i].problem.empty()) {
             const auto verdicts =
-                compare_with_population(population, measured[i].values, options.feature);
+                compare_with_population(population, features, measured[i].values, options.feature);
             fmt::print("{}\n", wrapped_text(verdict_sentence(list.recordings[i].name(), population,
                                                              verdicts.front(), measured[i].teeth),
                                             2));
@@ -162,7 +163,7 @@ int recordings_command(const FeaturesOptions& options) {
         }
         comparison.given = baseline ? &*baseline : nullptr;
         const bool compared = comparison.any(list);
-        const auto features = measurable(compared);
+        const auto features = measurable(scene->study(), compared);
         const int threads = thread_count(scene->study());
         Progress progress(static_cast<long>(list.recordings.size()),
                           options.quiet || options.csv == "-", 0, Progress::Form::text,
@@ -183,7 +184,7 @@ int recordings_command(const FeaturesOptions& options) {
                           recordings_results(list, measured, features, *scene, threads, compared));
         }
         if (population) {
-            print_verdicts(options, *population, list, measured);
+            print_verdicts(options, *population, features, list, measured);
         }
         return csv_good ? summary(options, measured) : kBadInput;
     } catch (const std::exception& error) {

@@ -1,7 +1,6 @@
 #include "mc/files/isolated_signal.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -21,6 +20,7 @@
 #include <utility>
 
 #include "mc/files/file_descriptor.hpp"
+#include "mc/files/framed_bytes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -33,55 +33,17 @@ constexpr std::uintmax_t kTimeout_ms = 8000, kBytes_ms = 10000, kLongestTimeout_
 enum class Request : char { names, read, unit, sampling_Hz, sampling_Hz_of, find, contents, notes };
 enum class Reply : char { good, refused };
 
-bool send_all(int fd, const void* data, std::size_t size) {
-    const char* at = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t sent = ::send(fd, at, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) {
-            continue;
-        }
-        if (sent <= 0) {
-            return false;
-        }
-        at += sent;
-        size -= static_cast<std::size_t>(sent);
-    }
-    return true;
-}
-
-// Waits at most `timeout_ms` for each part; -1 waits without limit.
-bool receive_all(int fd, void* data, std::size_t size, int timeout_ms) {
-    char* at = static_cast<char*>(data);
-    while (size > 0) {
-        pollfd ready{fd, POLLIN, 0};
-        const int found = ::poll(&ready, 1, timeout_ms);
-        if (found < 0 && errno == EINTR) {
-            continue;
-        }
-        const ssize_t got = found > 0 ? ::recv(fd, at, size, 0) : -1;
-        if (got <= 0) {
-            return false;
-        }
-        at += got;
-        size -= static_cast<std::size_t>(got);
-    }
-    return true;
-}
-
-// A message consists of its kind, its length, and the bytes.
-bool send_message(int fd, char kind, std::span<const char> bytes) {
-    const std::uint64_t length = bytes.size();
-    return send_all(fd, &kind, 1) && send_all(fd, &length, sizeof length) &&
-           send_all(fd, bytes.data(), bytes.size());
+// A message consists of its kind and further bytes.
+bool send_message(int fd, char kind, const std::string& bytes) {
+    return send_framed(fd, kind + bytes);
 }
 bool receive_message(int fd, char& kind, std::string& bytes, int timeout_ms) {
-    std::uint64_t length = 0;
-    if (!receive_all(fd, &kind, 1, timeout_ms) ||
-        !receive_all(fd, &length, sizeof length, timeout_ms)) {
+    if (!receive_framed(fd, bytes, timeout_ms) || bytes.empty()) {
         return false;
     }
-    bytes.resize(length);
-    return receive_all(fd, bytes.data(), length, timeout_ms);
+    kind = bytes.front();
+    bytes.erase(0, 1);
+    return true;
 }
 
 std::string bytes_of_doubles(std::span<const double> values) {

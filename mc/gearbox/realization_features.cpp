@@ -1,5 +1,7 @@
 #include "mc/gearbox/realization_features.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,10 +19,12 @@ const LaneSignals& baseline_of(const LaneSignals& gearbox, std::size_t k) {
 
 }  // namespace
 
-RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy)
+RealizationFeatures::RealizationFeatures(const Scene& scene, const HealthyReference* healthy,
+                                         bool python)
     : RealizationSignals(scene, compared_needs(used_features(scene.study())).record),
       scene_(scene),
       features_(used_features(scene.study())),
+      python_(scene, python ? features_ : std::vector<const features::Feature*>()),
       healthy_(healthy),
       levels_(scene.study().sensor.noise_levels.size()) {
     const ComparedNeeds needs = compared_needs(features_);
@@ -92,7 +96,8 @@ void RealizationFeatures::load_change(const LaneSignals& gearbox, const Realizat
 std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
                                                  const Realization& realization,
                                                  std::vector<LevelSignals>* signals) {
-    std::vector<double> values(features_.size() * levels_);
+    std::vector<double> values(features_.size() * levels_,
+                               std::numeric_limits<double>::quiet_NaN());
     load(gearbox, realization);
     for (std::size_t level = 0; level < levels_; ++level) {
         features::FeatureInput input = at(level), change;
@@ -100,7 +105,7 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
         for (Baseline& baseline : baselines_) {
             before.push_back(baseline.signals.at(level));
         }
-        input.baseline = before.data();
+        input.baseline = before.empty() ? nullptr : before.data();
         input.baselines = static_cast<int>(before.size());
         if (change_) {
             change = change_->at(level);
@@ -123,12 +128,39 @@ std::vector<double> RealizationFeatures::compute(const LaneSignals& gearbox,
                  from_first_tooth(input.get<features::ToothRms<features::Gear::planet>>().rms, 1)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
-            const double value = features_[f]->value(input);
-            values[f * levels_ + level] =
-                std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+            if (!features_[f]->external) {
+                values[f * levels_ + level] = features_[f]->value(input);
+            }
+        }
+        if (!python_.empty()) {
+            python_.add(scene_.study().sensor.noise_levels[level], realization.inputs, input);
         }
     }
+    if (!python_.empty()) {
+        add_python_values(realization, values);
+    }
+    for (double& value : values) {
+        value = std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+    }
     return values;
+}
+
+void RealizationFeatures::add_python_values(const Realization& realization,
+                                            std::vector<double>& values) {
+    const GearboxId& id = realization.id;
+    const std::string work = fmt::format("{} gearbox {}, row {} of the results",
+                                         id.group == Group::threshold ? "healthy" : "graded",
+                                         id.index, row_of_id(scene_.study(), id));
+    const std::vector<double> own = python_.compute(work);
+    print_python_problems(python_.problems(), work);
+    std::size_t next = 0;
+    for (std::size_t f = 0; f < features_.size(); ++f) {
+        if (features_[f]->external) {
+            std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(next), levels_,
+                        values.begin() + static_cast<std::ptrdiff_t>(f * levels_));
+            next += levels_;
+        }
+    }
 }
 
 }  // namespace gearpod::mc

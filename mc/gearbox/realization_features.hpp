@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/python_features.hpp"
 #include "mc/gearbox/realization_signals.hpp"
 #include "mc/gearbox/record_window.hpp"
 
@@ -19,8 +20,9 @@ struct LevelSignals {
 // Computes the features that a study uses.
 class RealizationFeatures : public RealizationSignals {
   public:
-    // `healthy` comes from healthy_reference() and must outlive the object.
-    RealizationFeatures(const Scene& scene, const HealthyReference* healthy);
+    // `healthy` comes from healthy_reference() and must outlive the object. Without `python`,
+    // features in Python are NaN, and their files are not needed.
+    RealizationFeatures(const Scene& scene, const HealthyReference* healthy, bool python = true);
 
     // Values of all used features, [feature * noise levels + level]. If `signals` is not null, one
     // entry per noise level is appended to it.
@@ -35,6 +37,8 @@ class RealizationFeatures : public RealizationSignals {
         LaneSignals cut, aligned;
         double noise_m_s2 = 0.0;  // rms noise of the sensor at noise level 1
     };
+    // Computes the features in Python from the signals that were added to `python_`.
+    void add_python_values(const Realization& realization, std::vector<double>& values);
     void load(const LaneSignals& gearbox, const Realization& realization);
     void load_baselines(const LaneSignals& gearbox, const Realization& realization,
                         const RecordWindow& window);
@@ -42,6 +46,7 @@ class RealizationFeatures : public RealizationSignals {
 
     const Scene& scene_;
     std::vector<const features::Feature*> features_;
+    PythonFeatures python_;
     const HealthyReference* healthy_;
     std::size_t levels_;
     LaneSignals record_;               // cut from the signals if records have a length

@@ -43,8 +43,12 @@ PopulationVerdicts compared(const SignalRequest& request, const Measurement& mea
                             const Scene& scene) {
     PopulationVerdicts compared;
     compared.population = read_population(request.against, request.noise_level, scene.study());
-    compared.verdicts =
-        compare_with_population(compared.population, values_of(measured.features), request.feature);
+    std::vector<const features::Feature*> features;
+    for (const MeasuredFeature& one : measured.features) {
+        features.push_back(one.feature);
+    }
+    compared.verdicts = compare_with_population(compared.population, features,
+                                                values_of(measured.features), request.feature);
     compared.sentence = verdict_sentence(request.signal.name, compared.population,
                                          compared.verdicts.front(), measured.teeth);
     return compared;

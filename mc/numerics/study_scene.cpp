@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "lockstep/kernels/built_kernels.hpp"
+#include "mc/files/python/python_worker.hpp"
 #include "mc/scene/mesh_loads.hpp"
 #include "mc/study/gears.hpp"
 
@@ -50,6 +51,8 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
         return made;
     } catch (const SceneError& error) {
         return refused({{name, 0, error.key(), error.what(), error.remedy(), error.kind()}});
+    } catch (const PythonError& error) {
+        return refused({{name, 0, "features.python", error.what(), ""}});
     }
 }
 

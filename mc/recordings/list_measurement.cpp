@@ -192,19 +192,24 @@ class ListMeasurement {
         if (all.change && std::isnan(measured.alignment)) {
             measured.alignment = all.change->correlation;
         }
-        // Features that compare come last; a group without a usable baseline has no values of them.
-        measured.values.assign(measurable(compared_).size(), kUnknown);
+        // A group without a usable baseline has no values of features that compare.
+        const auto columns = measurable(scene_.study(), compared_);
+        measured.values.assign(columns.size(), kUnknown);
         std::string why;
         bool any = false;
-        for (std::size_t f = 0; f < all.features.size(); ++f) {
-            const MeasuredFeature& feature = all.features[f];
+        for (const MeasuredFeature& feature : all.features) {
             if (feature.missing.empty()) {
-                measured.values[f] = feature.value;
+                const auto column = std::ranges::find(columns, feature.feature);
+                measured.values[static_cast<std::size_t>(column - columns.begin())] = feature.value;
                 any = true;
                 continue;
             }
             const bool there = feature.feature->from_sensor ? signal.has_sensor : signal.has_te;
             why = why.empty() && there ? feature.missing : why;
+            if (feature.feature->external && there) {
+                measured.notes.push_back(
+                    fmt::format("{}: {}", feature.feature->name, feature.missing));
+            }
         }
         if (!any) {
             measured.problem =

@@ -149,7 +149,7 @@ Problems condition_name_problems(const std::string& manifest, const RecordingLis
 
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature> features, bool compared) {
+                           std::span<const features::Feature* const> features, bool compared) {
     std::string out = "file,row,gearbox,label";
     for (const auto& column : {list.time, list.size}) {
         out += column ? "," + quoted_field(header_of(*column)) : "";
@@ -157,9 +157,9 @@ std::string recordings_csv(const RecordingList& list,
     for (const TableColumn& column : list.inputs) {
         out += "," + quoted_field(header_of(column));
     }
-    for (const features::Feature& feature : features) {
-        out += feature.unit == "1" ? fmt::format(",{}", feature.name)
-                                   : fmt::format(",{} [{}]", feature.name, feature.unit);
+    for (const features::Feature* feature : features) {
+        out += feature->unit == "1" ? fmt::format(",{}", feature->name)
+                                    : fmt::format(",{} [{}]", feature->name, feature->unit);
     }
     out += compared ? ",planet_turns,alignment,averaged,worst_tooth,problem\n"
                     : ",planet_turns,problem\n";
@@ -191,7 +191,7 @@ std::string recordings_csv(const RecordingList& list,
 
 Results recordings_results(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature> features, const Scene& scene,
+                           std::span<const features::Feature* const> features, const Scene& scene,
                            int threads, bool compared) {
     const Grading grading = grading_of(list);
     Results results;
@@ -205,7 +205,7 @@ Results recordings_results(const RecordingList& list,
     results.parameters.push_back({grading.name, grading.unit, {}});
     std::vector<std::size_t> used;
     for (std::size_t f = 0; f < features.size(); ++f) {
-        const features::Feature& feature = features[f];
+        const features::Feature& feature = *features[f];
         if (any_value(measured, f)) {
             used.push_back(f);
             results.features.push_back({std::string(feature.name),

@@ -61,7 +61,7 @@ Problems condition_name_problems(const std::string& manifest, const RecordingLis
 // of the worst tooth, and its problem.
 std::string recordings_csv(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature> features, bool compared);
+                           std::span<const features::Feature* const> features, bool compared);
 
 // Returns results in the format of a run, with a row for each recording that has features. Healthy
 // recordings set the thresholds. Faulty recordings are graded by their size, or as size 1 if no
@@ -70,7 +70,7 @@ std::string recordings_csv(const RecordingList& list,
 // tooth maps.
 Results recordings_results(const RecordingList& list,
                            const std::vector<MeasuredRecording>& measured,
-                           std::span<const features::Feature> features, const Scene& scene,
+                           std::span<const features::Feature* const> features, const Scene& scene,
                            int threads, bool compared);
 
 }  // namespace gearpod::mc

@@ -9,6 +9,7 @@
 
 #include "features/worst_tooth.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/gearbox/python_features.hpp"
 #include "mc/gearbox/span_analysis.hpp"
 #include "mc/recordings/quantisation.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -199,6 +200,31 @@ std::string why_rounding(const Feature& feature, const features::FeatureInput& i
     return of(input, signal.sensor_rounding, "");
 }
 
+// Computes the features in Python. The inputs of a recording are not known: they are nominal.
+void measure_in_python(const Scene& scene, std::span<const Feature* const> available,
+                       const features::FeatureInput& input, std::vector<MeasuredFeature>& all) {
+    PythonFeatures python(scene, available);
+    if (python.empty()) {
+        return;
+    }
+    python.add(1.0, nominal_inputs(scene.study()), input);
+    const std::vector<double> values = python.compute("a recording");
+    auto next = values.begin();
+    for (MeasuredFeature& one : all) {
+        if (one.missing.empty() && one.feature->external) {
+            one.value = *next++;
+            if (!std::isfinite(one.value)) {
+                one.missing = "its function in Python returns no finite number";
+            }
+        }
+    }
+    for (const PythonProblem& problem : python.problems()) {
+        std::ranges::find(all, problem.feature, [](const MeasuredFeature& one) {
+            return one.feature->name;
+        })->missing = fmt::format("{}: {}", problem.place, problem.what);
+    }
+}
+
 }  // namespace
 
 double ToothMap::worst() const {
@@ -222,8 +248,18 @@ std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
     return MeasuredBaseline{source.name, read_measured_signal(source, columns, scene), false};
 }
 
-std::span<const Feature> measurable(bool with_baseline) {
-    return with_baseline ? features::all_features() : features::record_features();
+std::vector<const Feature*> measurable(const Study& study, bool with_baseline) {
+    std::vector<const Feature*> all;
+    for (const Feature& feature :
+         with_baseline ? features::all_features() : features::record_features()) {
+        all.push_back(&feature);
+    }
+    for (const PythonFeature& one : study.features.python) {
+        if (with_baseline || one.feature->baseline_use == features::BaselineUse::nothing) {
+            all.push_back(one.feature);
+        }
+    }
+    return all;
 }
 
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,
@@ -240,21 +276,21 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
     }
     std::vector<MeasuredFeature>& all = measurement.features;
     std::vector<const Feature*> available;
-    for (const Feature& feature : measurable(baseline != nullptr)) {
-        const bool of_change = feature.baseline_use == features::BaselineUse::change ||
-                               feature.baseline_use == features::BaselineUse::record_and_change;
-        std::string why = why_unavailable(feature, scene, signal, has_reference);
+    for (const Feature* feature : measurable(scene.study(), baseline != nullptr)) {
+        const bool of_change = feature->baseline_use == features::BaselineUse::change ||
+                               feature->baseline_use == features::BaselineUse::record_and_change;
+        std::string why = why_unavailable(*feature, scene, signal, has_reference);
         if (why.empty() && of_change) {
             why = measurement.change
-                      ? why_unavailable(feature, scene, measurement.change->signal, true)
+                      ? why_unavailable(*feature, scene, measurement.change->signal, true)
                       : no_change;
-        } else if (why.empty() && feature.baseline_use == features::BaselineUse::baseline) {
-            why = why_unavailable(feature, scene, baseline->signal, has_reference);
+        } else if (why.empty() && feature->baseline_use == features::BaselineUse::baseline) {
+            why = why_unavailable(*feature, scene, baseline->signal, has_reference);
             why = why.empty() ? why : baseline->file + ": " + why;
         }
-        all.push_back({&feature, 0.0, why});
+        all.push_back({feature, 0.0, why});
         if (why.empty()) {
-            available.push_back(&feature);
+            available.push_back(feature);
         }
     }
     const ComparedNeeds needs = compared_needs(available);
@@ -273,8 +309,9 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
         input.get<features::HealthyRecords>() = before.get<features::HealthyRecords>() =
             healthy.at(0);
     }
+    measure_in_python(scene, available, input, all);
     for (MeasuredFeature& one : all) {
-        if (one.missing.empty()) {
+        if (one.missing.empty() && !one.feature->external) {
             one.value = one.feature->value(input);
             if (!std::isfinite(one.value)) {
                 one.missing = why_no_value(*one.feature, input, scene);

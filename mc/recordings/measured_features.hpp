@@ -35,8 +35,9 @@ int planet_turns(const MeasuredSignal& signal, const Scene& scene);
 std::optional<MeasuredBaseline> measured_baseline(const SignalSource& source,
                                                   const SignalColumns& columns, const Scene& scene);
 
-// Features that can be measured: all of them with a baseline, only those of one record without it.
-std::span<const features::Feature> measurable(bool with_baseline);
+// Features that can be measured: those of the program, then those in Python that the study names.
+// Only those of one record unless there is a baseline.
+std::vector<const features::Feature*> measurable(const Study& study, bool with_baseline);
 
 // RMS of every tooth of the planet, from the tooth that passes `first` mesh periods after the
 // start. A record with a change has those of the change, and its start is the baseline's.

@@ -118,13 +118,13 @@ Population read_population(const std::string& path, double noise_level, const St
 }
 
 std::vector<Verdict> compare_with_population(const Population& population,
+                                             std::span<const features::Feature* const> features,
                                              const std::vector<double>& measured,
                                              const std::string& feature) {
     std::vector<Verdict> verdicts;
     for (const PopulationFeature& known : population.features) {
-        const features::Feature* named = features::find_feature(known.name);
         const auto at = static_cast<std::size_t>(
-            named == nullptr ? measured.size() : named - features::all_features().data());
+            std::ranges::find(features, known.name, &features::Feature::name) - features.begin());
         const double value = at < measured.size() ? measured[at] : kNoValue;
         if (!std::isfinite(value)) {
             continue;

@@ -42,9 +42,10 @@ struct Verdict {
 };
 
 // Compares the features that both recording and population have, in the population's order. A
-// non-empty `feature` is moved to the front. `measured` is in the order of measurable(), NaN: no
+// non-empty `feature` is moved to the front. `measured` has the values of `features`, NaN: no
 // value. Throws std::runtime_error if there is no common feature, or not the named one.
 std::vector<Verdict> compare_with_population(const Population& population,
+                                             std::span<const features::Feature* const> features,
                                              const std::vector<double>& measured,
                                              const std::string& feature);
 

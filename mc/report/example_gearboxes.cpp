@@ -156,7 +156,7 @@ class Examples {
           frame_(frame),
           path_(path_grid(scene)),
           healthy_(healthy_reference(scene, path_)),
-          features_(scene, &healthy_),
+          features_(scene, &healthy_, false),
           level_(reference_level(frame.noise_levels)) {}
 
     // Identity of the gearbox in a row. Rows of a part count from the part's own first row.
@@ -181,12 +181,21 @@ class Examples {
         std::vector<LevelSignals> levels;
         const LaneSignals gearbox_signals =
             lane_signals(scene_, path_, tile, 0, features_.meshes());
-        const auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
+        auto values = features_.compute(gearbox_signals, tile.realizations[0], &levels);
         std::vector<double> te_turn = features_.record().te_turn;
         rotate_to_first_tooth(features_.record(), scene_.te_samples_per_mesh(), te_turn);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
+        // Those in Python are not computed again.
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            const features::Feature* known = find_feature(scene_.study(), frame_.features[f].name);
+            if (known != nullptr && known->external) {
+                std::copy_n(stored.begin() + static_cast<std::ptrdiff_t>(f * shape.levels),
+                            shape.levels,
+                            values.begin() + static_cast<std::ptrdiff_t>(f * shape.levels));
+            }
+        }
         const double period_s = dynamics::mesh_period_s(scene_.inputs(tile.realizations[0].inputs));
         Json json{{"row", row.row},
                   {"size", row.size},

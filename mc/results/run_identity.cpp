@@ -26,6 +26,9 @@ std::string line_difference(const std::string& there, const std::string& here,
 RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part) {
     Study essence = study;
     essence.title.clear();
+    for (PythonFeature& one : essence.features.python) {
+        one.file.clear();  // the hash of its content counts
+    }
     essence.numerics.threads = Numerics{}.threads;
     essence.numerics.lanes = Numerics{}.lanes;
     essence.numerics.instruction_set = Numerics{}.instruction_set;

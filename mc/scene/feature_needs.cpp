@@ -25,7 +25,7 @@ constexpr SignalSet kFolded =
 std::vector<const features::Feature*> used_features(const Study& study) {
     std::vector<const features::Feature*> used;
     for (const std::string& name : study.features.use) {
-        const features::Feature* feature = features::find_feature(name);
+        const features::Feature* feature = find_feature(study, name);
         if (feature == nullptr) {
             throw std::invalid_argument("unknown feature " + name);
         }

@@ -39,6 +39,13 @@ StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {
 
 }  // namespace
 
+long row_of_id(const Study& study, const GearboxId& id) {
+    const long records = study.ensemble.threshold_records;
+    return id.group == Group::threshold
+               ? static_cast<long>(id.index) * records + static_cast<long>(id.repeat)
+               : static_cast<long>(id.index) + study.ensemble.threshold_instances * records;
+}
+
 std::uint64_t source_index(const Study& study, const GearboxId& id, StreamPurpose purpose) {
     // The last exchange that replaces them determines the gearbox.
     const std::span<const analysis::InputExchange> exchanges = exchanges_of(id);

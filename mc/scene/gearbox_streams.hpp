@@ -34,6 +34,9 @@ struct GearboxId {
     std::uint64_t baseline = 0;  // number of a baseline record, from 0
 };
 
+// Row of a record of `run` in the results.
+long row_of_id(const Study& study, const GearboxId& id);
+
 // Index of the gearbox whose random numbers for a purpose are used, where all of them are exchanged
 // together: its own, or that of the last exchange in `exchanged` that replaced them.
 std::uint64_t source_index(const Study& study, const GearboxId& id, StreamPurpose purpose);

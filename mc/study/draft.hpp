@@ -13,6 +13,7 @@ namespace gearpod::mc {
 
 struct StudyDraft {
     Study study;
+    bool runs_python = false;  // true if Python files are run to find their features
     Problems problems;
     Problems notices = {};                         // accepted, but written as in an earlier version
     std::map<std::string, Position> given;         // by key path, in its section

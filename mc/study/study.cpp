@@ -16,10 +16,20 @@ double crack_begin_m(const Life& life) {
     return life.curve_depth_m.empty() ? life.first_depth_m.value() : life.curve_depth_m.front();
 }
 
+const features::Feature* find_feature(const Study& study, std::string_view name) {
+    for (const PythonFeature& one : study.features.python) {
+        if (one.feature->name == name) {
+            return one.feature;
+        }
+    }
+    const features::Feature* known = features::find_feature(name);
+    return known != nullptr && known->external ? nullptr : known;
+}
+
 bool compares_records(const Study& study) {
     return std::any_of(
-        study.features.use.begin(), study.features.use.end(), [](const std::string& name) {
-            const features::Feature* feature = features::find_feature(name);
+        study.features.use.begin(), study.features.use.end(), [&](const std::string& name) {
+            const features::Feature* feature = find_feature(study, name);
             return feature != nullptr && feature->baseline_use != features::BaselineUse::nothing;
         });
 }

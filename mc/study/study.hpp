@@ -18,6 +18,7 @@
 #include "mc/study/fault_shapes.hpp"
 #include "mc/study/life.hpp"
 #include "mc/study/numerics.hpp"
+#include "mc/study/python_feature.hpp"
 #include "mc/study/random_input.hpp"
 #include "signals/path/path_window.hpp"
 #include "stiffness/contact/hertz_contact.hpp"
@@ -266,7 +267,9 @@ struct Sensor {
 };
 
 struct Features {
-    std::vector<std::string> use;  // as in the file; by default the basic ones
+    std::vector<std::string>
+        use;  // as in the file, by default the basic ones; then those in Python
+    std::vector<PythonFeature> python;
     double tukey_taper = 0.1;
     int te_harmonics = 8;
     // Standard deviation of the logarithm of the torque in a gearbox's baseline record, normal
@@ -366,6 +369,8 @@ struct Study {
     bool operator==(const Study&) const = default;
 };
 
+// Feature of a study: one in Python, or else one of the program; nullptr if there is none.
+const features::Feature* find_feature(const Study& study, std::string_view name);
 // True if any feature compares a gearbox with its baseline record.
 bool compares_records(const Study& study);
 // True if that property of an assembly (features.baseline_redraws) is drawn again for the baseline.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -216,6 +217,43 @@ class Catalogue {
     std::vector<Feature> all_;
 };
 
+// External features, in the order of their declarations.
+class DeclaredFeatures {
+  public:
+    const Feature& add(Feature feature) {
+        const std::lock_guard lock(mutex_);
+        const auto known = std::find(all_.begin(), all_.end(), feature);
+        const std::size_t place = static_cast<std::size_t>(known - all_.begin());
+        if (known == all_.end()) {
+            for (std::string_view* text :
+                 {&feature.name, &feature.title, &feature.unit, &feature.doc}) {
+                *text = texts_.emplace_back(*text);
+            }
+            all_.push_back(feature);
+        }
+        std::erase(order_, place);
+        order_.push_back(place);
+        return all_[place];
+    }
+    const Feature* find(std::string_view name) {
+        const std::lock_guard lock(mutex_);
+        const auto last = std::find_if(order_.rbegin(), order_.rend(),
+                                       [&](std::size_t place) { return all_[place].name == name; });
+        return last == order_.rend() ? nullptr : &all_[*last];
+    }
+
+  private:
+    std::mutex mutex_;
+    std::deque<std::string> texts_;  // deques, so that the strings and features never move
+    std::deque<Feature> all_;
+    std::vector<std::size_t> order_;  // the feature declared last is at the end
+};
+
+DeclaredFeatures& declared_features() {
+    static DeclaredFeatures declared;
+    return declared;
+}
+
 double mean_of_baselines(const Feature& feature, const FeatureInput& input) {
     double sum = feature.compute(*input.baseline);
     for (int i = 1; i < input.baselines; ++i) {
@@ -254,7 +292,11 @@ const Feature* find_feature(std::string_view name) {
             return &feature;
         }
     }
-    return nullptr;
+    return declared_features().find(name);
+}
+
+const Feature& declare_feature(const Feature& feature) {
+    return declared_features().add(feature);
 }
 
 }  // namespace gearpod::features

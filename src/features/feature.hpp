@@ -33,7 +33,9 @@ struct Feature {
     SignalSet needs;           // signals that `compute` uses
     bool from_sensor = false;  // true if one of them is of the sensor
     BaselineUse baseline_use = BaselineUse::nothing;
+    bool external = false;  // true if code outside of the program computes it; no `compute`
 
+    bool operator==(const Feature&) const = default;
     // Studies use the basic features by default: those of a single record that need basic signals
     // only.
     bool basic() const {
@@ -50,7 +52,12 @@ std::span<const Feature> all_features();
 // Features of a single record only.
 std::span<const Feature> record_features();
 
-// nullptr if no feature has this name.
+// Copy of an external feature with a permanent address. Equal features have the same address.
+// Thread-safe.
+const Feature& declare_feature(const Feature& feature);
+
+// Feature of all_features(), or else the external feature declared last with this name. nullptr if
+// there is none.
 const Feature* find_feature(std::string_view name);
 
 }  // namespace gearpod::features

@@ -105,6 +105,7 @@ class SignalSet {
     constexpr bool has() const {
         return overlaps(of<Signals...>());
     }
+    bool operator==(const SignalSet&) const = default;
     constexpr SignalSet& operator|=(SignalSet other) {
         bits_ |= other.bits_;
         return *this;

@@ -32,6 +32,22 @@ TEST_CASE("Every feature is registered once, with its unit, alarm side and defin
     CHECK(find_feature("te_RMS") == nullptr);
 }
 
+TEST_CASE("Equal external features have one address, and the one declared last is found") {
+    Feature own;
+    own.name = "own_of_user";
+    own.external = true;
+    const Feature* const first = &declare_feature(own);
+    CHECK(find_feature("own_of_user") == first);
+    own.alarm = AlarmSide::low;
+    const Feature* const second = &declare_feature(own);
+    CHECK(second != first);
+    CHECK(find_feature("own_of_user") == second);
+    own.alarm = AlarmSide::high;
+    CHECK(&declare_feature(own) == first);
+    CHECK(find_feature("own_of_user") == first);
+    CHECK(find_feature("own_of") == nullptr);
+}
+
 TEST_CASE("A feature needs the signals of its parameters") {
     const auto needs = [](const char* name) { return find_feature(name)->needs; };
     CHECK(needs("te_fm4").has<TeParts>());

@@ -124,11 +124,14 @@ void check_sampling(StudyDraft& draft) {
 }
 
 void check_feature(StudyDraft& draft, const std::string& name) {
-    const features::Feature* feature = features::find_feature(name);
+    const features::Feature* feature = find_feature(draft.study, name);
     if (feature == nullptr) {
         std::vector<std::string_view> known;
         for (const features::Feature& other : features::all_features()) {
             known.push_back(other.name);
+        }
+        for (const PythonFeature& own : draft.study.features.python) {
+            known.push_back(own.feature->name);
         }
         draft.reject("features.use", fmt::format("unknown feature \"{}\"", name),
                      suggest(name, known));

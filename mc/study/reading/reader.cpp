@@ -15,6 +15,7 @@
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/unknown_keys.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "mc/study/user_study.hpp"
 
 namespace gearpod::mc {
 
@@ -124,13 +125,27 @@ void read_sections(StudyDraft& draft, const Value& document) {
 // Rates of a record between which thresholds make sense.
 constexpr double kLeastRate = 1e-9, kMostRate = 0.5;
 
-// By default the basic features for which the type of motion has signals.
-void fill_features(Study& study) {
+// By default the basic features for which the type of motion has signals; then those in Python.
+void fill_features(Study& study, bool runs_python) {
     if (study.features.use.empty()) {
         for (const features::Feature& feature : features::all_features()) {
             if (feature.basic() && (!feature.from_sensor || !study.effects.quasi_static())) {
                 study.features.use.emplace_back(feature.name);
             }
+        }
+    }
+    for (PythonFeature& one : study.features.python) {
+        if (study.effects.quasi_static()) {  // no accelerations
+            features::Feature of_te = *one.feature;
+            of_te.needs = features::SignalSet::of<features::TeTurn>();
+            of_te.from_sensor = false;
+            one.feature = &features::declare_feature(of_te);
+        }
+        const std::string name(one.feature->name);
+        // A stored study names all of them.
+        if (runs_python &&
+            std::ranges::find(study.features.use, name) == study.features.use.end()) {
+            study.features.use.push_back(name);
         }
     }
 }
@@ -217,15 +232,17 @@ Problem lost_scatter(const std::string& key) {
                     key)};
 }
 
-StudyReading read_document(const Value& document, Problems problems, Problems notices) {
+StudyReading read_document(const Value& document, bool runs_python, Problems problems,
+                           Problems notices) {
     StudyDraft draft;
+    draft.runs_python = runs_python;
     draft.problems = std::move(problems);
     draft.notices = std::move(notices);
     draft.sections[""] = document.position;
     read_sections(draft, document);
     fill_horizon(draft);
     check_presence(draft);
-    fill_features(draft.study);
+    fill_features(draft.study, draft.runs_python);
     fill_detectors(draft.study);
     fill_operation(draft);
     fill_path(draft);
@@ -249,10 +266,8 @@ StudyReading read_document(const Value& document, Problems problems, Problems no
     return reading;
 }
 
-}  // namespace
-
-StudyReading read_study_text(const std::string& text, const std::string& name,
-                             const std::vector<std::string>& overrides) {
+StudyReading read_text(const std::string& text, const std::string& name,
+                       const std::vector<std::string>& overrides, bool runs_python) {
     Problems problems;
     Value document = parse_document(text, name, problems);
     if (!problems.empty()) {
@@ -265,7 +280,19 @@ StudyReading read_study_text(const std::string& text, const std::string& name,
     for (const std::string& key : drop_overridden_random(document)) {
         notices.push_back(lost_scatter(key));
     }
-    return read_document(document, std::move(problems), std::move(notices));
+    return read_document(document, runs_python, std::move(problems), std::move(notices));
+}
+
+}  // namespace
+
+StudyReading read_study_text(const std::string& text, const std::string& name,
+                             const std::vector<std::string>& overrides) {
+    return read_text(text, name, overrides, false);
+}
+
+StudyReading read_user_study_text(const std::string& text, const std::string& name,
+                                  const std::vector<std::string>& overrides) {
+    return read_text(text, name, overrides, true);
 }
 
 StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides) {
@@ -274,7 +301,7 @@ StudyReading read_study(const std::string& path, const std::vector<std::string>&
     if (!problems.empty()) {
         return {std::nullopt, std::move(problems)};
     }
-    return read_study_text(text, path, overrides);
+    return read_user_study_text(text, path, overrides);
 }
 
 }  // namespace gearpod::mc

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "features/feature.hpp"
+#include "mc/study/reading/python_list.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -90,6 +92,24 @@ class ValueText {
                                         tone.frequency_Hz, tone.amplitude_m_s2));
         }
         return in_brackets(texts);
+    }
+
+    // One line per feature, so that differences of studies show the feature.
+    std::string operator()(const PythonAccess& access) const {
+        std::string text;
+        for (const PythonFeature& one : access.get(study_)) {
+            const features::Feature& feature = *one.feature;
+            const auto pair = [](const char* name, std::string_view value) {
+                return fmt::format("{} = {}", name, quoted_text(std::string(value)));
+            };
+            text += fmt::format(
+                "    {{ {}, {}, {}, {}, {}, {}, {}, {} }},\n", pair("name", feature.name),
+                pair("file", one.file), pair("sha256", one.sha256), pair("title", feature.title),
+                pair("unit", feature.unit),
+                pair("alarm", feature.alarm == features::AlarmSide::high ? "high" : "low"),
+                pair("uses", uses_text(feature)), pair("doc", feature.doc));
+        }
+        return text.empty() ? "" : fmt::format("[\n{}]", text);
     }
 
   private:

@@ -7,6 +7,7 @@
 #include "mc/study/distributions/magnitude.hpp"
 #include "mc/study/reading/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
+#include "mc/study/reading/python_list.hpp"
 #include "mc/study/reading/tones.hpp"
 
 namespace gearpod::mc {
@@ -122,6 +123,16 @@ class ValueReader {
             access.set(draft_.study, read_tones(value_, [&](std::string what, std::string remedy) {
                            reject(std::move(what), std::move(remedy));
                        }));
+        }
+    }
+
+    void operator()(const PythonAccess& access) {
+        if (value_.elements.empty() ? is_list("Python files") : nonempty_list("Python files")) {
+            access.set(draft_.study,
+                       read_python_features(value_, draft_.runs_python,
+                                            [&](std::string what, std::string remedy) {
+                                                reject(std::move(what), std::move(remedy));
+                                            }));
         }
     }
 

@@ -68,6 +68,7 @@ const Key kRunKeys[] = {
     {"sensor", "record_turns", number<&Sensor::record_turns>, kNone, kPositive, planetary<may>, kShared, "length of a record in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
 
     {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z. change_... and own_... compare with a healthy baseline record of the same gearbox"},
+    {"features", "python", list<&Features::python>, kNone, kAny, may, kShared, "Python files with features of your own, such as [\"my_features.py\"], relative to the study: every public function whose first parameter is record is a feature, in addition to use. Reading the study runs these files"},
     {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the window that selects the mesh periods of a tooth (0: rectangular)"},
     {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "number of mesh harmonics in te_fm0"},
     {"features", "baseline_torque_scatter", number<&Features::baseline_torque_scatter>, kNone, from_to(0, 1), with_baseline, kShared, "rms relative difference of torque between a gearbox's healthy baseline record and its test record (standard deviation of the logarithm)"},

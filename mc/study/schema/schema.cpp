@@ -63,6 +63,7 @@ struct KindText {
     std::string operator()(const TonesAccess&) const {
         return "list of { frequency_Hz, amplitude_m_s2 }";
     }
+    std::string operator()(const PythonAccess&) const { return "list of Python files"; }
     std::string operator()(const ChoiceAccess& choice) const {
         std::vector<std::string> names;
         for (const ChoiceName& name : choice.names) {

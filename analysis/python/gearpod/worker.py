@@ -1,0 +1,292 @@
+"""Computes features that are written in Python (docs/guide/own-features.md) for the program gearpod.
+
+The program contains this file and starts it as a process per thread. Requests and replies are
+framed messages on the socket that is standard input: the number of bytes (8 bytes, native order),
+a line of JSON, and doubles in native order. Only numpy is needed.
+"""
+
+# mypy: ignore-errors
+
+import hashlib
+import inspect
+import json
+import numbers
+import os
+import random
+import signal
+import socket
+import struct
+import sys
+import threading
+import time
+import traceback
+import types
+
+SIGNALS = ("record", "baselines", "change")  # parameters that a feature may have
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class Record:
+    """Signals and properties of one record. In a function with `batch = True`, the signals and
+    what is computed from them have a leading axis: one row per noise level.
+
+    sensor               m/s^2, whole turns of the monitored gear; None without a sensor
+    te                   rad, transmission error averaged over turns of that gear, without its mean
+    tooth_rms            m/s^2, rms around every tooth of that gear; None without a sensor
+    noise_level          factor on the noise, one of sensor.noise_levels (batch: an array)
+    gear_teeth           teeth of the monitored gear: planet, pinion, or gear with the fault
+    teeth, planets       teeth of all gears by name, number of planets (0: fixed shafts)
+    samples_per_mesh, te_samples_per_mesh, carrier_meshes (mesh periods per carrier turn)
+    mesh_Hz, sampling_Hz, torque_Nm, speed_rpm, noise_m_s2 (rms at noise level 1)
+    """
+
+    def __init__(self, properties, signals):
+        self.sensor = self.te = self.tooth_rms = None
+        self.__dict__.update(properties)
+        self.__dict__.update(signals)
+
+    @property
+    def sensor_average(self):
+        """Sensor signal averaged over turns of the monitored gear, m/s^2."""
+        turn = self.gear_teeth * self.samples_per_mesh
+        return self.sensor.reshape(*self.sensor.shape[:-1], -1, turn).mean(axis=-2)
+
+    @property
+    def gear_angle(self):
+        """Angle of the monitored gear at every sensor sample, rad, from the record's start."""
+        return self._angle(self.gear_teeth)
+
+    @property
+    def carrier_angle(self):
+        """Angle of the carrier relative to its fixed gear, rad, from the record's start."""
+        return self._angle(self.carrier_meshes)
+
+    def _angle(self, meshes):
+        samples = numpy.arange(self.sensor.shape[-1])
+        return 2 * numpy.pi * samples / (meshes * self.samples_per_mesh)
+
+
+class Refused(Exception):
+    """Message for the user."""
+
+
+def place_of(error, path, line=1):
+    """File and line: of a syntax error, or where the user's file was last; else the given line."""
+    if isinstance(error, SyntaxError) and error.filename == path:
+        return f"{path}:{error.lineno}"
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__)
+             if frame.filename == path]
+    return f"{path}:{lines[-1] if lines else line}"
+
+
+def one_line(error):
+    text = error.msg if isinstance(error, SyntaxError) else str(error)
+    return f"{type(error).__name__}: {' '.join(text.split())[:300]}".rstrip(": ")
+
+
+class Function:
+    """Feature of a file: function whose first parameter is `record`."""
+
+    def __init__(self, name, code, call, path):
+        self.call, self.path, self.line = call, path, code.co_firstlineno
+        self.name = name if name != "feature" else os.path.splitext(os.path.basename(path))[0]
+        parameters = inspect.signature(call).parameters.values()
+        needed = [p.name for p in parameters if p.default is p.empty
+                  and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
+        self.uses = [p.name for p in parameters if p.name in SIGNALS]
+        unknown = [name for name in needed if name not in SIGNALS]
+        if unknown:
+            self.refuse(f"unknown parameter {unknown[0]}; a feature has {', '.join(SIGNALS)}")
+        if not (self.name.isascii() and self.name.isidentifier()):
+            self.refuse("the name of a feature has only ASCII letters, digits and underscores")
+        self.unit = self.attribute("unit", "1")
+        self.title = self.attribute("title", "")
+        self.alarm = self.attribute("alarm", "high")
+        if self.alarm not in ("high", "low"):
+            self.refuse(f'alarm = {self.alarm!r}, but it is "high" or "low"')
+        self.batch = getattr(call, "batch", False) is True
+        self.doc = " ".join((inspect.getdoc(call) or "").split("\n\n")[0].split())[:300]
+
+    def refuse(self, what):
+        raise Refused(f"{self.path}:{self.line}: {self.name}: {what}")
+
+    def attribute(self, name, otherwise):
+        value = getattr(self.call, name, otherwise)
+        if not isinstance(value, str) or not value.isprintable() or (otherwise and not value):
+            self.refuse(f"{name} = {value!r}, but it is a line of text")
+        return value
+
+    def described(self):
+        return {name: getattr(self, name) for name in ("name", "title", "unit", "alarm", "doc")} | {
+            "uses": ", ".join(self.uses)}
+
+    def values(self, records, levels):
+        """One value per noise level, and the errors as (level, file and line, text)."""
+        if self.batch:
+            return self.batch_values(records.of(None), levels)
+        values, errors = numpy.full(levels, numpy.nan), []
+        for level in range(levels):
+            try:
+                values[level] = self.number(self.call(**self.arguments(records.of(level))))
+            except MemoryError:
+                raise
+            except BaseException as error:  # also SystemExit, which must not end the process
+                errors.append((level, place_of(error, self.path, self.line), one_line(error)))
+        return values, errors
+
+    def batch_values(self, signals, levels):
+        try:
+            values = numpy.asarray(self.call(**self.arguments(signals)))
+            if values.shape != (levels,) or values.dtype.kind not in "fiub":
+                raise TypeError(f"returned an array of shape {values.shape} and type "
+                                f"{values.dtype}, not {levels} real numbers, one per noise level")
+            return values.astype(float), []
+        except MemoryError:
+            raise
+        except BaseException as error:
+            return numpy.full(levels, numpy.nan), [
+                (0, place_of(error, self.path, self.line), one_line(error))]
+
+    def arguments(self, signals):
+        return {name: signals[name] for name in self.uses}
+
+    def number(self, value):
+        if isinstance(value, numpy.ndarray) and value.ndim == 0:
+            value = value[()]
+        if not isinstance(value, (numbers.Real, numpy.bool_)):
+            what = (f"an array of shape {value.shape}" if isinstance(value, numpy.ndarray)
+                    else repr(value)[:80])
+            raise TypeError(f"returned {what}, not a real number")
+        return float(value)
+
+
+class Records:
+    """Signals of a request: the same arrays for every noise level."""
+
+    def __init__(self, request, data):
+        self.request = request
+        self.all = numpy.frombuffer(data).reshape(len(request["levels"]), -1)
+        self.all.flags.writeable = False
+
+    def of(self, level):
+        """The parameters of a feature at one noise level, or (None) at all of them."""
+        rows = self.all if level is None else self.all[level]
+        levels = numpy.array(self.request["levels"])
+        noise = levels if level is None else levels[level]
+        made, at = [], 0
+        for kind, properties, arrays in self.request["records"]:
+            signals = {}
+            for name, count in arrays:
+                signals[name] = rows[..., at:at + count]
+                at += count
+            made.append((kind, Record(properties | {"noise_level": noise}, signals)))
+        found = {kind: record for kind, record in made}
+        return found | {"baselines": [record for kind, record in made if kind == "baselines"]}
+
+
+def load(path, expected):
+    """Runs a file. Returns its SHA-256 and its features by name."""
+    try:
+        with open(path, "rb") as stream:
+            source = stream.read()
+    except OSError as error:
+        raise Refused(f"{path}: cannot be read: {error.strerror}") from None
+    found = hashlib.sha256(source).hexdigest()
+    if expected not in ("", found):
+        raise Refused(f"{path}: has changed since the study was read: its SHA-256 is now {found}, not "
+                      f"{expected}")
+    module = types.ModuleType(os.path.splitext(os.path.basename(path))[0])
+    module.__file__ = path
+    sys.modules.setdefault(module.__name__, module)
+    if os.path.dirname(path) not in sys.path:
+        sys.path.insert(0, os.path.dirname(path))
+    try:
+        exec(compile(source, path, "exec"), module.__dict__)
+    except BaseException as error:
+        raise Refused(f"{place_of(error, path)}: {one_line(error)}") from None
+    functions = {}
+    for name, value in list(module.__dict__.items()):
+        code = getattr(inspect.unwrap(value), "__code__", None) if callable(value) else None
+        if name.startswith("_") or code is None or code.co_filename != path:
+            continue
+        if next(iter(inspect.signature(value).parameters), None) == "record":
+            function = Function(name, code, value, path)
+            functions[function.name] = function
+    if not functions:
+        raise Refused(f"{path}: has no feature: no public function whose first parameter is record")
+    return found, functions
+
+
+class Worker:
+    def __init__(self):
+        self.functions = {}  # by path and name
+
+    def reply(self, request, data):
+        if "file" in request:
+            found, functions = load(request["file"], request["sha256"])
+            self.functions[request["file"]] = functions
+            return {"sha256": found, "functions": [f.described() for f in functions.values()]}, b""
+        records = Records(request, data)
+        levels = len(request["levels"])
+        values, errors = [], []
+        for path, name in request["features"]:
+            random.seed(0)
+            numpy.random.seed(0)
+            own, own_errors = self.functions[path][name].values(records, levels)
+            values.append(own)
+            errors += [(name, request["levels"][level], *error) for level, *error in own_errors]
+        return {"errors": errors}, numpy.concatenate(values).tobytes()
+
+
+def receive(connection, count):
+    data = bytearray(count)
+    view, at = memoryview(data), 0
+    while at < count:
+        got = connection.recv_into(view[at:])
+        if got == 0:
+            os._exit(0)
+        at += got
+    return data
+
+
+def end_with(parent):
+    """Ends the process when the program has ended, even if a feature does not return."""
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(0)
+
+
+def main():
+    global numpy
+    # Sent to all processes of the run: the program decides when this one ends.
+    for request in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+        signal.signal(request, signal.SIG_IGN)
+    connection = socket.socket(fileno=os.dup(0))
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    threading.Thread(target=end_with, args=(os.getppid(),), daemon=True).start()
+    for name in ONE_THREAD:  # threads would change the order of sums
+        os.environ[name] = "1"
+    worker, missing = Worker(), ""
+    try:
+        import numpy
+    except ImportError as error:
+        missing = f"{sys.executable}: {error}; name a Python 3 with numpy in GEARPOD_PYTHON"
+    while True:
+        length, = struct.unpack("=Q", receive(connection, 8))
+        message = receive(connection, length)
+        end = message.index(b"\n")
+        try:
+            if missing:
+                raise Refused(missing)
+            reply, data = worker.reply(json.loads(message[:end].decode()),
+                                       memoryview(message)[end + 1:])
+        except Refused as error:
+            reply, data = {"refused": str(error)}, b""
+        except MemoryError:
+            reply, data = {"refused": "Python has not enough memory"}, b""
+        framed = json.dumps(reply).encode() + b"\n" + data
+        connection.sendall(struct.pack("=Q", len(framed)) + framed)
+
+
+if __name__ == "__main__":
+    main()

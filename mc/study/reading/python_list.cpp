@@ -1,0 +1,140 @@
+#include "mc/study/reading/python_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "mc/files/python/python_worker.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/input/spelling.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using features::BaselineUse;
+using features::Feature;
+
+const std::vector<std::string_view> kPythonNames{"name", "file",  "sha256", "title",
+                                                 "unit", "alarm", "uses",   "doc"};
+
+class PythonList {
+  public:
+    PythonList(bool runs, const RejectPython& reject) : runs_(runs), reject_(reject) {}
+
+    void add(const Value& element) {
+        if (element.kind == Value::Kind::text) {
+            add_file(element);
+        } else if (element.kind == Value::Kind::table) {
+            add_table(element);
+        } else {
+            reject_(fmt::format("must be a list of files, but contains {}", element.kind_name()),
+                    "write [\"my_features.py\"]");
+        }
+    }
+    std::vector<PythonFeature> take() && { return std::move(all_); }
+
+  private:
+    void add_file(const Value& element) {
+        if (!runs_) {
+            reject_(fmt::format("\"{}\" would be run, but the study is not in a file of its own",
+                                element.text),
+                    "name it in a study file");
+            return;
+        }
+        const auto folder = std::filesystem::path(element.position.file).parent_path();
+        std::error_code none;
+        const std::string path =
+            std::filesystem::absolute(folder / element.text, none).lexically_normal().string();
+        try {
+            const PythonFile file = PythonWorker::of_thread().load(path);
+            for (const PythonFunction& function : file.functions) {
+                add(function, path, file.sha256);
+            }
+        } catch (const PythonError& error) {
+            reject_(printable(error.what()), "");
+        }
+    }
+
+    void add_table(const Value& table) {
+        std::vector<std::string> texts(kPythonNames.size());
+        for (const Entry& entry : table.entries) {
+            const auto known = std::ranges::find(kPythonNames, entry.name);
+            if (known == kPythonNames.end()) {
+                reject_(fmt::format("unknown key {}", entry.name),
+                        suggest(entry.name, kPythonNames));
+            } else if (entry.value.kind != Value::Kind::text) {
+                reject_(fmt::format("{} must be a string, but is {}", entry.name,
+                                    entry.value.kind_name()),
+                        "");
+            } else {
+                texts[static_cast<std::size_t>(known - kPythonNames.begin())] = entry.value.text;
+            }
+        }
+        if (texts[0].empty() || texts[1].empty() || texts[2].empty()) {
+            reject_("a table needs name, file and sha256", "name the file as a string instead");
+            return;
+        }
+        add({texts[0], texts[3], texts[4], texts[5], texts[6], texts[7]}, texts[1], texts[2]);
+    }
+
+    void add(const PythonFunction& function, const std::string& path, const std::string& sha256) {
+        const auto same = std::ranges::find_if(
+            all_, [&](const PythonFeature& one) { return one.feature->name == function.name; });
+        const auto built_in = features::all_features();
+        if (same != all_.end()) {
+            reject_(fmt::format("{}: \"{}\" is also in {}", path, function.name, same->file),
+                    "rename one of them");
+            return;
+        }
+        if (std::ranges::find(built_in, function.name, &Feature::name) != built_in.end()) {
+            reject_(fmt::format("{}: \"{}\" is a feature of the program", path, function.name),
+                    "rename the function");
+            return;
+        }
+        Feature feature{
+            .name = function.name,
+            .title = function.title,
+            .unit = function.unit.empty() ? "1" : std::string_view(function.unit),
+            .alarm = function.alarm == "low" ? features::AlarmSide::low : features::AlarmSide::high,
+            .doc = function.doc,
+            .needs = features::SignalSet::of<features::TeTurn, features::SensorSamples>(),
+            .from_sensor = true,
+            .external = true};
+        feature.baseline_use =
+            function.uses.find("change") != std::string::npos      ? BaselineUse::record_and_change
+            : function.uses.find("baselines") != std::string::npos ? BaselineUse::baseline
+                                                                   : BaselineUse::nothing;
+        all_.push_back({path, sha256, &features::declare_feature(feature)});
+    }
+
+    const bool runs_;
+    const RejectPython& reject_;
+    std::vector<PythonFeature> all_;
+};
+
+}  // namespace
+
+std::vector<PythonFeature> read_python_features(const Value& list, bool runs,
+                                                const RejectPython& reject) {
+    PythonList files(runs, reject);
+    for (const Value& element : list.elements) {
+        files.add(element);
+    }
+    return std::move(files).take();
+}
+
+std::string_view uses_text(const Feature& feature) {
+    switch (feature.baseline_use) {
+        case BaselineUse::baseline:
+            return "record, baselines";
+        case BaselineUse::change:
+        case BaselineUse::record_and_change:
+            return "record, baselines, change";
+        case BaselineUse::nothing:
+            break;
+    }
+    return "record";
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,383 @@
+"""Checks features in Python: python3 test_own_features.py PROGRAM SOURCES [MPIEXEC]
+
+Twins of the program's features in numpy must have their values, in runs that are split, resumed and
+repeated. Files and functions with errors of every kind must give one message each. Exits with 77
+without numpy or h5py.
+"""
+
+import hashlib
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, SOURCES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+MPIEXEC = sys.argv[3] if len(sys.argv) > 3 else ""
+
+try:
+    import h5py
+    import numpy as np
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+STUDY = (SOURCES / "studies" / "planet-crack-ideal.toml").read_text(encoding="utf-8")
+TWINS = '''
+import numpy as np
+print("printed by the file")
+
+def rms(record):
+    """RMS of the sensor signal."""
+    print("printed by a feature")
+    return np.sqrt(np.mean(record.sensor ** 2))
+rms.unit, rms.title = "m/s^2", "level in Python"
+
+def kurtosis(record):
+    x = record.te - record.te.mean()
+    return np.mean(x ** 4) / np.mean(x ** 2) ** 2
+
+def centre(record):
+    amplitude = np.abs(np.fft.rfft(record.te))
+    amplitude[1:(record.te.size + 1) // 2] *= 2  # all but order 0 and the Nyquist order
+    return np.sum(np.arange(amplitude.size) * amplitude) / np.sum(amplitude)
+centre.alarm = "low"
+
+def ratio(record):
+    return record.tooth_rms.max() / np.median(record.tooth_rms)
+
+def crest(record):
+    x = record.sensor_average
+    x = x - x.mean(axis=-1, keepdims=True)
+    return np.abs(x).max(axis=-1) / np.sqrt(np.mean(x ** 2, axis=-1))
+crest.batch = True
+
+def _not_a_feature(record):
+    return 1 / 0
+
+def no_feature(signal):
+    return 1 / 0
+'''
+PAIRS = {"rms": "sensor_rms", "kurtosis": "te_kurtosis", "centre": "te_fc", "ratio": "window_ratio",
+         "crest": "crest_factor"}
+COMPARED = '''
+import numpy as np
+def level(x):
+    return np.sqrt(np.mean(x ** 2))
+def relative(record, baselines):
+    return level(record.sensor) / np.mean([level(b.sensor) for b in baselines])
+def added(record, change):
+    return level(change.sensor)
+'''
+
+
+class OwnFeatures(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.TemporaryDirectory()
+        self.addCleanup(self.place.cleanup)
+        self.folder = pathlib.Path(self.place.name)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+
+    def study(self, source, use='["te_rms"]', files='["own.py"]'):
+        """A study in another folder than the working folder, and its Python file next to it."""
+        self.write("own.py", source)
+        text = re.sub(r"^use = .*$", f"use = {use}\npython = {files}", STUDY, flags=re.M)
+        for key, value in (("instances", 14), ("threshold_instances", 20), ("noise_levels", [0, 1]),
+                           ("sampling_Hz", 1250), ("low_pass_Hz", 400)):
+            text = re.sub(rf"^{key} = .*$", f"{key} = {value}", text, flags=re.M)
+        self.write("study.toml", text)
+        return self.folder / "study.toml"
+
+    def program(self, *arguments, code=0, before=(), **environment):
+        done = subprocess.run([*before, PROGRAM, *map(str, arguments)], cwd="/", text=True,
+                              capture_output=True, check=False, timeout=300,
+                              env=dict(os.environ, **environment))
+        self.output = " ".join((done.stdout + done.stderr).split())
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def run_study(self, study, name, *arguments, **more):
+        out = self.folder / name
+        self.program("run", study, "--out", out, "--quiet", *arguments, **more)
+        return out
+
+    def values(self, path):
+        with h5py.File(path) as file:
+            return {name: values[:] for name, values in file["features"].items()
+                    if isinstance(values, h5py.Dataset)}
+
+    def assert_same(self, first, second):
+        first, second = self.values(first), self.values(second)
+        self.assertEqual(first.keys(), second.keys())
+        for name, values in first.items():
+            self.assertEqual(values.tobytes(), second[name].tobytes(), name)
+
+    def test_twins_have_the_values_and_grades_of_the_program(self):
+        study = self.study(TWINS, use=json.dumps(list(PAIRS.values())))
+        out = self.run_study(study, "a.h5")
+        values = self.values(out)
+        self.assertEqual(set(values), set(PAIRS) | set(PAIRS.values()))
+        for own, built_in in PAIRS.items():
+            np.testing.assert_allclose(values[own], values[built_in], rtol=1e-9, err_msg=own)
+        self.program("report", out, "--json", self.folder / "a.json")
+        report = json.loads((self.folder / "a.json").read_text())
+        known = {one["name"]: one for one in report["features"]}
+        self.assertEqual((known["rms"]["title"], known["rms"]["unit"], known["rms"]["doc"]),
+                         ("level in Python", "m/s^2", "RMS of the sensor signal."))
+        self.assertEqual(known["centre"]["alarm"], "low")
+        graded = {one["name"]: one for one in report["detection"]["features"]}
+        for own, built_in in PAIRS.items():
+            for level, other in zip(graded[own]["levels"], graded[built_in]["levels"]):
+                np.testing.assert_allclose(level["threshold"], other["threshold"], rtol=1e-9)
+                self.assertEqual(level["sizes"], other["sizes"], own)
+
+    def test_values_do_not_depend_on_how_a_run_is_split(self):
+        study = self.study(TWINS)
+        whole = self.run_study(study, "whole.h5", "--set", "numerics.threads=1")
+        self.assert_same(whole, self.run_study(study, "threads.h5", "--set", "numerics.threads=3"))
+        for part in (1, 2):
+            self.run_study(study, f"part{part}.h5", "--part", f"{part}/2")
+        self.program("merge", self.folder / "part1.h5", self.folder / "part2.h5", "--out",
+                     self.folder / "merged.h5")
+        self.assert_same(whole, self.folder / "merged.h5")
+        extended = self.run_study(study, "extended.h5", "--instances", "7")
+        self.run_study(study, "extended.h5", "--resume")
+        self.assert_same(whole, extended)
+        if MPIEXEC:
+            ranks = self.run_study(study, "ranks.h5", before=[MPIEXEC, "--oversubscribe", "-n", "2"],
+                                   OMPI_ALLOW_RUN_AS_ROOT="1",
+                                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+            self.assert_same(whole, ranks)
+
+    def test_baselines_and_change_are_those_of_the_program(self):
+        study = self.study(COMPARED, use='["own_sensor_rms", "change_sensor_rms"]')
+        for more in ([], ["--set", "features.baseline_records=3"],
+                     ["--set", "sensor.record_turns=4"]):
+            values = self.values(self.run_study(study, "a.h5", "--force", *more))
+            if "features.baseline_records=3" not in more:
+                np.testing.assert_allclose(values["relative"], values["own_sensor_rms"], rtol=1e-9)
+            np.testing.assert_allclose(values["added"], values["change_sensor_rms"], rtol=1e-9)
+
+    def test_results_are_read_without_the_file(self):
+        study = self.study(TWINS)
+        out = self.run_study(study, "a.h5")
+        first = self.program("report", out).stdout
+        (self.folder / "own.py").unlink()
+        self.assertEqual(self.program("report", out).stdout, first)
+        self.program("report", out, "--json", self.folder / "a.json")
+        examples = json.loads((self.folder / "a.json").read_text())["examples"]["gearboxes"]
+        self.assertEqual([one["same_bits"] for one in examples], [True, True])
+        self.program("compare", out, out)
+        self.program("run", study, code=2)
+        self.assertIn("own.py: cannot be read: No such file or directory", self.output)
+        with h5py.File(out) as file:
+            self.assertIn(hashlib.sha256(TWINS.encode()).hexdigest(), str(file.attrs["study"]))
+
+    def test_reading_results_runs_no_code(self):
+        study = self.study(TWINS)
+        out = self.run_study(study, "a.h5", "--instances", "7")
+        self.write("evil.py", f"open({str(self.folder / 'was-run')!r}, 'w')\n" + TWINS)
+        with h5py.File(out, "r+") as file:
+            stored = file.attrs["study"]
+            stored = stored if isinstance(stored, str) else stored.decode()
+            file.attrs["study"] = re.sub(r"python = \[\n.*?\n\]",
+                                         f'python = ["{self.folder}/evil.py"]', stored, flags=re.S)
+        self.program("repair", out)
+        self.program("report", out, "--json", self.folder / "a.json")
+        self.program("misses", out, "--feature", "rms", "--size", 3, code=2)
+        self.assertFalse((self.folder / "was-run").exists())
+
+    def test_a_changed_file_does_not_continue_a_run(self):
+        study = self.study(TWINS)
+        self.run_study(study, "a.h5", "--instances", "7")
+        self.write("own.py", TWINS + "\n# changed\n")
+        self.program("run", study, "--resume", "--out", self.folder / "a.h5", code=2)
+        self.assertIn("sha256", self.output)
+        self.program("simulate", self.folder / "a.h5", "--instance", 0, "--out", "-", code=2)
+
+    def test_an_exception_names_gearbox_file_and_line_and_loses_nothing(self):
+        source = ("import numpy as np\ncalls = [0]\ndef fragile(record):\n"
+                  "    if record.torque_Nm > 440 and record.noise_level:\n"
+                  "        raise ValueError('torque\\nis high')\n"
+                  "    return record.torque_Nm\n")
+        out = self.run_study(self.study(source), "a.h5")
+        self.assertRegex(self.output, r"own\.py:5: ValueError: torque is high \(fragile, "
+                                      r"(healthy|graded) gearbox \d+, row \d+ of the results, "
+                                      r"noise x 1\)")
+        self.assertEqual(self.output.count("ValueError"), 1)
+        values = self.values(out)["fragile"]
+        with h5py.File(out) as file:
+            torque = next(values[:] for name, values in file["instances"].items()
+                          if "torque" in name)
+        np.testing.assert_allclose(values[:, 0], torque)
+        np.testing.assert_array_equal(np.isnan(values[:, 1]), torque > 440)
+        self.program("report", out, "--json", self.folder / "a.json")
+        counted = json.loads((self.folder / "a.json").read_text())["failures"]["no_value"]
+        self.assertEqual({one["name"]: one["gearboxes"] for one in counted}["fragile"],
+                         [0, int((torque > 440).sum())])
+
+    def test_returns_that_are_no_numbers_are_reported(self):
+        for returned, message in (("1j", "returned 1j, not a real number"),
+                                  ("None", "returned None, not a real number"),
+                                  ("'a' * 10**6", "returned 'aaaa"),
+                                  ("record.te", "returned an array of shape"),
+                                  ("[1.0]", "returned [1.0], not a real number"),
+                                  ("exit(3)", "SystemExit: 3"),
+                                  ("f(record)", "RecursionError"),
+                                  ("record.sensor.__isub__(1)", "read-only")):
+            study = self.study(f"def f(record):\n    return {returned}\n")
+            out = self.run_study(study, "a.h5", "--force")
+            self.assertIn("own.py:", self.output)
+            self.assertIn(message, self.output)
+            self.assertTrue(np.isnan(self.values(out)["f"]).all())
+        study = self.study("def f(record):\n    return [1.0]\nf.batch = True\n")
+        self.run_study(study, "a.h5", "--force")
+        self.assertIn("own.py:1: TypeError: returned an array of shape (1,)", self.output)
+        study = self.study("import numpy as np\ndef f(record):\n    return np.float32('inf')\n")
+        out = self.run_study(study, "a.h5", "--force")
+        self.assertTrue(np.isnan(self.values(out)["f"]).all())
+
+    def test_bad_files_are_refused_before_anything_is_computed(self):
+        for source, message in (
+                ("def f(record)\n    return 1\n", "own.py:1: SyntaxError: expected ':'"),
+                ("import numpy\nimport not_there\n", "own.py:2: ModuleNotFoundError"),
+                ("def f(signal):\n    return 1\n", "own.py: has no feature"),
+                ("def sensor_rms(record):\n    return 1\n",
+                 '"sensor_rms" is a feature of the program; rename the function'),
+                ("def f(record, other):\n    return 1\n", "own.py:1: f: unknown parameter other"),
+                ("def f(record):\n    return 1\nf.alarm = 'left'\n", "alarm = 'left'"),
+                ("def f(record):\n    return 1\nf.unit = 3\n", "unit = 3, but it is a line of text"),
+                ("def \u00fc(record):\n    return 1\n", "only ASCII letters"),
+                ("raise SystemExit(0)\n", "own.py:1: SystemExit: 0"),
+                ("import os\nos._exit(5)\n", "ended with exit code 5"),
+                ("import os\nos.kill(os.getpid(), 11)\n", "was ended by signal 11"),
+                ("\0", "own.py")):
+            study = self.study(source)
+            for command in ("describe", "run"):
+                self.program(command, study, code=2)
+                self.assertIn(message, self.output)
+                self.assertRegex(self.output, r"study\.toml:\d+: features\.python: ")
+            self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["own.py", "study.toml"])
+        for files, message in (('["own.py", "own.py"]', "is also in"),
+                               ('"own.py"', "must be a list of Python files"),
+                               ("[1]", "must be a list of files, but contains an integer"),
+                               ("[{ name = 'f' }]", "a table needs name, file and sha256"),
+                               ('["none.py", "."]', "none.py: cannot be read")):
+            study = self.study("def f(record):\n    return 1\n", files=files)
+            self.program("run", study, code=2)
+            self.assertIn(message, self.output)
+        self.program("describe", self.study(TWINS), code=2, GEARPOD_PYTHON="/no/python")
+        self.assertIn("/no/python: cannot be started", self.output)
+
+    def test_output_cannot_disturb_the_protocol(self):
+        source = ("import os, sys\ndef f(record):\n"
+                  "    print('x' * 100000)\n    sys.stdout.write('y' * 100000)\n"
+                  "    os.write(1, b'z' * 100000)\n    sys.stdin.read()\n    return 2.5\n")
+        out = self.run_study(self.study(source), "a.h5")
+        self.assertTrue((self.values(out)["f"] == 2.5).all())
+
+    def start(self, study):
+        self.errors = open(self.folder / "errors", "w+", encoding="utf-8")
+        self.addCleanup(self.errors.close)
+        process = subprocess.Popen([PROGRAM, "run", study, "--out", self.folder / "a.h5", "--set",
+                                    "numerics.threads=1"], stderr=self.errors,
+                                   stdout=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        marks = []
+        end = time.monotonic() + 120
+        while not marks and time.monotonic() < end:
+            marks = list(self.folder.glob("hangs-*"))
+            time.sleep(0.05)
+        self.assertTrue(marks)
+        return process, int(marks[0].name.split("-")[1])
+
+    HANGS = ("import os, pathlib, time\ndef f(record):\n"
+             "    (pathlib.Path(__file__).parent / f'hangs-{os.getpid()}').touch()\n"
+             "    while True:\n        time.sleep(1)\n")
+
+    def messages(self):
+        self.errors.seek(0)
+        return " ".join(self.errors.read().split())
+
+    def is_gone(self, pid):
+        for _ in range(100):
+            try:
+                os.kill(pid, 0)
+            except ProcessLookupError:
+                return True
+            time.sleep(0.05)
+        return False
+
+    def test_a_feature_that_hangs_is_stopped(self):
+        process, pid = self.start(self.study(self.HANGS))
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+            os.kill(pid, number)  # as batch queues and terminals do
+        time.sleep(0.3)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 4)
+        self.assertTrue(self.is_gone(pid))
+        self.assertIn("continue with --resume", self.messages())
+
+    def test_a_worker_that_is_killed_is_an_error(self):
+        process, pid = self.start(self.study(self.HANGS))
+        os.kill(pid, signal.SIGKILL)
+        self.assertEqual(process.wait(60), 4)
+        self.assertRegex(self.messages(), r"gearbox \d+, row \d+ of the results: the Python "
+                                          r"process was ended by signal 9")
+
+    def test_a_worker_ends_with_the_program(self):
+        process, pid = self.start(self.study(self.HANGS))
+        process.kill()
+        process.wait(60)
+        self.assertTrue(self.is_gone(pid))
+
+    def test_describe_lists_features_and_is_not_stopped_by_one_that_hangs(self):
+        self.program("describe", self.study(TWINS))
+        self.assertIn("features in Python", self.output)
+        self.assertIn("level in Python; unit m/s^2, high values alarm", self.output)
+        self.program("describe", self.study(self.HANGS), "--seconds", "2")
+        self.assertIn("omitted", self.output)
+
+    def test_recordings_have_the_features(self):
+        study = self.study(TWINS, use='["sensor_rms"]')
+        record = self.folder / "record.h5"
+        self.program("simulate", study, "--instance", 20, "--meshes", 2511, "--out", record)
+        self.program("features", record, "--study", study, "--json", self.folder / "f.json")
+        found = json.loads((self.folder / "f.json").read_text())["features"]
+        for own, built_in in PAIRS.items():
+            self.assertAlmostEqual(found[own] / found[built_in], 1.0, places=9)
+        self.write("own.py", "def broken(record):\n    return 1 / 0\n")
+        self.program("features", record, "--study", study, "--json", self.folder / "f.json")
+        self.assertIn("own.py:2: ZeroDivisionError",
+                      json.loads((self.folder / "f.json").read_text())["unavailable"]["broken"])
+        table = self.folder / "f.csv"
+        self.program("features", record, record, "--study", study, "--csv", table)
+        self.assertIn("broken: " + str(self.folder / "own.py") + ":2: ZeroDivisionError", self.output)
+
+    def test_lives_refuse_what_they_cannot_compute(self):
+        life = {"interval_h": 5, "first_depth_mm": 1, "last_depth_mm": 4, "depth_steps": 2,
+                "paris_factor": 5e-7, "paris_exponent": 2.25, "records": 40, "healthy_lives": 2}
+        options = [f"life.{key}={value}" for key, value in life.items()]
+        self.program("lives", self.study(TWINS, use='["sensor_rms"]'), "--set", *options,
+                     "--set", "sensor.noise_levels=[1]", code=2)
+        self.assertIn('"rms" needs samples', self.output)
+
+    def test_sweeps_and_watching(self):
+        study = self.study(TWINS)
+        self.program("sweep", study, "--vary", "sensor.noise_m_s2=[1,2]", "--out", self.folder / "s",
+                     "--instances", "7")
+        self.program("run", study, "--watch", "ratio", "--out", self.folder / "w.h5")
+        self.program("run", study, "--watch", "none", "--out", self.folder / "w.h5", code=2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
