@@ -200,7 +200,9 @@ class OwnFeatures(unittest.TestCase):
         self.write("own.py", TWINS + "\n# changed\n")
         self.program("run", study, "--resume", "--out", self.folder / "a.h5", code=2)
         self.assertIn("sha256", self.output)
-        self.program("simulate", self.folder / "a.h5", "--instance", 0, "--out", "-", code=2)
+        self.program("misses", self.folder / "a.h5", "--feature", "rms", "--size", 3, "--gearboxes",
+                     8, "--records", 16, code=2)
+        self.assertIn("own.py: has changed since the study was read", self.output)
 
     def test_an_exception_names_gearbox_file_and_line_and_loses_nothing(self):
         source = ("import numpy as np\ncalls = [0]\ndef fragile(record):\n"
@@ -255,6 +257,8 @@ class OwnFeatures(unittest.TestCase):
                 ("def f(record):\n    return 1\nf.alarm = 'left'\n", "alarm = 'left'"),
                 ("def f(record):\n    return 1\nf.unit = 3\n", "unit = 3, but it is a line of text"),
                 ("def \u00fc(record):\n    return 1\n", "only ASCII letters"),
+                ("def feature(record):\n    return 1\ndef own(record):\n    return 2\n",
+                 "own.py:3: own: the file has another feature of this name"),
                 ("raise SystemExit(0)\n", "own.py:1: SystemExit: 0"),
                 ("import os\nos._exit(5)\n", "ended with exit code 5"),
                 ("import os\nos.kill(os.getpid(), 11)\n", "was ended by signal 11"),

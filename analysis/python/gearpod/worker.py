@@ -211,6 +211,8 @@ def load(path, expected):
             continue
         if next(iter(inspect.signature(value).parameters), None) == "record":
             function = Function(name, code, value, path)
+            if function.name in functions:
+                function.refuse("the file has another feature of this name")
             functions[function.name] = function
     if not functions:
         raise Refused(f"{path}: has no feature: no public function whose first parameter is record")
