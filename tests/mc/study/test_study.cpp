@@ -271,6 +271,7 @@ TEST_CASE("The resolved text contains every key that may be given") {
                                                         "until",
                                                         "pin_",
                                                         "_factors",
+                                                        "python",
                                                         "index_um",
                                                         "quality"};
     for (const Key& key : schema()) {
