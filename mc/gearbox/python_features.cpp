@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "mc/files/python/python_worker.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
@@ -103,17 +104,16 @@ std::vector<double> PythonFeatures::compute(const std::string& work) {
         worker.require(one.file, one.sha256);
         functions.push_back({one.file, std::string(one.feature->name)});
     }
-    PythonWorker::Reply reply = worker.ask(
+    nlohmann::json reply;
+    std::vector<double> values = worker.ask(
         {{"features", functions}, {"levels", request->levels}, {"records", request->records}},
-        values_, work);
+        values_, work, reply);
     problems_.clear();
-    const nlohmann::json json = nlohmann::json::parse(reply.json);
-    for (const auto& error : json.at("errors")) {
+    for (const auto& error : reply.at("errors")) {
         problems_.push_back({error.at(0), error.at(1), error.at(2), error.at(3)});
     }
-    reply.values.resize(used_.size() * request->levels.size(),
-                        std::numeric_limits<double>::quiet_NaN());
-    return reply.values;
+    values.resize(used_.size() * request->levels.size(), std::numeric_limits<double>::quiet_NaN());
+    return values;
 }
 
 void print_python_problems(const std::vector<PythonProblem>& problems, const std::string& work) {

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "features/feature.hpp"
-#include "mc/files/python/python_worker.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {

@@ -73,8 +73,7 @@ std::string repeat_text(EvidenceKind kind) {
             return simulated("lives");
         case EvidenceKind::recordings:
             return "The file study.toml of this folder states how the recordings were evaluated; "
-                   "it "
-                   "follows this table.";
+                   "it follows this table.";
         case EvidenceKind::inspections:
             break;
     }

@@ -187,7 +187,7 @@ class Examples {
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
-        // Those in Python are not computed again.
+        // Features in Python keep their stored values.
         for (std::size_t f = 0; f < shape.features; ++f) {
             const features::Feature* known = find_feature(scene_.study(), frame_.features[f].name);
             if (known != nullptr && known->external) {

@@ -172,9 +172,8 @@ double GappedMesh::slice_gap(int slice, double tau) const {
 }
 
 double GappedMesh::slice_flank_position(int slice, double tau) const {
-    if (helical())
-        return helical_slices_->flank_position(slice, tau);
-    return std::clamp((tau - path_begin()) / spur_.contact_ratio(), 0.0, 1.0) - 0.5;
+    return helical() ? helical_slices_->flank_position(slice, tau)
+                     : gap_.flank_position(tau - path_begin());
 }
 
 double GappedMesh::slice_on_path(int slice, double tau) const {

@@ -82,13 +82,13 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
       place_(integral_of(curve, points, [this](double at) { return place_at(at); })) {
     const auto own_gap = [this](double at) { return gap_at(at); };
     const double closest = closest_position(own_gap, ratio_);
-    approach_ = force_N > 0
-                    ? mean_approach(curve, own_gap, ratio_, gap_.flanks.crowning_m(), force_N)
+    const double approach =
+        force_N > 0 ? mean_approach(curve, own_gap, ratio_, gap_.flanks.crowning_m(), force_N)
                     : std::numeric_limits<double>::infinity();
     Positions inner{closest, closest};
     for (const double cut : kCuts) {
-        const Positions within{reaches(cut * approach_, closest, 0),
-                               reaches(cut * approach_, closest, ratio_)};
+        const Positions within{reaches(cut * approach, closest, 0),
+                               reaches(cut * approach, closest, ratio_)};
         if (slices_.empty()) {
             for (int i = 0; i < across; ++i)
                 add_slice(within, {static_cast<double>(i) / across, (i + 1.0) / across});
@@ -107,8 +107,7 @@ double HelicalSlices::gap_at(double position) const {
 }
 
 double HelicalSlices::place_at(double position) const {
-    const double ratio = gap_.extension.contact_ratio();
-    return std::clamp((position - gap_.extension.reach().before) / ratio, 0.0, 1.0) - 0.5;
+    return gap_.flank_position(position - gap_.extension.reach().before);
 }
 
 double HelicalSlices::reaches(double gap_m, double closest, double end) const {

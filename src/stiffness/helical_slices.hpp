@@ -31,8 +31,6 @@ class HelicalSlices {
                   const PairGap& gap, double overlap_ratio, int across, double force_N);
 
     int count() const { return static_cast<int>(slices_.size()); }
-    // Nominal approach d0 of the gears, averaged over a mesh period, m. Infinite without a force.
-    double approach_m() const { return approach_; }
     // Stiffness, N/m, and gap, m, of a slice. Positions tau count from the start of the engagement.
     double stiffness(int slice, double tau) const;
     double gap(int slice, double tau) const;
@@ -68,7 +66,6 @@ class HelicalSlices {
 
     PairGap gap_;
     double ratio_, overlap_;
-    double approach_ = 0;
     std::vector<Slice> slices_;
     std::array<RunningIntegral, 3> stiffness_;  // of the stiffness times position^0, 1, 2
     RunningIntegral force_, place_;  // of the stiffness times gap, and times flank position

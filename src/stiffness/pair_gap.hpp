@@ -32,6 +32,11 @@ struct PairGap {
     PathExtension extension;
     ExtendedPairs::Change joins = {}, leaves = {};
 
+    // Position on the flank: -1/2 up to the start of the nominal path, 1/2 from its end on. `at`:
+    // mesh periods from the start of the path.
+    double flank_position(double at) const {
+        return std::clamp(at / extension.contact_ratio(), 0.0, 1.0) - 0.5;
+    }
     // Gap, m, at a position from the start of the nominal path, mesh periods; `crown`: gap by
     // crowning, m.
     double operator()(double at, double crown) const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "analysis/detection/alarm.hpp"
@@ -104,8 +105,11 @@ const std::array<EvidenceSubject, 8>& evidence_subjects() {
     return all;
 }
 
-bool belongs(const std::string& key, const EvidenceSubject& subject) {
-    return std::any_of(subject.keys.begin(), subject.keys.end(), [&](std::string_view one) {
+// Keys as in EvidenceSubject::keys.
+using Keys = std::span<const std::string_view>;
+
+bool belongs(const std::string& key, Keys keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](std::string_view one) {
         return one.ends_with('.') ? key.starts_with(one) : key == one;
     });
 }
@@ -118,9 +122,14 @@ const std::string& key_of(const Block& block) {
 std::size_t subject_of_finding(const std::string& key) {
     const auto& all = evidence_subjects();
     const auto found = std::find_if(all.begin(), all.end(), [&](const EvidenceSubject& subject) {
-        return belongs(key, subject);
+        return belongs(key, subject.keys);
     });
     return found == all.end() ? all.size() - 1 : static_cast<std::size_t>(found - all.begin());
+}
+
+bool has_finding(const Section& section, Keys keys) {
+    return std::any_of(section.blocks.begin(), section.blocks.end(),
+                       [&](const Block& block) { return belongs(key_of(block), keys); });
 }
 
 Table indicator_table(const std::vector<std::string>& names) {
@@ -160,42 +169,35 @@ const char* evidence_rows(EvidenceKind kind) {
 
 // Rule by which thresholds follow from healthy values; "" without such thresholds.
 std::string threshold_rule(const EvidenceSource& source, const Report& sorted) {
-    const auto has = [&](std::string_view beginning) {
-        return std::any_of(
-            sorted.sections.begin(), sorted.sections.end(), [&](const Section& section) {
-                return std::any_of(
-                    section.blocks.begin(), section.blocks.end(),
-                    [&](const Block& block) { return key_of(block).starts_with(beginning); });
-            });
+    const auto has = [&](std::initializer_list<std::string_view> keys) {
+        return std::any_of(sorted.sections.begin(), sorted.sections.end(),
+                           [&](const Section& section) { return has_finding(section, keys); });
     };
-    if (source.kind == EvidenceKind::inspections || !has("thresholds.")) {
+    if (source.kind == EvidenceKind::inspections || !has({"thresholds."})) {
         return "";
     }
-    return "A threshold is the order statistic of rank r = ceil((n + 1)(1 - q)) of n healthy "
-           "values, "
-           "in the order of the alarm side, for the false-alarm rate q. Its rate has the Beta(n + "
-           "1 "
-           "- r, r) distribution (Wilks 1941), from which its interval follows; values of one "
-           "gearbox count with their effective number." +
-           std::string(has("tails") ? " Where the sample is too small for the rate, a generalised "
-                                      "Pareto distribution of its most extreme values extrapolates "
-                                      "it."
-                                    : "");
+    const std::string_view tail =
+        " Where the sample is too small for the rate, a generalised Pareto distribution of its "
+        "most "
+        "extreme values extrapolates it.";
+    return fmt::format(
+        "A threshold is the order statistic of rank r = ceil((n + 1)(1 - q)) of n healthy values, "
+        "in "
+        "the order of the alarm side, for the false-alarm rate q. Its rate has the Beta(n + 1 - r, "
+        "r) distribution (Wilks 1941), from which its interval follows; values of one gearbox "
+        "count "
+        "with their effective number.{}",
+        has({"tails"}) ? tail : "");
 }
 
-// What the results do not provide under each subject, by its key.
+// Evidence that the results do not provide under each subject, by its key.
 std::map<std::string, std::vector<std::string>> absent_evidence(const EvidenceSource& source,
                                                                 const Report& sorted) {
     const auto has = [&](std::string_view subject, std::initializer_list<std::string_view> keys) {
-        for (const Section& section : sorted.sections) {
-            for (const Block& block : section.blocks) {
-                const EvidenceSubject requested{"", "", "", "", keys};
-                if (section.key == subject && belongs(key_of(block), requested)) {
-                    return true;
-                }
-            }
-        }
-        return false;
+        return std::any_of(sorted.sections.begin(), sorted.sections.end(),
+                           [&](const Section& section) {
+                               return section.key == subject && has_finding(section, keys);
+                           });
     };
     const bool simulated =
         source.kind == EvidenceKind::gearboxes || source.kind == EvidenceKind::lives;

@@ -95,8 +95,8 @@ PythonWorker::PythonWorker() {
     }
 }
 
-PythonWorker::Reply PythonWorker::ask(const nlohmann::json& request, std::span<const double> values,
-                                      const std::string& work) {
+std::vector<double> PythonWorker::ask(const nlohmann::json& request, std::span<const double> values,
+                                      const std::string& work, nlohmann::json& reply) {
     std::string message = request.dump();
     message.append(sizeof(double) - 1 - message.size() % sizeof(double), ' ');
     message += '\n';  // the doubles are aligned
@@ -108,19 +108,16 @@ PythonWorker::Reply PythonWorker::ask(const nlohmann::json& request, std::span<c
     if (!receive_framed(here_.get(), bytes, -1)) {
         report_end(work);
     }
-    Reply reply;
     const std::size_t line = bytes.find('\n');
-    reply.json = bytes.substr(0, line);
-    reply.values.resize((bytes.size() - line - 1) / sizeof(double));
-    if (!reply.values.empty()) {
-        std::memcpy(reply.values.data(), bytes.data() + line + 1,
-                    reply.values.size() * sizeof(double));
-    }
-    const auto json = nlohmann::json::parse(reply.json);
-    if (const auto refused = json.find("refused"); refused != json.end()) {
+    reply = nlohmann::json::parse(bytes.substr(0, line));
+    if (const auto refused = reply.find("refused"); refused != reply.end()) {
         throw PythonError(refused->get<std::string>());
     }
-    return reply;
+    std::vector<double> received((bytes.size() - line - 1) / sizeof(double));
+    if (!received.empty()) {
+        std::memcpy(received.data(), bytes.data() + line + 1, received.size() * sizeof(double));
+    }
+    return received;
 }
 
 void PythonWorker::wait_for_reply(const std::string& work) {
@@ -205,8 +202,8 @@ void PythonWorker::require(const std::string& path, const std::string& sha256) {
 }
 
 PythonFile PythonWorker::load(const std::string& path, const std::string& sha256) {
-    const auto json =
-        nlohmann::json::parse(ask({{"file", path}, {"sha256", sha256}}, {}, path).json);
+    nlohmann::json json;
+    ask({{"file", path}, {"sha256", sha256}}, {}, path, json);
     PythonFile file{json.at("sha256"), {}};
     for (const auto& one : json.at("functions")) {
         file.functions.push_back({one.at("name"), one.at("title"), one.at("unit"), one.at("alarm"),

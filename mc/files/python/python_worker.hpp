@@ -43,21 +43,17 @@ class PythonWorker {
     PythonWorker& operator=(const PythonWorker&) = delete;
     ~PythonWorker() { end(); }
 
-    struct Reply {
-        std::string json;
-        std::vector<double> values;
-    };
     // Runs the file at this absolute path and returns its features. Throws PythonError if the file
     // cannot be used.
     PythonFile load(const std::string& path);
     // Runs the file unless this was done before. Throws PythonError if its hash differs.
     void require(const std::string& path, const std::string& sha256);
 
-    // Sends a request and waits for its reply. `work` says in messages what is computed. Throws
-    // PythonError if the worker refuses the request or ends. Throws machine::Cancelled if
-    // computations are cancelled; the object is then unusable.
-    Reply ask(const nlohmann::json& request, std::span<const double> values,
-              const std::string& work);
+    // Sends a request, waits for its reply and returns the reply's values. `work` says in messages
+    // what is computed. Throws PythonError if the worker refuses the request or ends. Throws
+    // machine::Cancelled if computations are cancelled; the object is then unusable.
+    std::vector<double> ask(const nlohmann::json& request, std::span<const double> values,
+                            const std::string& work, nlohmann::json& reply);
 
   private:
     PythonFile load(const std::string& path, const std::string& sha256);
