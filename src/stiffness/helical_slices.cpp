@@ -14,8 +14,9 @@ constexpr double kSliceTolerance = 1e-10;  // fraction of the largest stiffness 
 constexpr int kPositions = 2000;           // at which an engagement is sampled
 constexpr int kContactHalvings = 50;       // of the interval in which a gap is reached
 constexpr double kShortestSlice = 1e-9;    // mesh periods
-// Gaps at which the engagement is cut, in nominal approaches.
-constexpr double kCuts[] = {0.25, 0.6, 1.0, 1.6};
+// Gaps at which the engagement is cut, in nominal approaches. Teeth with index errors of half the
+// nominal approach use all of them.
+constexpr double kCuts[] = {0.2, 0.45, 0.75, 1.0, 1.35, 1.8, 2.4, 3.2};
 
 using Factor = std::function<double(double)>;
 
@@ -86,20 +87,21 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
         force_N > 0 ? mean_approach(curve, own_gap, ratio_, gap_.flanks.crowning_m(), force_N)
                     : std::numeric_limits<double>::infinity();
     Positions inner{closest, closest};
+    const auto add_around = [&](const Positions& within) {
+        add_slice({{{within.begin, inner.begin}, {inner.end, within.end}}}, {});
+    };
     for (const double cut : kCuts) {
         const Positions within{reaches(cut * approach, closest, 0),
                                reaches(cut * approach, closest, ratio_)};
         if (slices_.empty()) {
             for (int i = 0; i < across; ++i)
-                add_slice(within, {static_cast<double>(i) / across, (i + 1.0) / across});
+                add_slice({{within, {}}}, {static_cast<double>(i) / across, (i + 1.0) / across});
         } else {
-            add_slice({within.begin, inner.begin}, {});
-            add_slice({inner.end, within.end}, {});
+            add_around(within);
         }
         inner = within;
     }
-    add_slice({0, inner.begin}, {});
-    add_slice({inner.end, ratio_}, {});
+    add_around({0, ratio_});
 }
 
 double HelicalSlices::gap_at(double position) const {
@@ -120,36 +122,43 @@ double HelicalSlices::reaches(double gap_m, double closest, double end) const {
     return closest;
 }
 
-void HelicalSlices::add_slice(const Positions& engaged, const FaceRange& face) {
-    if (engaged.length() < kShortestSlice)
-        return;
+void HelicalSlices::add_slice(const std::array<Positions, 2>& engaged, const FaceRange& face) {
     Slice slice{engaged, face, std::numeric_limits<double>::infinity(), 0};
-    for (int i = 0; i <= kPositions; ++i) {
-        const double own = gap_at(engaged.begin + engaged.length() * i / kPositions);
-        slice.least_gap = std::min(slice.least_gap, own);
-        slice.largest_gap = std::max(slice.largest_gap, own);
+    for (const Positions& own : engaged) {
+        if (own.length() < kShortestSlice)
+            continue;
+        for (int i = 0; i <= kPositions; ++i) {
+            const double gap = gap_at(own.begin + own.length() * i / kPositions);
+            slice.least_gap = std::min(slice.least_gap, gap);
+            slice.largest_gap = std::max(slice.largest_gap, gap);
+        }
     }
-    slices_.push_back(slice);
+    if (slice.least_gap <= slice.largest_gap)
+        slices_.push_back(slice);
 }
 
-HelicalSlices::Positions HelicalSlices::covered(int slice, double tau,
-                                                const FaceRange& part) const {
-    const Slice& own = slices_[static_cast<std::size_t>(slice)];
-    const double first = std::max(own.face.begin, part.begin);
-    const double last = std::min(own.face.end, part.end);
-    return {std::max(own.engaged.begin, tau - overlap_ * last),
-            std::min(own.engaged.end, tau - overlap_ * first)};
+HelicalSlices::Positions HelicalSlices::covered(const Slice& slice, const Positions& engaged,
+                                                double tau, const FaceRange& part) const {
+    const double first = std::max(slice.face.begin, part.begin);
+    const double last = std::min(slice.face.end, part.end);
+    return {std::max(engaged.begin, tau - overlap_ * last),
+            std::min(engaged.end, tau - overlap_ * first)};
 }
 
 double HelicalSlices::mean(const RunningIntegral& integral, int slice, double tau,
                            const FaceRange& part) const {
-    const Positions own = covered(slice, tau, part);
-    if (own.length() < kShortestSlice)
-        return 0;
-    const double ends[] = {own.begin, own.end};
-    double values[2];
-    integral(ends, values);
-    return (values[1] - values[0]) / (overlap_ * (part.end - part.begin));
+    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    double sum = 0;
+    for (const Positions& engaged : own.engaged) {
+        const Positions contact = covered(own, engaged, tau, part);
+        if (contact.length() < kShortestSlice)
+            continue;
+        const double ends[] = {contact.begin, contact.end};
+        double values[2];
+        integral(ends, values);
+        sum += values[1] - values[0];
+    }
+    return sum / (overlap_ * (part.end - part.begin));
 }
 
 double HelicalSlices::stiffness(int slice, double tau) const {
@@ -174,24 +183,33 @@ double HelicalSlices::gap(int slice, double tau) const {
 }
 
 double HelicalSlices::flank_position(int slice, double tau) const {
-    const Positions& all = slices_[static_cast<std::size_t>(slice)].engaged;
-    const double k = stiffness(slice, tau), least = place_at(all.begin), most = place_at(all.end);
+    const auto& engaged = slices_[static_cast<std::size_t>(slice)].engaged;
+    const double k = stiffness(slice, tau);
+    const double least = place_at(engaged[0].begin);
+    const double most = place_at(std::max(engaged[0].end, engaged[1].end));
     return k > 0 ? std::clamp(mean(place_, slice, tau, {}) / k, least, most) : 0.5 * (least + most);
 }
 
 double HelicalSlices::on_path(int slice, double tau) const {
-    const Positions own = covered(slice, tau, {});
+    const Slice& own = slices_[static_cast<std::size_t>(slice)];
     const double begin = gap_.extension.reach().before;
     const double end = begin + gap_.extension.contact_ratio();
-    return std::max(0.0, std::min(own.end, end) - std::max(own.begin, begin)) / overlap_;
+    double sum = 0;
+    for (const Positions& engaged : own.engaged) {
+        const Positions contact = covered(own, engaged, tau, {});
+        sum += std::max(0.0, std::min(contact.end, end) - std::max(contact.begin, begin));
+    }
+    return sum / overlap_;
 }
 
 std::vector<double> HelicalSlices::changes() const {
     std::vector<double> phases;
     for (const Slice& slice : slices_)
-        for (const double end : {slice.engaged.begin, slice.engaged.end})
-            for (const double face : {slice.face.begin, slice.face.end})
-                phases.push_back(end + overlap_ * face);
+        for (const Positions& engaged : slice.engaged)
+            if (engaged.length() >= kShortestSlice)
+                for (const double end : {engaged.begin, engaged.end})
+                    for (const double face : {slice.face.begin, slice.face.end})
+                        phases.push_back(end + overlap_ * face);
     return phases;
 }
 

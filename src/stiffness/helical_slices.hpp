@@ -5,10 +5,11 @@
 //
 //     k = integral of k_spur, k e = integral of k_spur e_spur, both divided by e_b.
 //
-// Most of the engagement has small gaps and is one part. One cut is at d0, so that the force and
-// its derivative are exact at d0. Parts depend on the engagement, not on the face, because parts of
-// the face would touch one after the other and add one wave each to the transmission error. Only
-// the part with small gaps of crowned teeth is also divided across the face.
+// Most of the engagement has small gaps and is one part. A part with larger gaps lies on both sides
+// of it. One cut is at d0, so that the force and its derivative are exact at d0. Parts depend on
+// the engagement, not on the face, because parts of the face would touch one after the other and
+// add one wave each to the transmission error. Only the part with small gaps of crowned teeth is
+// also divided across the face.
 #pragma once
 
 #include <array>
@@ -53,16 +54,17 @@ class HelicalSlices {
         double length() const { return end - begin; }
     };
     struct Slice {
-        Positions engaged;
+        std::array<Positions, 2> engaged;  // the second one is empty in the part with small gaps
         FaceRange face;
         double least_gap = 0, largest_gap = 0;  // without crowning, m
     };
-    Positions covered(int slice, double tau, const FaceRange& part) const;
+    Positions covered(const Slice& slice, const Positions& engaged, double tau,
+                      const FaceRange& part) const;
     double gap_at(double position) const;
     double place_at(double position) const;
     // Position at which the gap reaches `gap_m`, between one with a smaller gap and an end.
     double reaches(double gap_m, double closest, double end) const;
-    void add_slice(const Positions& engaged, const FaceRange& face);
+    void add_slice(const std::array<Positions, 2>& engaged, const FaceRange& face);
 
     PairGap gap_;
     double ratio_, overlap_;

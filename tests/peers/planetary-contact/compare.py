@@ -4,7 +4,7 @@ deflections, mesh forces and shares of time out of contact.
 
 Usage: compare.py GEARPOD [CASE ...] [--onset abrupt|extended] [--slices N] [--set key=value ...]
 
---slices: slices of helical teeth in planetary.py (the case has 64)."""
+--slices: slices of helical teeth in planetary.py (the case has 256)."""
 import argparse
 import json
 import pathlib

@@ -48,5 +48,5 @@ def case(name, title, teeth, planets, module, width, torque, errors_um, seed, sp
 case("relief", "23/29/81 with relief, index errors and pin errors", [23, 29, 81], 3, 3.175, 38.1, 600.0, 4.0, 1,
      tip_relief_um=[8, 8, 6], tip_relief_length_mm=[2.4, 2.4, 2.4], pin_tangential_um=[15, -10, 0])
 case("helical", "Helical 21/39/99, 8 degrees", [21, 39, 99], 3, 3.0, 40.0, 900.0, 2.0, 2, helix_angle_deg=8.0,
-     slices=64)
+     slices=256)
 case("heavy", "19/31/81 at 3 kN m, small index errors", [19, 31, 81], 4, 3.175, 38.1, 3000.0, 1.2, 3, waves_um=1.0)
