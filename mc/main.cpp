@@ -147,6 +147,10 @@ int run_program(int argc, char** argv) {
     add_study(*accuracy_app, accuracy.study);
     require_file_name(accuracy_app->add_option("--json", accuracy.json,
                                                "write JSON to a file, or - for standard output"));
+    require_file_name(accuracy_app->add_option(
+        "--html", accuracy.html, "write a page with work-precision diagrams to a file"));
+    require_file_name(accuracy_app->add_option(
+        "--figures", accuracy.figures, "write the page's figures into a folder, as SVG and PNG"));
     accuracy_app->add_option("--peers", accuracy.peers,
                              "table (CSV) with results of other programs, for comparison");
     add_number(*accuracy_app, "--repeats", accuracy.repeats,

@@ -1,6 +1,7 @@
 """Writes the page of a report to standard output.
 
-    gearpod report F.h5 --json F.json         (or of gearpod pod, compare, sweep, lives)
+    gearpod report F.h5 --json F.json         (or of gearpod pod, compare, sweep, lives,
+                                                 accuracy)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
 With a final --figures FOLDER the figures are also written there, each as SVG and PNG. With a final
@@ -48,10 +49,12 @@ def page_html(data, figures=None):
     import charts
     from blocks import Page
     from lives import lives_page
-    from pages import comparison_page, inspection_page, lives_sweep_page, sweep_page
+    from pages import (accuracy_page, comparison_page, inspection_page, lives_sweep_page,
+                       sweep_page)
 
     page = Page(figures)
-    command, make = {"inspection": ("pod", inspection_page.parts),
+    command, make = {"accuracy": ("accuracy", accuracy_page.parts),
+                     "inspection": ("pod", inspection_page.parts),
                      "comparison": ("compare", comparison_page.parts),
                      "sweep": ("sweep", sweep_page.parts),
                      "lives-sweep": ("sweep", lives_sweep_page.parts),

@@ -19,10 +19,13 @@ Json number_json(double value) {
 Json errors(const AccuracyReport& report, const PilotError& error) {
     Json all{{"sensor", number_json(error.sensor)},
              {"te", number_json(error.te)},
-             {"worst_feature", number_json(error.largest_feature())}};
+             {"worst_feature", number_json(error.largest_feature())},
+             {"worst_of_scatter", number_json(report.largest_share_of_scatter(error))}};
     for (std::size_t f = 0; f < report.features.size(); ++f) {
         all["features"][report.features[f]] =
             number_json(error.feature(static_cast<int>(f), report.levels()));
+        all["of_scatter"][report.features[f]] =
+            number_json(report.share_of_scatter(error, static_cast<int>(f)));
     }
     return all;
 }
@@ -30,6 +33,8 @@ Json errors(const AccuracyReport& report, const PilotError& error) {
 Json setting_json(const AccuracyReport& report, const SettingResult& r) {
     Json row{{"name", r.setting.text()},
              {"integrator", r.setting.integrator()},
+             {"precision",
+              r.setting.numerics.precision == Precision::single_precision ? "single" : "double"},
              {"overrides", r.setting.overrides()}};
     if (!r.refusal.empty()) {
         row["refused"] = r.refusal;
@@ -89,7 +94,14 @@ Json peer_json(const PeerResult& p) {
 std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     const Reference& r = report.reference;
     const ExplicitLimit& e = report.explicit_limit;
-    Json all{{"title", study.title},
+    const int within = report.fastest_within(kShareOfScatter);
+    Json all{{"kind", "accuracy"},
+             {"title", study.title},
+             {"headline", accuracy_headline(report)},
+             {"share_of_scatter", kShareOfScatter},
+             {"fastest_within_share",
+              within < 0 ? Json(nullptr)
+                         : Json(report.settings[static_cast<std::size_t>(within)].setting.text())},
              {"gearboxes", report.gearboxes},
              {"signal_meshes", report.signal_meshes},
              {"span_meshes", report.span_meshes},

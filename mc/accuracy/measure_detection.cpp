@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/random/philox.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -66,6 +69,26 @@ long pilot_size(const Study& study, const AccuracyRequest& request, const TimeBu
     return some >= kFewestGearboxes ? some : 0;
 }
 
+// Standard deviation of every feature at every noise level over the threshold group.
+std::vector<double> scatter_of(const Results& results) {
+    std::vector<double> all;
+    const std::size_t levels = results.noise_levels.size();
+    for (const FeatureResult& feature : results.features) {
+        for (std::size_t level = 0; level < levels; ++level) {
+            std::vector<double> values;
+            for (std::size_t row = 0; row < results.group.size(); ++row) {
+                const double value = feature.values[row * levels + level];
+                if (results.group[row] == static_cast<int>(Group::threshold) &&
+                    std::isfinite(value)) {
+                    values.push_back(value);
+                }
+            }
+            all.push_back(standard_deviation(values));
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 void measure_detection(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
@@ -81,6 +104,7 @@ void measure_detection(const Study& study, const AccuracyRequest& request, const
     if (!has_rates(reference)) {
         return;
     }
+    report.scatter = scatter_of(reference.results);
     for (const std::size_t place : places) {
         SettingResult& result = report.settings[place];
         request.progress(fmt::format("detection rates with {}", result.setting.text()));

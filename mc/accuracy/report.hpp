@@ -13,6 +13,10 @@
 
 namespace gearpod::mc {
 
+// Largest numerical error, as a share of a feature's scatter between gearboxes, that hardly changes
+// this scatter: by the factor sqrt(1 + 0.2^2) = 1.02.
+inline constexpr double kShareOfScatter = 0.2;
+
 // Message for a setting that was not tried for lack of time.
 inline constexpr const char* kNotTried = "not measured: the time given was used up";
 
@@ -61,6 +65,9 @@ struct PeerResult {
 struct AccuracyReport {
     std::vector<std::string> features;
     std::vector<double> noise_levels;
+    // Standard deviation of the features between healthy gearboxes, in their units: [feature *
+    // noise levels + level]. Empty without a pilot ensemble.
+    std::vector<double> scatter;
     int gearboxes = 0, signal_meshes = 0, span_meshes = 0;
     double mesh_frequency_Hz = 0.0;
     Reference reference;
@@ -73,6 +80,15 @@ struct AccuracyReport {
     std::vector<std::string> left_out;    // omitted for lack of time
 
     int levels() const { return static_cast<int>(noise_levels.size()); }
+    // Error of feature `f` as a share of its scatter, the largest over the noise levels; NaN if
+    // the scatter is unknown or zero.
+    double share_of_scatter(const PilotError& error, int f) const;
+    double largest_share_of_scatter(const PilotError& error) const;
+    // Index of the feature with the largest relative error.
+    int worst_feature(const PilotError& error) const;
+    // Fastest measured setting whose errors are at most `share` of every feature's scatter; -1:
+    // none.
+    int fastest_within(double share) const;
 };
 
 struct AccuracyRequest {
@@ -88,6 +104,9 @@ struct AccuracyRequest {
 // Throws SceneError.
 AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request);
 
+// Time and error of the study's own setting, and the fastest one whose errors are small compared
+// with the features' scatter. Sentences, separated by spaces.
+std::string accuracy_headline(const AccuracyReport& report);
 std::string accuracy_text(const AccuracyReport& report);
 std::string accuracy_json(const AccuracyReport& report, const Study& study);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "mc/accuracy/report.hpp"
 #include "mc/input/wrapped_text.hpp"
@@ -13,19 +14,21 @@ namespace {
 
 using Text = std::back_insert_iterator<std::string>;
 
+constexpr double kNoShare = std::numeric_limits<double>::quiet_NaN();
+
 std::string short_number(double value) {
     return std::isfinite(value) ? fmt::format("{:.1e}", value) : "-";
 }
 
 std::string worst_feature(const AccuracyReport& report, const PilotError& error) {
-    std::size_t worst = 0;
-    for (std::size_t f = 1; f < report.features.size(); ++f) {
-        if (error.feature(static_cast<int>(f), report.levels()) >
-            error.feature(static_cast<int>(worst), report.levels())) {
-            worst = f;
-        }
-    }
-    return report.features[worst];
+    return report.features[static_cast<std::size_t>(report.worst_feature(error))];
+}
+
+// Time of an integration, with a unit that keeps it readable.
+std::string time_text(double seconds) {
+    return seconds < 1e-3 ? fmt::format("{:.3g} us", 1e6 * seconds)
+           : seconds < 1  ? fmt::format("{:.3g} ms", 1e3 * seconds)
+                          : fmt::format("{:.3g} s", seconds);
 }
 
 // Adds indented lines that fit kLineWidth.
@@ -166,15 +169,19 @@ void add_detection(const AccuracyReport& report, Text out) {
     fmt::format_to(out,
                    "\ndetection: the same {} graded gearboxes with the most accurate setting and\n"
                    "with these; largest change over features, sizes and noise levels\n"
-                   "{:>16} {:>22}  {}\n",
-                   first->detection->gearboxes, "alarms changed", "Pd (half width)", "a90");
+                   "error/scatter: largest error of a feature over its standard deviation\n"
+                   "between healthy gearboxes\n"
+                   "{:>16} {:>22} {:>14}  {}\n",
+                   first->detection->gearboxes, "alarms changed", "Pd (half width)",
+                   "error/scatter", "a90");
     for (const SettingResult& r : report.settings) {
         if (!r.detection) {
             continue;
         }
         const DetectionChange& d = *r.detection;
-        fmt::format_to(out, "{}\n{:>14.3f} % {:>22}  {}\n", r.setting.text(), 100.0 * d.alarms,
-                       fmt::format("{:.4f} ({:.3f})", d.pd, d.pd_half_width), sizes_text(d));
+        fmt::format_to(out, "{}\n{:>14.3f} % {:>22} {:>14}  {}\n", r.setting.text(),
+                       100.0 * d.alarms, fmt::format("{:.4f} ({:.3f})", d.pd, d.pd_half_width),
+                       short_number(report.largest_share_of_scatter(r.error)), sizes_text(d));
     }
 }
 
@@ -205,9 +212,82 @@ void add_peers(const AccuracyReport& report, Text out) {
 
 }  // namespace
 
+double AccuracyReport::share_of_scatter(const PilotError& error, int f) const {
+    double largest = kNoShare;
+    for (int level = 0; level < levels(); ++level) {
+        const auto at = static_cast<std::size_t>(f * levels() + level);
+        if (at < scatter.size() && at < error.rms.size() && scatter[at] > 0.0) {
+            largest = std::fmax(largest, error.rms[at] / scatter[at]);
+        }
+    }
+    return largest;
+}
+
+double AccuracyReport::largest_share_of_scatter(const PilotError& error) const {
+    double largest = kNoShare;
+    for (int f = 0; f < static_cast<int>(features.size()); ++f) {
+        largest = std::fmax(largest, share_of_scatter(error, f));
+    }
+    return largest;
+}
+
+int AccuracyReport::worst_feature(const PilotError& error) const {
+    int worst = 0;
+    for (int f = 1; f < static_cast<int>(features.size()); ++f) {
+        if (error.feature(f, levels()) > error.feature(worst, levels())) {
+            worst = f;
+        }
+    }
+    return worst;
+}
+
+int AccuracyReport::fastest_within(double share) const {
+    int fastest = -1;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        const SettingResult& r = settings[i];
+        if (r.refusal.empty() && r.failed == 0.0 && largest_share_of_scatter(r.error) <= share &&
+            (fastest < 0 ||
+             r.integration_s < settings[static_cast<std::size_t>(fastest)].integration_s)) {
+            fastest = static_cast<int>(i);
+        }
+    }
+    return fastest;
+}
+
+std::string accuracy_headline(const AccuracyReport& report) {
+    const SettingResult& own = report.settings[static_cast<std::size_t>(report.own)];
+    if (!own.refusal.empty()) {
+        return fmt::format("The study's own setting, {}, was not measured: {}.", own.setting.text(),
+                           own.refusal);
+    }
+    std::string text = fmt::format(
+        "The study's own setting, {}, takes {} of integration per gearbox; its worst feature, {}, "
+        "has an error of {:.1e} of its value",
+        own.setting.text(), time_text(own.integration_s), worst_feature(report, own.error),
+        own.error.largest_feature());
+    if (report.scatter.empty()) {
+        return text + ". How this compares with the scatter between gearboxes was not measured.";
+    }
+    text += fmt::format(
+        ", and no error exceeds {:.1e} of a feature's scatter between healthy gearboxes.",
+        report.largest_share_of_scatter(own.error));
+    const int fastest = report.fastest_within(kShareOfScatter);
+    if (fastest < 0) {
+        return text + fmt::format(" No measured setting keeps all errors within {:g} of it.",
+                                  kShareOfScatter);
+    }
+    const SettingResult& r = report.settings[static_cast<std::size_t>(fastest)];
+    return text + fmt::format(
+                      " The fastest setting with errors within {:g} of it, which widens the "
+                      "scatter by at most 2 %, is {}: {} of integration.",
+                      kShareOfScatter, r.setting.text(), time_text(r.integration_s));
+}
+
 std::string accuracy_text(const AccuracyReport& report) {
     std::string text;
     Text out(text);
+    add_words(accuracy_headline(report), 0, out);
+    fmt::format_to(out, "\n");
     add_head(report, out);
     add_heading(out);
     for (std::size_t i = 0; i < report.settings.size(); ++i) {

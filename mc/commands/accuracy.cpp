@@ -5,14 +5,18 @@
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 
 int accuracy_command(const AccuracyOptions& options) {
-    const bool writable = can_write({"--json", options.json},
-                                    {{"the study", options.study.path}, {"--peers", options.peers}},
-                                    {json_output(), options.force});
+    std::vector<FileRole> others{{"the study", options.study.path}, {"--peers", options.peers}};
+    const bool json_good =
+        can_write({"--json", options.json}, others, {json_output(), options.force});
+    others.push_back({"--json", options.json});
+    const bool writable =
+        can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
     const auto made = load_scene(options.study);
     if (!made || !writable) {
         return kBadInput;
@@ -43,9 +47,15 @@ int accuracy_command(const AccuracyOptions& options) {
         if (!terminal) {
             fmt::print("{}", accuracy_text(report));
         }
-        return options.json.empty() || write_text_to(options.json, accuracy_json(report, study))
-                   ? kDone
-                   : kBadInput;
+        const std::string json = accuracy_json(report, study);
+        if (!options.json.empty() && !write_text_to(options.json, json)) {
+            return kBadInput;
+        }
+        write_report_page(json, options.html, options.figures);
+        if (!options.html.empty() && !terminal) {
+            fmt::print("\npage: {}\n", options.html);
+        }
+        return kDone;
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
     } catch (const std::exception& error) {

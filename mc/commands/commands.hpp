@@ -139,6 +139,7 @@ int modes_command(const ModesOptions& options);
 struct AccuracyOptions {
     StudyOptions study;
     std::string json;               // "": none; "-": standard output instead of the table
+    std::string html, figures;      // page and folder of its figures; "": none
     std::string peers;              // table of other programs' results, "": none
     int repeats = 3;                // timings of each solver setting
     std::optional<long> gearboxes;  // size of the pilot ensemble; 0: no detection rates

@@ -6,13 +6,11 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/thread_count.hpp"
-#include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
@@ -158,10 +156,7 @@ int compare_command(const CompareOptions& options) {
         if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
             return kBadInput;
         }
-        if (!options.html.empty()) {
-            const std::string page = report_page(json_text(json));
-            write_file(options.html, std::as_bytes(std::span(page)));
-        }
+        write_report_page(json_text(json), options.html, "");
         if (options.json != "-") {
             fmt::print("{}", analysis::report_text(comparison_report(results)));
         }

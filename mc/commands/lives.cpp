@@ -5,7 +5,6 @@
 #include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -75,12 +74,7 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
         if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
             return kBadInput;
         }
-        if (!outputs.html.empty() || !outputs.figures.empty()) {
-            const std::string page = report_page(json_text(json), outputs.figures);
-            if (!outputs.html.empty()) {
-                write_file(outputs.html, std::as_bytes(std::span(page)));
-            }
-        }
+        write_report_page(json_text(json), outputs.html, outputs.figures);
     }
     const std::string withheld = outputs.shows_withheld ? "" : why_withheld(study, campaign);
     if (!outputs.prints_text && !withheld.empty()) {

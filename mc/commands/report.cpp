@@ -80,12 +80,7 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
         const std::string sheet = report_summary(json_text(json));
         write_file(options.pdf, std::as_bytes(std::span(sheet)));
     }
-    if (!options.html.empty() || !options.figures.empty()) {
-        const std::string page = report_page(json_text(json), options.figures);
-        if (!options.html.empty()) {
-            write_file(options.html, std::as_bytes(std::span(page)));
-        }
-    }
+    write_report_page(json_text(json), options.html, options.figures);
     return true;
 }
 

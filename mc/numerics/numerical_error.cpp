@@ -48,18 +48,6 @@ std::vector<GearboxId> spread_gearboxes(const Study& study) {
     return pilot_gearboxes(stride / 2, stride);
 }
 
-double standard_deviation(const std::vector<double>& values) {
-    double sum = 0.0, squares = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    const double n = static_cast<double>(values.size());
-    for (const double value : values) {
-        squares += (value - sum / n) * (value - sum / n);
-    }
-    return n > 1.0 ? std::sqrt(squares / (n - 1.0)) : kNaN;
-}
-
 // Counts of one feature at one noise level over the rows of the results.
 struct Counts {
     std::vector<double> healthy;
@@ -139,6 +127,18 @@ void set_size_contribution(const analysis::HitMissPod& pod, NumericalContributio
 }
 
 }  // namespace
+
+double standard_deviation(const std::vector<double>& values) {
+    double sum = 0.0, squares = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    const double n = static_cast<double>(values.size());
+    for (const double value : values) {
+        squares += (value - sum / n) * (value - sum / n);
+    }
+    return n > 1.0 ? std::sqrt(squares / (n - 1.0)) : kNaN;
+}
 
 FinerScene finer_scene(const Scene& scene) {
     const Numerics& numerics = scene.study().numerics;

@@ -11,8 +11,11 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <vector>
+
+#include "mc/files/atomic_file.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -128,6 +131,17 @@ std::string report_page(const std::string& json, const std::string& figures) {
     return build_page_output(json, figures.empty()
                                        ? std::vector<std::string>{}
                                        : std::vector<std::string>{"--figures", figures});
+}
+
+void write_report_page(const std::string& json, const std::string& html,
+                       const std::string& figures) {
+    if (html.empty() && figures.empty()) {
+        return;
+    }
+    const std::string page = report_page(json, figures);
+    if (!html.empty()) {
+        write_file(html, std::as_bytes(std::span(page)));
+    }
 }
 
 std::string report_summary(const std::string& json) {

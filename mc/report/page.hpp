@@ -15,6 +15,11 @@ namespace gearpod::mc {
 // Also writes the figures as SVG and PNG into the folder `figures`, unless it is "".
 std::string report_page(const std::string& json, const std::string& figures = "");
 
+// Writes the page and its figures to the given places; "": none. Throws as report_page(), and if
+// the page cannot be written.
+void write_report_page(const std::string& json, const std::string& html,
+                       const std::string& figures);
+
 // Returns the path of the JSON schema of study files that belongs to this program, in the sources
 // or installed; empty if there is none.
 std::filesystem::path schema_path();

@@ -229,7 +229,8 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     const test::Outcome run =
         test::program("accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
                       " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " +
-                      folder.file("peers.csv") + " --json " + folder.file("accuracy.json"));
+                      folder.file("peers.csv") + " --json " + folder.file("accuracy.json") +
+                      " --html " + folder.file("accuracy.html"));
     INFO(run.output);
     REQUIRE(run.code == kDone);
     CHECK(run.mentions("not possible: the explicit method would need"));
@@ -262,11 +263,54 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     for (std::size_t i = 1; i < frontier.size(); ++i) {
         CHECK(frontier[i].second < frontier[i - 1].second);
     }
+    const std::string headline = json["headline"];
+    CHECK(headline.find("The study's own setting, auto") == 0);
+    CHECK(run.mentions(headline));
+    const std::string page = test::bytes_of(folder.file("accuracy.html"));
+    for (const char* shown : {"Figure 1. Error of the worst feature against time", "te_rms",
+                              "rk4 at its stability limit, refused", "Detection rates were not"}) {
+        INFO(shown);
+        CHECK(page.find(shown) != std::string::npos);
+    }
     // A tolerance of 1e-3 is met with fewer steps and fewer run-in mesh periods than the study's
     // own.
     CHECK(json["choices"][1]["tolerance"].get<double>() == 1e-3);
     CHECK(json["choices"][1].contains("chosen"));
     CHECK(json["left_out"].empty());
+}
+
+TEST_CASE("an error is compared with the scatter of its feature between gearboxes") {
+    AccuracyReport report;
+    report.features = {"te_rms", "window_ratio"};
+    report.noise_levels = {0.0, 1.0};
+    report.own = 0;
+    for (const auto& [time, error] : {std::pair{3e-3, 0.001}, {2e-3, 0.01}, {1e-3, 0.5}}) {
+        SettingResult setting;
+        setting.setting.numerics.integrator = lockstep::Integrator::rk4;
+        setting.integration_s = time;
+        setting.error.rms = {0.01 * error, 0.01 * error, 0.1 * error, 0.3 * error};
+        setting.error.relative = {error, error, 2.0 * error, 2.0 * error};
+        report.settings.push_back(setting);
+    }
+    const PilotError& own = report.settings[0].error;
+    CHECK(std::isnan(report.share_of_scatter(own, 1)));
+    CHECK(report.fastest_within(0.2) == -1);
+    CHECK(accuracy_headline(report).find("was not measured") != std::string::npos);
+
+    // A feature without scatter, e.g. of equal gearboxes without noise, has no share.
+    report.scatter = {0.0, 0.0, 0.05, 0.1};
+    CHECK(std::isnan(report.share_of_scatter(own, 0)));
+    CHECK(report.share_of_scatter(own, 1) == Approx(0.003));
+    CHECK(report.largest_share_of_scatter(own) == Approx(0.003));
+    CHECK(report.worst_feature(own) == 1);
+    CHECK(report.fastest_within(0.2) == 1);
+    CHECK(report.fastest_within(1e-4) == -1);
+    const std::string headline = accuracy_headline(report);
+    INFO(headline);
+    CHECK(headline.find("takes 3 ms of integration per gearbox; its worst feature, window_ratio, "
+                        "has an error of 2.0e-03 of its value") != std::string::npos);
+    CHECK(headline.find("exceeds 3.0e-03 of a feature's scatter") != std::string::npos);
+    CHECK(headline.find(": 2 ms of integration.") != std::string::npos);
 }
 
 // The study's own setting is compared with two methods even under a short time limit.

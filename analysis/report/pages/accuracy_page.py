@@ -1,0 +1,234 @@
+"""Page of gearpod accuracy: error against computing time of every solver setting."""
+
+import blocks
+from charts import INK, MUTED, colour, legend_below, marker, panel, plt, to_svg
+from words import count, escape, joined, number, percent, typeset
+
+TIME = "Integration, processor ms per gearbox"
+LEAST = 1e-9  # smaller errors are drawn at this value
+
+
+class Accuracy:
+    def __init__(self, data):
+        self.data = data
+        rows = data["rungs"]
+        self.measured = [row for row in rows if "refused" not in row]
+        self.refused = [row for row in rows if "refused" in row]
+        # Curves: settings with the tightest convergence, by integrator, precision and grid.
+        self.curves = {}
+        self.others = []
+        for row in self.measured:
+            keys = {text.split("=")[0].removeprefix("numerics.") for text in row["overrides"]}
+            if (row["integrator"] == "auto" or row["settle_tolerance"] > 1e-10
+                    or keys & {"horizon", "stiffness_tolerance"}):
+                self.others.append(row)
+            else:
+                kind = "graded" if "grid" in keys else row["precision"]
+                self.curves.setdefault((row["integrator"], kind), []).append(row)
+        self.integrators = list(dict.fromkeys(name for name, _ in self.curves))
+
+    def named(self, name):
+        return next((row for row in self.measured if row["name"] == name), None)
+
+    def marked(self):
+        """(setting, its meaning, marker) of the settings that a reader looks for."""
+        found = [(self.named(self.data["own"]), "setting of the study", "s")]
+        if self.data["fastest_within_share"]:
+            found.append((self.named(self.data["fastest_within_share"]),
+                          f"fastest within {self.data['share_of_scatter']:g} of the scatter", "D"))
+        for choice in self.data.get("choices", []):
+            if "chosen" in choice:
+                found.append((self.named(choice["chosen"]),
+                              f"chosen by tolerance = {choice['tolerance']:g}", "o"))
+        found += [(row, "every mesh period integrated", "X") for row in self.measured
+                  if "numerics.horizon=full" in row["overrides"]]
+        return [entry for entry in found if entry[0]]
+
+
+def _diagram(report, axes, error_of):
+    """Draws error against time. `error_of`: error of a setting, or None."""
+
+    def point(row):
+        return 1e3 * row["gearbox_s"], max(LEAST, error_of(row["error"]))
+
+    def known(rows):
+        return [row for row in rows if error_of(row["error"]) is not None]
+
+    others = [point(row) for row in known(report.others)]
+    axes.plot([x for x, _ in others], [y for _, y in others], linestyle="none", marker=".",
+              markersize=4, color=MUTED, label="looser convergence, fewer terms")
+    for (name, kind), rows in report.curves.items():
+        rows = sorted(known(rows), key=lambda row: row["steps"])
+        k = report.integrators.index(name)
+        plain = kind == "double"
+        axes.plot([point(row)[0] for row in rows], [point(row)[1] for row in rows],
+                  color=colour(k), marker=marker(k), markersize=4, linewidth=1.1,
+                  linestyle={"single": (0, (4, 2)), "graded": (0, (1, 1))}.get(kind, "-"),
+                  markerfacecolor=colour(k) if plain else "none",
+                  label=name + ("" if plain else f", {kind}"))
+    for at, (row, meaning, mark) in enumerate(report.marked()):
+        if error_of(row["error"]) is not None:
+            axes.plot(*point(row), linestyle="none", marker=mark, markersize=9 + 2.5 * at,
+                      markerfacecolor="none", markeredgecolor=INK, markeredgewidth=1.4,
+                      label=meaning)
+    for peer in report.data.get("peers", []):
+        if error_of(peer) is not None:
+            axes.plot(*point({**peer, "error": peer}), linestyle="none", marker="*", markersize=9,
+                      color=INK, label=peer["name"])
+
+
+def _frontier(report, axes, error_of):
+    """Settings than which none is both faster and more accurate."""
+    best, steps = float("inf"), []
+    for row in sorted(report.measured, key=lambda row: row["gearbox_s"]):
+        error = error_of(row["error"])
+        if error is not None and error < best:
+            best = error
+            steps.append((1e3 * row["gearbox_s"], max(LEAST, error)))
+    axes.step(*zip(*steps), where="post", color=INK, linewidth=2.4, alpha=0.35, label="frontier")
+
+
+def _drawn(report, page, title, error_of, label, lines=(), main=False):
+    """Work-precision diagram with horizontal lines (value, meaning). The main one has a legend."""
+    figure, axes = plt.subplots(figsize=(5.8, 5.0), layout="constrained") if main else panel(3.4)
+    _diagram(report, axes, error_of)
+    _frontier(report, axes, error_of)
+    axes.set(xscale="log", yscale="log", xlabel=TIME, ylabel=label)
+    for value, meaning in lines:
+        axes.axhline(value, color=MUTED, linewidth=1.0, linestyle=(0, (1, 2)))
+        axes.annotate(meaning, (0.01, value), xycoords=("axes fraction", "data"), ha="left",
+                      va="bottom", fontsize=8, color=MUTED)
+    if main:
+        limit = report.data["explicit_limit"]
+        axes.axvline(1e3 * limit["gearbox_s"], color=MUTED, linewidth=1.0, linestyle=(0, (6, 3)),
+                     label="rk4 at its stability limit" + (", refused" * limit["refused"]))
+        legend_below(axes, 2)
+    else:
+        axes.set_title(title.split(":")[0], fontsize=10, color=INK, loc="left")
+    about = "; ".join(f"{meaning}: {row['name']}, {number(1e3 * row['gearbox_s'])} ms, error "
+                      f"{number(error_of(row['error']))}" for row, meaning, _ in report.marked())
+    return to_svg(figure, title, about, page.names)
+
+
+def _settings_table(report):
+    head = ["Setting", "Steps per mesh", "Time, ms", "Worst feature", "Sensor", "TE",
+            "Share of scatter"]
+    rows = [[row["name"], count(row["steps"]), number(1e3 * row["gearbox_s"]),
+             *(number(row["error"][key], 2)
+               for key in ("worst_feature", "sensor", "te", "worst_of_scatter"))]
+            for row in sorted(report.measured, key=lambda row: row["gearbox_s"])]
+    return blocks.table("Measured solver settings, the fastest first", head, rows)
+
+
+def _signals(report, page):
+    agreement = report.data["reference"]["agreement"]
+    charts = [_drawn(report, page, f"{name}: error against time",
+                     lambda error, key=key: error[key], "Relative error",
+                     [(agreement[key], "agreement of the two references")]
+                     if agreement[key] else [])
+              for key, name in (("sensor", "Sensor signal"), ("te", "Transmission error"))]
+    return page.figure("Error of the signals against time", charts,
+                       "Relative L2 error of the noise-free sensor signal, and of the transmission "
+                       "error without its mean. Colours and marks as in figure 1.",
+                       blocks.paragraph("The numbers are in the table of figure 1."))
+
+
+def _features(report, page):
+    known = any(row["error"]["worst_of_scatter"] is not None for row in report.measured)
+    charts = []
+    for name in report.measured[0]["error"]["features"]:
+        share = known and any(row["error"]["of_scatter"][name] for row in report.measured)
+        key = "of_scatter" if share else "features"
+        label = "Error over scatter" if share else "Relative error"
+        lines = [(report.data["share_of_scatter"], "widens the scatter by 2 %")] if share else []
+        charts.append(_drawn(report, page, f"{name}: error against time",
+                             lambda error, key=key, name=name: error.get(key, {}).get(name) or None,
+                             label, lines))
+    text = ("Error of each feature over its standard deviation between healthy gearboxes. Below "
+            "the dotted line more gearboxes help, finer steps do not. Colours and marks as in figure 1." if known else
+            "Relative error of each feature. Its scatter between gearboxes was not measured.")
+    head = ["Setting", *report.measured[0]["error"]["features"]]
+    rows = [[row["name"], *(number(value, 2) for value in row["error"]["features"].values())]
+            for row, _, _ in report.marked()]
+    return page.figure("Error of each feature against time", charts, text,
+                       blocks.table("Relative errors of the marked settings", head, rows))
+
+
+def _detection(report, page):
+    """What the settings change in the answer, next to the statistical error of the pilot."""
+    rows = [row for row in report.measured if "detection" in row]
+    if not rows:
+        return blocks.note("Detection rates were not compared: "
+                           "the time was used up, or --gearboxes 0 was given.")
+    gearboxes = rows[0]["detection"]["gearboxes"]
+    charts = []
+    for change, spread, label in (("pd_change", "pd_half_width", "detection rate"),
+                                  ("a90_change", "a90_interval", "a90, relative")):
+        drawn = [row for row in rows if row["detection"][change] is not None]
+        if not drawn:
+            continue
+        figure, axes = panel(3.6)
+        times = [1e3 * row["gearbox_s"] for row in drawn]
+        for key, k, meaning in ((change, 1, "change by the setting"),
+                                (spread, 0, "half width of its interval")):
+            points = [(x, max(1e-5, row["detection"][key])) for x, row in zip(times, drawn)
+                      if row["detection"][key] is not None]
+            axes.plot([x for x, _ in points], [y for _, y in points], linestyle="none",
+                      marker=marker(k), color=colour(k), label=meaning)
+        axes.set(xscale="log", yscale="log", xlabel=TIME, ylabel=f"Change of the {label}")
+        legend_below(axes, 2)
+        charts.append(to_svg(figure, f"Change of the {label} against time",
+                             f"{len(drawn)} settings", page.names))
+    head = ["Setting", "Time, ms", "Alarms changed", "Pd changed", "Half width", "a90 changed",
+            "a90 interval"]
+    table = blocks.table(
+        f"The same {count(gearboxes)} graded gearboxes with these settings and with the most "
+        "accurate one", head,
+        [[row["name"], number(1e3 * row["gearbox_s"]),
+          percent(row["detection"]["alarms_changed"]),
+          *(number(row["detection"][key], 2) for key in ("pd_change", "pd_half_width",
+                                                         "a90_change", "a90_interval"))]
+         for row in rows])
+    return page.figure(f"Change of the answer, {count(gearboxes)} graded gearboxes", charts,
+                       "Largest change over features, sizes and noise levels against the most "
+                       "accurate setting, and the statistical uncertainty of the same quantity. "
+                       "Changes below 0.00001 are drawn there.", table)
+
+
+def _limits(report):
+    lines = [f"{row['name']}: {row['refused']}" for row in report.refused]
+    texts = [typeset(text) for text in lines]
+    body = blocks.bullets(texts) if texts else "<p>All listed settings were measured.</p>"
+    if report.data["left_out"]:
+        body += blocks.note("Omitted because the time was used up: "
+                            + joined(report.data["left_out"]) + ".")
+    return body
+
+
+def parts(data, page):
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
+    report = Accuracy(data)
+    headline = typeset(data["headline"])
+    summary = f'<p class="answer">{escape(headline)}</p>'
+    summary += blocks.paragraph(
+        f"{data['gearboxes']} pilot gearboxes; signals over {data['signal_meshes']} mesh periods, "
+        f"features over {count(data['span_meshes'])}. Errors are relative to a reference on which "
+        "two independent methods agree to "
+        f"{number(data['reference']['agreement']['sensor'], 2)} of the sensor signal.")
+    lines = [(choice["tolerance"], f"tolerance {choice['tolerance']:g}")
+             for choice in data.get("choices", [])]
+    body = page.section(
+        "features", "What accuracy costs",
+        page.figure("Error of the worst feature against time",
+                    [_drawn(report, page, "Error of the worst feature against time",
+                            lambda error: error["worst_feature"],
+                            "Relative error of the worst feature", lines, main=True)],
+                    "One curve per method, precision (dashed: single) and grid (dotted: graded steps), "
+                    "from few steps to many. Lower left is better. The broad line is the frontier: no measured "
+                    "setting is both faster and more accurate.", _settings_table(report))
+        + _features(report, page))
+    body += page.section("signals", "Signals", _signals(report, page))
+    body += page.section("detection", "Numerical against statistical error",
+                         _detection(report, page))
+    body += page.section("limits", "Settings that were not measured", _limits(report))
+    return data["title"] or "Accuracy and computing time", headline, summary, body
