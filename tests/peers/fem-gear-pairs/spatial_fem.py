@@ -47,9 +47,9 @@ def layer_depths(shape, deepest, stops, heights):
     depths, carried = [], 0.0
     for z in 0.5 * (heights[1:] + heights[:-1]):
         here = depth_at(shape, deepest, z)
-        wanted = here**2 + carried if here else 0.0
-        depths.append(min((d for d in stops if d < deepest + 1e-9), key=lambda d: abs(d * d - wanted)))
-        carried = wanted - depths[-1]**2
+        square = here**2 + carried if here else 0.0
+        depths.append(min((d for d in stops if d < deepest + 1e-9), key=lambda d: abs(d * d - square)))
+        carried = square - depths[-1]**2
     return depths
 
 
@@ -237,9 +237,9 @@ class CrackedGear:
             pulls = np.zeros((len(solid.dof), len(part)))
             pulls[upper[part], np.arange(len(part))] = 1
             pulls[lower[part], np.arange(len(part))] -= 1
-            answer = solid.factors.solve(pulls)
-            self.between[:, part] = answer[upper] - answer[lower]
-            centre[:, part] = seen.T @ answer
+            relative = solid.factors.solve(pulls)
+            self.between[:, part] = relative[upper] - relative[lower]
+            centre[:, part] = seen.T @ relative
         self.open, self.opening = loads.T @ moved, moved[upper] - moved[lower]
         middle = seen.T @ moved - centre @ np.linalg.solve(self.between, self.opening)
         self.centre = 0.5 * (middle + middle.T)  # of the healthy gear
