@@ -157,7 +157,7 @@ TEST_CASE("a crack reduces the mesh stiffness as in finite elements, within 15 %
     CHECK(rows == (4 * 2 + 2) * 4 * 5);
 }
 
-TEST_CASE("a spatial crack reduces the mesh stiffness less than in solid finite elements",
+TEST_CASE("a spatial crack that fades along the face loses less stiffness than in solid elements",
           "[crack]") {
     // Cracks that reach the other end with half of their depth lie within 15 %. Cracks that fade
     // lose too little, as slices without a crack take over the load in bending alone. The mean of
