@@ -13,6 +13,7 @@ try:
     import cracks_fem
     import helical_fem
     import pairs_fem
+    import spatial_fem
     import strip_fem
 except ImportError as missing:
     print(missing)
@@ -64,6 +65,10 @@ def main():
                      phase=f"{phase:.6f}", cracked=str(cracked))
         compare(f"planet-sun, 25 %, at {phase + cracked:.3f}", (whole, left), row,
                 ("healthy_N_m", "cracked_N_m"), 1e-3)
+    plane = spatial_fem.Model(spatial_fem.SIZE, 1, "sun", plane=True)
+    row = stored("cracks.csv", tooth="sun", profile="fillet", share="0.25", pairs="1")
+    compare("section of spatial cracks, sun, 25 %", plane.row("through", 0.25)[:2], row,
+            ("healthy_N_m", "cracked_N_m"), 0.02)
     compare("strip", strip_fem.factors(1.0, 0.3), stored("strip.csv", share="0.3"),
             ("tension", "bending"), 1e-3)
     for what, tau, solid, slices in helical_fem.rows("helix-20", 1.5, 4):  # coarse
