@@ -157,24 +157,17 @@ TEST_CASE("a crack reduces the mesh stiffness as in finite elements, within 15 %
     CHECK(rows == (4 * 2 + 2) * 4 * 5);
 }
 
-TEST_CASE("a spatial crack that fades along the face loses less stiffness than in solid elements",
+TEST_CASE("a spatial crack reduces the mesh stiffness as in solid elements, within 15 %",
           "[crack]") {
-    // Cracks that reach the other end with half of their depth lie within 15 %. Cracks that fade
-    // lose too little, as slices without a crack take over the load in bending alone. The mean of
-    // plane losses along the face is closer.
+    // The mean of plane losses along the face, without any support between slices, is an upper
+    // bound of the program's loss.
     int rows = 0;
     for (const Row& row : finite_elements::table("spatial.csv")) {
         const std::string& shape = row.text("shape");
         INFO(row.text("tooth") << " " << shape << ", " << row.text("share") << " of the section");
         const double elements = loss_of(row), loss = spatial_loss(row);
-        if (shape == "through" || shape == "face-half-depth")
-            CHECK(loss == Approx(elements).margin(std::max(0.15 * elements, 0.005)));
-        else {
-            CHECK(loss < elements + 0.005);
-            CHECK(loss / elements > (shape == "half" ? 0.2 : 0.7));
-        }
-        CHECK(mean_plane_loss(row) / elements > 0.85);
-        CHECK(mean_plane_loss(row) / elements < 1.35);
+        CHECK(loss == Approx(elements).margin(std::max(0.15 * elements, 0.005)));
+        CHECK(loss < mean_plane_loss(row) + 1e-3);
         ++rows;
     }
     CHECK(rows == 3 * 4 * 4);

@@ -156,9 +156,12 @@ class SpatialCrackFault : public ToothFault {
                 at[i * count + slice] = slice_stiffness(slice, touches[i], sweep);
         }
         SectionSweep sweep(family_.profile_, healthy_);
-        for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::span<const SliceStiffness> slices(at.data() + i * count, count);
             stiffness[climbs ? i : n - 1 - i] =
-                tooth_stiffness(touches[i], sweep, {at.data() + i * count, count});
+                by_sections() ? tooth_stiffness(touches[i], sweep, slices)
+                              : stiffness_in_series(touches[i], sweep, slices);
+        }
     }
 
     // Stiffness of a slice for a contact above the crack's start. Contacts below it give the slice
@@ -184,6 +187,34 @@ class SpatialCrackFault : public ToothFault {
             lever > 0 ? inverse(touch.foundation.total(lever)) : 0};
     }
 
+    // Stiffness of the tooth by fracture mechanics. Each slice is in series with a slice of the
+    // healthy tooth's other compliance, of the contact and of the mate, which is taken as an equal
+    // healthy tooth. So a slice without a crack takes over load only as far as these give way.
+    double stiffness_in_series(const ContactPoint& touch, SectionSweep& sweep,
+                               std::span<const SliceStiffness> slices) const {
+        sweep.advance(touch.u);
+        const SliceStiffness whole = stiffness_of(sweep.moments(), touch, 1);
+        const double other = axial_compliance(sweep.moments(), family_.material_, touch.sine) +
+                             (whole.shear > 0 ? 1 / whole.shear : 0);
+        const double healthy = 1 / whole.bending + other;
+        const double mate = healthy + 1 / hertz_stiffness(family_.material_);
+        const std::vector<double> weights = affected_weights(height_at(touch.u));
+        double sum = 0, cracked = 0;
+        for (std::size_t i = 0; i < slices.size(); ++i) {
+            const double share = share_of_face(i, weights[i]);
+            cracked += share;
+            if (slices[i].bending > 0)
+                sum += share / (1 / slices[i].bending + other + mate);
+        }
+        sum += (1 - cracked) / (healthy + mate);
+        return sum > 0 ? 1 / (1 / sum - mate) : 0;
+    }
+
+    double share_of_face(std::size_t slice, double weight) const {
+        return weight * surface_.stretching(rule_.points()[slice]) / surface_.face_width_m;
+    }
+
+    // The same by sections, where the slices' stiffnesses add kind by kind.
     double tooth_stiffness(const ContactPoint& touch, SectionSweep& sweep,
                            std::span<const SliceStiffness> slices) const {
         sweep.advance(touch.u);
@@ -192,8 +223,7 @@ class SpatialCrackFault : public ToothFault {
         SliceStiffness sum;
         double cracked = 0;  // fraction of the face width
         for (std::size_t i = 0; i < slices.size(); ++i) {
-            const double share =
-                weights[i] * surface_.stretching(rule_.points()[i]) / surface_.face_width_m;
+            const double share = share_of_face(i, weights[i]);
             cracked += share;
             sum.bending += share * slices[i].bending;
             sum.shear += share * slices[i].shear;
