@@ -1,5 +1,6 @@
 #include "stiffness/helical_slices.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -14,9 +15,26 @@ constexpr double kSliceTolerance = 1e-10;  // fraction of the largest stiffness 
 constexpr int kPositions = 2000;           // at which an engagement is sampled
 constexpr int kContactHalvings = 50;       // of the interval in which a gap is reached
 constexpr double kShortestSlice = 1e-9;    // mesh periods
-// Gaps at which the engagement is cut, in nominal approaches. Teeth with index errors of half the
-// nominal approach use all of them.
-constexpr double kCuts[] = {0.2, 0.45, 0.75, 1.0, 1.35, 1.8, 2.4, 3.2};
+constexpr int kFewestCuts = 8, kMostCuts = 17;
+
+// Gaps at which the engagement is cut, in nominal approaches, ascending. They are densest near 1,
+// where the flanks of most teeth touch; teeth with index errors of half the approach use all.
+std::vector<double> cuts_of(int number) {
+    constexpr double kLeast = 0.3, kLargest = 3.2;
+    const int below = (number - 1) * 9 / 20, above = number - 1 - below;
+    std::vector<double> cuts;
+    for (int i = below; i > 0; --i)
+        cuts.push_back(1 - (1 - kLeast) * std::pow(static_cast<double>(i) / below, 1.2));
+    for (int i = 0; i <= above; ++i)
+        cuts.push_back(1 + (kLargest - 1) * std::pow(static_cast<double>(i) / above, 2.0));
+    return cuts;
+}
+
+// Number of cuts for which a gear pair has springs enough.
+int number_of_cuts(double contact_ratio, int across) {
+    const int pairs = static_cast<int>(std::ceil(contact_ratio));
+    return std::clamp(kMostSlicedSprings / pairs - across, kFewestCuts, kMostCuts);
+}
 
 using Factor = std::function<double(double)>;
 
@@ -90,7 +108,7 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
     const auto add_around = [&](const Positions& within) {
         add_slice({{{within.begin, inner.begin}, {inner.end, within.end}}}, {});
     };
-    for (const double cut : kCuts) {
+    for (const double cut : cuts_of(number_of_cuts(ratio_ + overlap_, across))) {
         const Positions within{reaches(cut * approach, closest, 0),
                                reaches(cut * approach, closest, ratio_)};
         if (slices_.empty()) {

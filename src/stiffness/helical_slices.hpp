@@ -22,6 +22,10 @@
 
 namespace gearpod::stiffness {
 
+// Largest number of springs of a gear pair that are used for accuracy. More are used where fewer
+// cuts than the least number would remain.
+inline constexpr int kMostSlicedSprings = 72;
+
 // Value type; threads may share its const members.
 class HelicalSlices {
   public:

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "dynamics/effects/mesh_law.hpp"
+#include "stiffness/helical_slices.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
@@ -108,6 +109,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
         nodes.slices = std::max(nodes.slices, pairs.curve(pair).slices());
         gaps = gaps || pairs.curve(pair).has_gaps();
     }
+    static_assert(dynamics::kMostContacts >= stiffness::kMostSlicedSprings);
     if (nodes.contacts() > dynamics::kMostContacts) {
         throw std::invalid_argument(
             fmt::format("{} tooth pairs of a gear pair with {} slices each (at most {} slices in "
