@@ -77,6 +77,18 @@ Json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
     return row;
 }
 
+Json effect_json(const AccuracyReport& report, const EffectPrice& e) {
+    Json row{{"effect", e.effect}, {"in_study", e.in_study}};
+    if (!e.refusal.empty()) {
+        row["refused"] = e.refusal;
+        return row;
+    }
+    row["time_ratio"] = e.time_ratio;
+    row["change"] = errors(report, e.change);
+    row["called_for"] = report.matters(e.change);
+    return row;
+}
+
 Json peer_json(const PeerResult& p) {
     Json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.integration_s},
              {"mesh_s", p.mesh_s}, {"sensor", p.sensor},   {"te", p.te}};
@@ -99,6 +111,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
              {"title", study.title},
              {"headline", accuracy_headline(report)},
              {"share_of_scatter", kShareOfScatter},
+             {"change_of_feature", kChangeOfFeature},
              {"fastest_within_share",
               within < 0 ? Json(nullptr)
                          : Json(report.settings[static_cast<std::size_t>(within)].setting.text())},
@@ -128,6 +141,9 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     }
     for (const ChoiceCheck& check : report.choices) {
         all["choices"].push_back(choice_json(report, check));
+    }
+    for (const EffectPrice& effect : report.effects) {
+        all["effects"].push_back(effect_json(report, effect));
     }
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));

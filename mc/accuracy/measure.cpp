@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "lockstep/integrators/facts.hpp"
 #include "machine/upper_median.hpp"
+#include "mc/accuracy/effect_prices.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/measure_detection.hpp"
 #include "mc/accuracy/report.hpp"
@@ -53,7 +53,7 @@ class AccuracyMeasurement {
         ReferenceRequest reference;
         reference.seconds = kReferenceErrorShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
-        report_.own = 0;
+        measure_effects(study_, request_, time_, report_);
         for (const ListedSetting& listed : listed_settings(study_)) {
             add(listed.setting, listed.refusal);
         }

@@ -17,6 +17,8 @@ namespace gearpod::mc {
 // this scatter: by the factor sqrt(1 + 0.2^2) = 1.02.
 inline constexpr double kShareOfScatter = 0.2;
 
+inline constexpr double kChangeOfFeature = 1e-2;
+
 // Message for a setting that was not tried for lack of time.
 inline constexpr const char* kNotTried = "not measured: the time given was used up";
 
@@ -33,6 +35,15 @@ struct SettingResult {
     PilotError error;
     bool frontier = false;  // true: no setting is both faster and more accurate
     std::optional<DetectionChange> detection;
+};
+
+// Effect that the study includes and was left out of it, or that was added to it.
+struct EffectPrice {
+    std::string effect;
+    bool in_study = false;
+    std::string refusal;      // why it was not measured; the members below are then empty
+    double time_ratio = 0.0;  // processor time of a gearbox with the effect over that without
+    PilotError change;        // of signals and features, relative to the study
 };
 
 // lockstep::kUsualExplicit at its stability limit, whether it can be used or not.
@@ -73,8 +84,9 @@ struct AccuracyReport {
     Reference reference;
     ExplicitLimit explicit_limit;
     std::vector<SettingResult> settings;
-    int own = -1;  // index of the study's own setting
+    int own = 0;  // index of the study's own setting
     std::vector<ChoiceCheck> choices;
+    std::vector<EffectPrice> effects;
     std::vector<PeerResult> peers;
     std::vector<std::string> step_costs;  // comparison of the cost model with the measurement
     std::vector<std::string> left_out;    // omitted for lack of time
@@ -84,6 +96,9 @@ struct AccuracyReport {
     // the scatter is unknown or zero.
     double share_of_scatter(const PilotError& error, int f) const;
     double largest_share_of_scatter(const PilotError& error) const;
+    // True if the change exceeds kShareOfScatter of a feature's scatter; where the scatter is
+    // unknown, kChangeOfFeature of a feature.
+    bool matters(const PilotError& change) const;
     // Index of the feature with the largest relative error.
     int worst_feature(const PilotError& error) const;
     // Fastest measured setting whose errors are at most `share` of every feature's scatter; -1:

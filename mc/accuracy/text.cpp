@@ -185,6 +185,35 @@ void add_detection(const AccuracyReport& report, Text out) {
     }
 }
 
+void add_effects(const AccuracyReport& report, Text out) {
+    if (report.effects.empty()) {
+        return;
+    }
+    fmt::format_to(out, "\n");
+    add_words(fmt::format(
+                  "price of effects: the pilot without an effect of the study, or with one that it "
+                  "leaves out. time: of a gearbox with it over that without; change: of the "
+                  "sensor signal, and of the feature that changes most; called for: it changes a "
+                  "feature by more than {:g} of its scatter between healthy gearboxes, or by {:g} "
+                  "of its value where the scatter was not measured",
+                  kShareOfScatter, kChangeOfFeature),
+              0, out);
+    fmt::format_to(out, "{:<24} {:<8} {:>5} {:>8} {:>8} {:>9}  {:<10} {}\n", "effect", "in study",
+                   "time", "sensor", "feature", "/scatter", "called for", "most");
+    for (const EffectPrice& e : report.effects) {
+        fmt::format_to(out, "{:<24} {:<8} ", e.effect, e.in_study ? "yes" : "no");
+        if (!e.refusal.empty()) {
+            fmt::format_to(out, "not possible\n");
+            add_words(e.refusal, 4, out);
+            continue;
+        }
+        fmt::format_to(out, "{:>5.2f} {:>8} {:>8} {:>9}  {:<10} {}\n", e.time_ratio,
+                       short_number(e.change.sensor), short_number(e.change.largest_feature()),
+                       short_number(report.largest_share_of_scatter(e.change)),
+                       report.matters(e.change) ? "yes" : "no", worst_feature(report, e.change));
+    }
+}
+
 void add_left_out(const AccuracyReport& report, Text out) {
     if (!report.left_out.empty()) {
         fmt::format_to(out, "\nomitted because the time had run out (--seconds 0: no limit)\n");
@@ -229,6 +258,12 @@ double AccuracyReport::largest_share_of_scatter(const PilotError& error) const {
         largest = std::fmax(largest, share_of_scatter(error, f));
     }
     return largest;
+}
+
+bool AccuracyReport::matters(const PilotError& change) const {
+    const double share = largest_share_of_scatter(change);
+    return std::isfinite(share) ? share > kShareOfScatter
+                                : !(change.largest_feature() <= kChangeOfFeature);
 }
 
 int AccuracyReport::worst_feature(const PilotError& error) const {
@@ -300,6 +335,7 @@ std::string accuracy_text(const AccuracyReport& report) {
     add_choices(report, out);
     add_features(report, out);
     add_detection(report, out);
+    add_effects(report, out);
     add_left_out(report, out);
     return text;
 }

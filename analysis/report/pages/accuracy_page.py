@@ -195,6 +195,51 @@ def _detection(report, page):
                        "Changes below 0.00001 are drawn there.", table)
 
 
+def _effects(report, page):
+    """Change and cost of each optional effect, next to the change that matters."""
+    rows = report.data.get("effects", [])
+    if not rows:
+        return blocks.note("The price of effects was not measured: the time was used up.")
+    measured = [row for row in rows if "refused" not in row]
+    known = any(row["change"]["worst_of_scatter"] is not None for row in measured)
+    key = "worst_of_scatter" if known else "worst_feature"
+    drawn = [row for row in measured if row["change"][key]]
+    charts = []
+    if drawn:
+        figure, axes = panel(1.4 + 0.3 * len(drawn))
+        for y, row in enumerate(drawn):
+            k = 0 if row["in_study"] else 1
+            axes.plot(max(LEAST, row["change"][key]), y, linestyle="none", marker=marker(k),
+                      color=colour(k))
+        if known:
+            axes.axvline(report.data["share_of_scatter"], color=MUTED, linewidth=1.0,
+                         linestyle=(0, (1, 2)), label="widens the scatter by 2 %")
+        for k, text in ((0, "left out of the study"), (1, "added to it")):
+            axes.plot([], [], linestyle="none", marker=marker(k), color=colour(k), label=text)
+        axes.set_yticks(range(len(drawn)), [row["effect"] for row in drawn])
+        axes.set_ylim(len(drawn) - 0.5, -0.5)
+        axes.set(xscale="log", xlabel="Largest change of a feature over its "
+                                      + ("scatter" if known else "value"))
+        legend_below(axes, 1)
+        charts.append(to_svg(figure, "Change of the features by each effect", "; ".join(
+            f"{row['effect']}: {number(row['change'][key])}" for row in drawn), page.names))
+    head = ["Effect", "In the study", "Time with / without", "Sensor changes", "Features change",
+            "Over scatter", "Called for"]
+    table = blocks.table(
+        "The pilot without an effect of the study, or with one that it leaves out", head,
+        [[row["effect"], "yes" if row["in_study"] else "no",
+          *(("not possible: " + row["refused"], "–", "–", "–", "–") if "refused" in row else
+            (number(row["time_ratio"]),
+             *(number(row["change"][name], 2) for name in ("sensor", "worst_feature",
+                                                           "worst_of_scatter")),
+             "yes" if row["called_for"] else "no"))] for row in rows])
+    return page.figure("Change of the features by each effect", charts,
+                       "An effect is called for if it changes a feature by more than "
+                       f"{report.data['share_of_scatter']:g} of its scatter between healthy "
+                       f"gearboxes, or by {report.data['change_of_feature']:g} of its value where "
+                       "the scatter was not measured.", table)
+
+
 def _limits(report):
     lines = [f"{row['name']}: {row['refused']}" for row in report.refused]
     texts = [typeset(text) for text in lines]
@@ -230,5 +275,6 @@ def parts(data, page):
     body += page.section("signals", "Signals", _signals(report, page))
     body += page.section("detection", "Numerical against statistical error",
                          _detection(report, page))
+    body += page.section("effects", "Price of each effect", _effects(report, page))
     body += page.section("limits", "Settings that were not measured", _limits(report))
     return data["title"] or "Accuracy and computing time", headline, summary, body

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "mc/accuracy/effect_prices.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
@@ -226,11 +227,10 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     test::write_bytes(
         folder.file("peers.csv"),
         "name,command,march_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
-    const test::Outcome run =
-        test::program("accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
-                      " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " +
-                      folder.file("peers.csv") + " --json " + folder.file("accuracy.json") +
-                      " --html " + folder.file("accuracy.html"));
+    const test::Outcome run = test::program(
+        "accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
+        " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " + folder.file("peers.csv") +
+        " --json " + folder.file("accuracy.json") + " --html " + folder.file("accuracy.html"));
     INFO(run.output);
     REQUIRE(run.code == kDone);
     CHECK(run.mentions("not possible: the explicit method would need"));
@@ -313,6 +313,42 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     CHECK(headline.find(": 2 ms of integration.") != std::string::npos);
 }
 
+TEST_CASE("the price of an effect is the change of the pilot without it", "[accuracy]") {
+    const Study study = tian({"effects.shear=true"});
+    AccuracyRequest request;
+    request.repeats = 1;
+    AccuracyReport report;
+    report.features = study.features.use;
+    report.noise_levels = study.sensor.noise_levels;
+    measure_effects(study, request, TimeBudget(0.0), report);
+    const auto shear =
+        std::ranges::find(report.effects, "shear of the teeth", &EffectPrice::effect);
+    REQUIRE(shear != report.effects.end());
+    CHECK(shear->in_study);
+    CHECK(shear->time_ratio > 0.0);
+    const Scene own(study);
+    const Pilot pilot(own);
+    const PilotError direct =
+        pilot_error(pilot.run(Scene(tian({"effects.shear=false"}))), pilot.run(own));
+    CHECK(direct.sensor > 0.0);
+    CHECK(shear->change.sensor == direct.sensor);
+    CHECK(shear->change.largest_feature() == direct.largest_feature());
+    CHECK(report.matters(shear->change) == (direct.largest_feature() > kChangeOfFeature));
+    // Nothing that the study lacks is left out of it; gears with constant rotations have no bodies
+    // in a plane.
+    for (const char* absent : {"tooth errors", "pin errors", "inertial terms"}) {
+        INFO(absent);
+        CHECK(std::ranges::find(report.effects, absent, &EffectPrice::effect) ==
+              report.effects.end());
+    }
+
+    AccuracyReport late;
+    measure_effects(study, request, TimeBudget(1e-9), late);
+    CHECK(late.effects.empty());
+    REQUIRE(late.left_out.size() == 1);
+    CHECK(late.left_out[0].find("shear of the teeth") != std::string::npos);
+}
+
 // The study's own setting is compared with two methods even under a short time limit.
 TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy]") {
     AccuracyRequest request;
@@ -334,8 +370,8 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
     const std::string text = accuracy_text(report);
     const std::vector<std::string> expected_text{
         "omitted because the time had run out", std::to_string(untried) + " solver settings",
-        "the setting for numerics.tolerance = 0.001",
-        "settings with a larger settle_tolerance", "detection rates"};
+        "the setting for numerics.tolerance = 0.001", "settings with a larger settle_tolerance",
+        "detection rates"};
     for (const std::string& what : expected_text) {
         INFO(what);
         CHECK(text.find(what) != std::string::npos);

@@ -1,0 +1,207 @@
+#include "mc/accuracy/effect_prices.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/input/problems.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kTimeShare = 0.25;  // of the remaining processor time
+
+bool has_bodies_in_plane(const Study& s) {
+    return s.gearbox.kind == GearboxKind::planetary && !s.effects.torsional();
+}
+bool has_real_teeth(const Study& s) {
+    return s.gearbox.tooth_profile != ToothProfile::constant &&
+           s.gearbox.tooth_profile != ToothProfile::square_wave;
+}
+bool always(const Study&) {
+    return true;
+}
+
+// Removes the distributions of keys that begin with one of `starts`.
+void give_up_random(Study& s, std::initializer_list<std::string_view> starts) {
+    std::erase_if(s.random, [&](const RandomInput& input) {
+        return std::ranges::any_of(starts,
+                                   [&](auto start) { return input.key.starts_with(start); });
+    });
+    std::erase_if(s.correlations, [&](const Correlation& c) {
+        return s.find_random(c.first) == nullptr || s.find_random(c.second) == nullptr;
+    });
+}
+
+void remove_tooth_errors(Study& s) {
+    s.errors.tooth_quality.reset();
+    s.errors.pitch_error_m = s.errors.index_wave_m = s.errors.eccentricity_m =
+        s.errors.profile_slope_m = 0.0;
+    for (MemberValues& body : s.gearbox.bodies.values) {
+        body.quality.reset();
+        body.index_m.clear();
+        body.ring_side_index_m.clear();
+    }
+    give_up_random(s, {"gearbox.tooth_quality", "gearbox.pitch_error", "gearbox.index_wave",
+                       "gearbox.eccentricity", "gearbox.profile_slope"});
+}
+
+bool has_pin_errors(const Study& s) {
+    const PlanetDifferences& p = s.planets;
+    return p.pin_tangential_rms_m > 0.0 || p.pin_radial_rms_m > 0.0 ||
+           !p.pin_tangential_m.empty() || !p.pin_radial_m.empty();
+}
+void remove_pin_errors(Study& s) {
+    s.planets.pin_tangential_m.clear();
+    s.planets.pin_radial_m.clear();
+    s.planets.pin_tangential_rms_m = s.planets.pin_radial_rms_m = 0.0;
+    give_up_random(s, {"gearbox.pin_"});
+}
+
+void remove_relief(Study& s) {
+    for (MemberValues& body : s.gearbox.bodies.values) {
+        for (auto* value : {&body.tip_relief_m, &body.tip_relief_length_m, &body.root_relief_m,
+                            &body.root_relief_length_m, &body.crowning_m}) {
+            value->reset();
+        }
+    }
+}
+
+void remove_torque_fluctuation(Study& s) {
+    Fluctuations& f = s.fluctuations;
+    f.torque.reset();
+    f.torque_order.reset();
+    f.torque_Hz.reset();
+    f.torque_noise.reset();
+    f.torque_noise_Hz.reset();
+    f.torque_phase_rad = 0.0;
+}
+void remove_speed_fluctuation(Study& s) {
+    Fluctuations& f = s.fluctuations;
+    f.speed.reset();
+    f.speed_order.reset();
+    f.speed_noise.reset();
+    f.speed_noise_Hz.reset();
+    f.speed_phase_rad = 0.0;
+}
+
+struct OptionalEffect {
+    const char* name;
+    bool (*applies)(const Study&);
+    bool (*present)(const Study&);
+    void (*remove)(Study&);
+    void (*add)(Study&) = nullptr;  // null: an effect that needs further values is not added
+};
+
+const OptionalEffect kOptionalEffects[] = {
+    {"inertial terms", has_bodies_in_plane, [](const Study& s) { return s.effects.inertial_terms; },
+     [](Study& s) { s.effects.inertial_terms = false; },
+     [](Study& s) { s.effects.inertial_terms = true; }},
+    {"gravity", always, [](const Study& s) { return s.effects.gravity; },
+     [](Study& s) { s.effects.gravity = false; }, [](Study& s) { s.effects.gravity = true; }},
+    {"extended contact", has_real_teeth,
+     [](const Study& s) { return s.effects.contact_onset == ContactOnset::extended; },
+     [](Study& s) { s.effects.contact_onset = ContactOnset::abrupt; },
+     [](Study& s) { s.effects.contact_onset = ContactOnset::extended; }},
+    {"tooth separation", always,
+     [](const Study& s) {
+         return s.effects.separation != Separation::none && !has_unilateral_teeth(s);
+     },
+     [](Study& s) { s.effects.separation = Separation::none; }},
+    {"tooth errors", always, has_tooth_errors, remove_tooth_errors},
+    {"pin errors", always, has_pin_errors, remove_pin_errors},
+    {"relief and crowning", always, has_relief, remove_relief},
+    {"elastic gear bodies", has_real_teeth,
+     [](const Study& s) { return s.effects.foundation != Foundation::none; },
+     [](Study& s) { s.effects.foundation = Foundation::none; }},
+    {"load-dependent contact", has_real_teeth,
+     [](const Study& s) { return s.effects.contact != Contact::linear; },
+     [](Study& s) { s.effects.contact = Contact::linear; }},
+    {"shear of the teeth", has_real_teeth, [](const Study& s) { return s.effects.shear; },
+     [](Study& s) { s.effects.shear = false; }, [](Study& s) { s.effects.shear = true; }},
+    {"torque fluctuation", always, torque_fluctuates, remove_torque_fluctuation},
+    {"speed fluctuation", always, speed_fluctuates, remove_speed_fluctuation},
+    {"transmission path", has_bodies_in_plane,
+     [](const Study& s) {
+         return s.effects.path != nullptr && s.effects.path != &signals::path_window("rectangular");
+     },
+     [](Study& s) { s.effects.path = &signals::path_window("rectangular"); }}};
+
+// Signals may cover fewer mesh periods after the change: both records keep the common ones.
+void keep_common(std::vector<std::vector<double>>& a, std::vector<std::vector<double>>& b) {
+    for (std::size_t g = 0; g < std::min(a.size(), b.size()); ++g) {
+        const std::size_t common = std::min(a[g].size(), b[g].size());
+        a[g].resize(common);
+        b[g].resize(common);
+    }
+}
+
+double least_s(const Pilot& pilot, const Scene& scene, int repeats, PilotRecord& record) {
+    double least = INFINITY;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        record = pilot.run(scene);
+        least = std::min(least, record.total_s);
+    }
+    return least;
+}
+
+// Fills `price` with the change of a pilot when `changed` replaces the study of `own`.
+void measure(const Scene& own, const Study& changed, int repeats, EffectPrice& price) {
+    const StudyReading reading = read_study_text(resolved_text(changed), "");
+    if (!reading.study) {
+        const Problem& problem = reading.problems.front();
+        price.refusal = problem.key + ": " + problem.what;
+        return;
+    }
+    try {
+        const Scene scene(*reading.study);
+        PilotRecord before, after;
+        const double own_s = least_s(Pilot(own), own, repeats, before);
+        const double changed_s = least_s(Pilot(scene), scene, repeats, after);
+        price.time_ratio = price.in_study ? own_s / changed_s : changed_s / own_s;
+        keep_common(after.sensor, before.sensor);
+        keep_common(after.te, before.te);
+        price.change = pilot_error(after, before);
+    } catch (const SceneError& error) {
+        price.refusal = error.key() + ": " + error.what();
+    }
+}
+
+}  // namespace
+
+void measure_effects(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
+                     AccuracyReport& report) {
+    // A budget of 0 would have no limit.
+    const TimeBudget own_time(
+        std::isfinite(time.seconds()) ? std::max(1e-9, kTimeShare * time.seconds()) : 0.0);
+    std::string omitted;
+    std::optional<Scene> own;
+    for (const OptionalEffect& effect : kOptionalEffects) {
+        EffectPrice price;
+        price.effect = effect.name;
+        price.in_study = effect.present(study);
+        if (!effect.applies(study) || (!price.in_study && effect.add == nullptr)) {
+            continue;
+        }
+        if (!own_time.enough()) {
+            omitted += fmt::format("{}{}", omitted.empty() ? "" : ", ", effect.name);
+            continue;
+        }
+        request.progress(fmt::format("{} {}", price.in_study ? "without" : "with", effect.name));
+        if (!own) {
+            own.emplace(study);
+        }
+        Study changed = study;
+        (price.in_study ? effect.remove : effect.add)(changed);
+        measure(*own, changed, request.repeats, price);
+        report.effects.push_back(price);
+    }
+    if (!omitted.empty()) {
+        report.left_out.push_back("price of effects: " + omitted);
+    }
+}
+
+}  // namespace gearpod::mc
