@@ -90,6 +90,8 @@ def _frontier(report, axes, error_of):
 
 def _drawn(report, page, title, error_of, label, lines=(), main=False):
     """Work-precision diagram with horizontal lines (value, meaning). The main one has a legend."""
+    if all(error_of(row["error"]) is None for row in report.measured):
+        return blocks.note(f"{title}: no setting has an error above zero.")
     figure, axes = plt.subplots(figsize=(5.8, 5.0), layout="constrained") if main else panel(3.4)
     _diagram(report, axes, error_of)
     _frontier(report, axes, error_of)
@@ -145,7 +147,8 @@ def _features(report, page):
                              lambda error, key=key, name=name: error.get(key, {}).get(name) or None,
                              label, lines))
     text = ("Error of each feature over its standard deviation between healthy gearboxes. Below "
-            "the dotted line more gearboxes help, finer steps do not. Colours and marks as in figure 1." if known else
+            "the dotted line more gearboxes help, finer steps do not. Colours and marks as in "
+            "figure 1." if known else
             "Relative error of each feature. Its scatter between gearboxes was not measured.")
     head = ["Setting", *report.measured[0]["error"]["features"]]
     rows = [[row["name"], *(number(value, 2) for value in row["error"]["features"].values())]
