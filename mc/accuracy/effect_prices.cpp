@@ -139,17 +139,22 @@ void keep_common(std::vector<std::vector<double>>& a, std::vector<std::vector<do
     }
 }
 
-double least_s(const Pilot& pilot, const Scene& scene, int repeats, PilotRecord& record) {
-    double least = INFINITY;
+struct TimedPilot {
+    PilotRecord record;
+    double least_s = INFINITY;  // processor time of a gearbox
+};
+TimedPilot timed_pilot(const Scene& scene, int repeats) {
+    const Pilot pilot(scene);
+    TimedPilot timed;
     for (int repeat = 0; repeat < repeats; ++repeat) {
-        record = pilot.run(scene);
-        least = std::min(least, record.total_s);
+        timed.record = pilot.run(scene);
+        timed.least_s = std::min(timed.least_s, timed.record.total_s);
     }
-    return least;
+    return timed;
 }
 
-// Fills `price` with the change of a pilot when `changed` replaces the study of `own`.
-void measure(const Scene& own, const Study& changed, int repeats, EffectPrice& price) {
+// Fills `price` with the change from the pilot `before` when `changed` replaces its study.
+void measure(TimedPilot before, const Study& changed, int repeats, EffectPrice& price) {
     const StudyReading reading = read_study_text(resolved_text(changed), "");
     if (!reading.study) {
         const Problem& problem = reading.problems.front();
@@ -157,14 +162,12 @@ void measure(const Scene& own, const Study& changed, int repeats, EffectPrice& p
         return;
     }
     try {
-        const Scene scene(*reading.study);
-        PilotRecord before, after;
-        const double own_s = least_s(Pilot(own), own, repeats, before);
-        const double changed_s = least_s(Pilot(scene), scene, repeats, after);
-        price.time_ratio = price.in_study ? own_s / changed_s : changed_s / own_s;
-        keep_common(after.sensor, before.sensor);
-        keep_common(after.te, before.te);
-        price.change = pilot_error(after, before);
+        TimedPilot after = timed_pilot(Scene(*reading.study), repeats);
+        price.time_ratio =
+            price.in_study ? before.least_s / after.least_s : after.least_s / before.least_s;
+        keep_common(after.record.sensor, before.record.sensor);
+        keep_common(after.record.te, before.record.te);
+        price.change = pilot_error(after.record, before.record);
     } catch (const SceneError& error) {
         price.refusal = error.key() + ": " + error.what();
     }
@@ -172,13 +175,14 @@ void measure(const Scene& own, const Study& changed, int repeats, EffectPrice& p
 
 }  // namespace
 
-void measure_effects(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
+void measure_effects(const Scene& own, const AccuracyRequest& request, const TimeBudget& time,
                      AccuracyReport& report) {
+    const Study& study = own.study();
     // A budget of 0 would have no limit.
     const TimeBudget own_time(
         std::isfinite(time.seconds()) ? std::max(1e-9, kTimeShare * time.seconds()) : 0.0);
     std::string omitted;
-    std::optional<Scene> own;
+    std::optional<TimedPilot> before;
     for (const OptionalEffect& effect : kOptionalEffects) {
         EffectPrice price;
         price.effect = effect.name;
@@ -191,12 +195,12 @@ void measure_effects(const Study& study, const AccuracyRequest& request, const T
             continue;
         }
         request.progress(fmt::format("{} {}", price.in_study ? "without" : "with", effect.name));
-        if (!own) {
-            own.emplace(study);
+        if (!before) {
+            before = timed_pilot(own, request.repeats);
         }
         Study changed = study;
         (price.in_study ? effect.remove : effect.add)(changed);
-        measure(*own, changed, request.repeats, price);
+        measure(*before, changed, request.repeats, price);
         report.effects.push_back(price);
     }
     if (!omitted.empty()) {

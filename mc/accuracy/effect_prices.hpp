@@ -7,9 +7,9 @@
 
 namespace gearpod::mc {
 
-// Measures AccuracyReport::effects with the study's own solver setting in a quarter of `time`, and
-// records what was omitted. Precondition: `study` has no numerics.tolerance.
-void measure_effects(const Study& study, const AccuracyRequest& request, const TimeBudget& time,
+// Measures AccuracyReport::effects for the study of `own`, with its solver setting, in a quarter of
+// `time`, and records what was omitted.
+void measure_effects(const Scene& own, const AccuracyRequest& request, const TimeBudget& time,
                      AccuracyReport& report);
 
 }  // namespace gearpod::mc

@@ -53,7 +53,7 @@ class AccuracyMeasurement {
         ReferenceRequest reference;
         reference.seconds = kReferenceErrorShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
-        measure_effects(study_, request_, time_, report_);
+        measure_effects(scenes_.own(), request_, time_, report_);
         for (const ListedSetting& listed : listed_settings(study_)) {
             add(listed.setting, listed.refusal);
         }

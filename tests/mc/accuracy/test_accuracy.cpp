@@ -320,13 +320,13 @@ TEST_CASE("the price of an effect is the change of the pilot without it", "[accu
     AccuracyReport report;
     report.features = study.features.use;
     report.noise_levels = study.sensor.noise_levels;
-    measure_effects(study, request, TimeBudget(0.0), report);
+    const Scene own(study);
+    measure_effects(own, request, TimeBudget(0.0), report);
     const auto shear =
         std::ranges::find(report.effects, "shear of the teeth", &EffectPrice::effect);
     REQUIRE(shear != report.effects.end());
     CHECK(shear->in_study);
     CHECK(shear->time_ratio > 0.0);
-    const Scene own(study);
     const Pilot pilot(own);
     const PilotError direct =
         pilot_error(pilot.run(Scene(tian({"effects.shear=false"}))), pilot.run(own));
@@ -343,7 +343,7 @@ TEST_CASE("the price of an effect is the change of the pilot without it", "[accu
     }
 
     AccuracyReport late;
-    measure_effects(study, request, TimeBudget(1e-9), late);
+    measure_effects(own, request, TimeBudget(1e-9), late);
     CHECK(late.effects.empty());
     REQUIRE(late.left_out.size() == 1);
     CHECK(late.left_out[0].find("shear of the teeth") != std::string::npos);
