@@ -80,6 +80,7 @@ def thresholds(report, page):
     if report.curves:
         body += (influence_figures.false_alarm_curves(report, page) + report.notes("no_false_alarms.")
                  + report.tables("costs.") + report.notes("costs_rarest."))
+    body += "".join(map(paragraph, report.texts("other_fault."))) + report.table("other_fault")
     if report.table("tails"):
         body += (note("Thresholds beyond the healthy sample are extrapolated by a generalised "
                       "Pareto distribution of its most extreme values.")

@@ -2,7 +2,8 @@
 
 TYPES = {"number": "number", "integer": "integer", "boolean": "true or false",
          "numbers": "list of numbers", "texts": "list of strings",
-         "python": "list of Python files", "tones": "list of { frequency_Hz, amplitude_m_s2 }"}
+         "python": "list of Python files", "tones": "list of { frequency_Hz or shaft and order, amplitude_m_s2 }",
+         "bearings": "list of { fault, shaft or shaft_Hz, elements, ... }"}
 SECTION_TITLES = {
     "gearbox": "teeth, bodies, bearings and damping", "operation": "torque, speed and their variation",
     "effects": "effects that are simulated", "fault": "kind, place and shape of the fault",

@@ -13,9 +13,20 @@ import sys
 PARAMETER = re.compile(r"(\w+) \((number|integer|list of numbers)([^)]*)\)")
 FILE_COLUMN = {"type": "object", "properties": {"file": {"type": "string"}, "column": {"type": "string"}},
                "required": ["file", "column"], "additionalProperties": False}
+SHAFTS = ["sun", "carrier", "ring", "pinion", "gear"]
 TONE = {"type": "object",
-        "properties": {"frequency_Hz": {"type": "number"}, "amplitude_m_s2": {"type": "number"}},
-        "required": ["frequency_Hz", "amplitude_m_s2"], "additionalProperties": False}
+        "properties": {"frequency_Hz": {"type": "number"}, "amplitude_m_s2": {"type": "number"},
+                       "shaft": {"enum": SHAFTS}, "order": {"type": "number"}},
+        "required": ["amplitude_m_s2"], "additionalProperties": False}
+BEARING = {"type": "object",
+           "properties": {"fault": {"enum": ["outer", "inner", "roller", "cage"]},
+                          "shaft": {"enum": SHAFTS}, "role": {"enum": ["background", "other_fault"]},
+                          "elements": {"type": "integer"},
+                          **{name: {"type": "number"} for name in
+                             ("shaft_Hz", "diameter_ratio", "contact_angle_deg", "amplitude_m_s2",
+                              "resonance_Hz", "damping", "slip", "load_zone_deg")}},
+           "required": ["fault", "elements", "diameter_ratio", "amplitude_m_s2", "resonance_Hz"],
+           "additionalProperties": False}
 PYTHON_FEATURE = {"type": "object",
                   "properties": {name: {"type": "string"} for name in
                                  ("file", "sha256", "name", "title", "unit", "alarm", "uses", "doc")},
@@ -47,6 +58,8 @@ def value_schema(key):
         return {"type": "array", "items": {"type": "string"}}
     if kind == "tones":
         return {"type": "array", "items": TONE}
+    if kind == "bearings":
+        return {"type": "array", "items": BEARING}
     if kind == "python":
         return {"type": "array", "items": {"anyOf": [{"type": "string"}, PYTHON_FEATURE]}}
     numbers = {"type": "array", "items": bounded({"type": "number"}, key)}

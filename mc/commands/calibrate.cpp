@@ -71,6 +71,12 @@ class Command {
                                  "choose a motion with inertia, e.g. \"translational-torsional\""});
             return stop();
         }
+        if (!scene->study().sensor.bearings.empty()) {
+            problems_.push_back({options_.study.path, 0, "sensor.bearings",
+                                 "calibration does not simulate faulty bearings",
+                                 "use recordings without one, and remove the key"});
+            return stop();
+        }
         const std::vector<HealthyRecord> records =
             options_.features.empty() ? measured_records(options_, list_, *scene, problems_)
                                       : read_feature_table(options_.features, *scene, problems_);

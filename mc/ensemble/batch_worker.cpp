@@ -5,6 +5,7 @@
 
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/gearbox/bearing_signals.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"
 
@@ -28,8 +29,9 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 RowShape row_shape(const Study& study) {
     const std::size_t meshes =
         teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
+    const std::size_t variants = has_bearings(study, BearingRole::other_fault) ? 1 : 0;
     return {input_columns(study).size(), study.features.use.size(),
-            study.sensor.noise_levels.size(), meshes};
+            study.sensor.noise_levels.size(), meshes, variants};
 }
 
 BatchWorker::BatchWorker(const BatchTask& task)
@@ -94,12 +96,18 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 
-    std::vector<double> values(shape_.features * shape_.levels,
-                               std::numeric_limits<double>::quiet_NaN());
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> values(shape_.features * shape_.levels, kNone);
+    std::vector<double> variant(shape_.variants * values.size(), kNone);
     double noise_weight = 1.0;
     if (status == Status::ok) {
         values = features_.compute(signals, record);
         noise_weight = features_.noise_weight();
+        if (shape_.variants > 0 && record.id.group == Group::threshold) {
+            LaneSignals other = signals;
+            add_bearings(task_.scene, record, BearingRole::other_fault, other);
+            variant = features_.compute(other, record);
+        }
     }
     append_random_inputs(task_.scene.study(), record, noise_weight, rows.values);
     rows.values.push_back(record.inputs.fault_size);
@@ -109,6 +117,7 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
         std::ranges::fill(loss, std::numeric_limits<double>::quiet_NaN());
     }
     rows.values.insert(rows.values.end(), loss.begin(), loss.end());
+    rows.values.insert(rows.values.end(), variant.begin(), variant.end());
 }
 
 }  // namespace gearpod::mc

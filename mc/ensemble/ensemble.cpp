@@ -10,6 +10,7 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/bearings.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 
@@ -27,6 +28,12 @@ Results results_frame(const Study& study) {
                                     std::string(feature->unit),
                                     analysis::alarm_of(*feature),
                                     {}});
+    }
+    if (has_bearings(study, BearingRole::other_fault)) {
+        results.variants.push_back(
+            {kOtherFault,
+             "healthy gearboxes of the threshold sample with " + other_fault_text(study),
+             results.features});
     }
     if (teeth_can_separate(study)) {
         for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {

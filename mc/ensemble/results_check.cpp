@@ -65,6 +65,14 @@ std::string study_difference(const Results& frame, const Results& own) {
     if (why.empty()) {
         why = column_difference("/features", frame.features, own.features);
     }
+    if (why.empty() && frame.variants.size() != own.variants.size()) {
+        why = fmt::format("/variants has {} members, but in the study there are {}",
+                          frame.variants.size(), own.variants.size());
+    }
+    for (std::size_t v = 0; v < own.variants.size() && why.empty(); ++v) {
+        why = column_difference("/variants/" + own.variants[v].name, frame.variants[v].features,
+                                own.variants[v].features);
+    }
     if (why.empty() && frame.noise_levels != own.noise_levels) {
         why = fmt::format("/noise_levels has {} levels that differ from the study's {}",
                           frame.noise_levels.size(), own.noise_levels.size());

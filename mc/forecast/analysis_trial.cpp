@@ -194,6 +194,7 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
     }
     results.request.noise_levels = results.noise_levels;
     results.contact_loss.clear();  // not part of the analysis
+    results.variants.clear();
 
     std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
                               Pool(calibration, shape, Group::graded)};

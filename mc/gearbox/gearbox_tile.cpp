@@ -226,11 +226,11 @@ void add_costs(const GearboxTile& of, GearboxTile& tile) {
 
 // Number of baseline records of a gearbox that are computed: one if their motion is the same.
 std::size_t computed_baselines(const Study& study) {
-    const bool same = study.features.baseline_torque_scatter == 0.0 &&
-                      !has_random_fluctuations(study) && study.sensor.tones.empty() &&
-                      std::ranges::none_of(study.random, [](const RandomInput& input) {
-                          return input.distribution.per_record();
-                      });
+    const bool same =
+        study.features.baseline_torque_scatter == 0.0 && !has_random_fluctuations(study) &&
+        study.sensor.tones.empty() && study.sensor.bearings.empty() &&
+        std::ranges::none_of(
+            study.random, [](const RandomInput& input) { return input.distribution.per_record(); });
     return same ? 1 : static_cast<std::size_t>(study.features.baseline_records);
 }
 

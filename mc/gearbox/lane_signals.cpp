@@ -1,4 +1,5 @@
 // Extracts the signals of one gearbox of a tile, or of all of them.
+#include "mc/gearbox/bearing_signals.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
@@ -80,6 +81,8 @@ LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, cons
     if (cuts_records(scene, meshes)) {
         lane_result.te = te_signal(scene, tile, lane);
     }
+    add_bearings(scene, tile.realizations[static_cast<std::size_t>(lane)], BearingRole::background,
+                 lane_result);
     return lane_result;
 }
 
@@ -101,6 +104,7 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::Pat
                                 meshes, tile.tones);
         for (std::size_t lane = 0; lane < all.size(); ++lane) {
             all[lane].sensor = std::move(sensor[lane]);
+            add_bearings(scene, tile.realizations[lane], BearingRole::background, all[lane]);
         }
     }
     return all;

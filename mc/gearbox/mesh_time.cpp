@@ -166,9 +166,10 @@ bool records_during_integration(const Scene& scene) {
 
 int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
     const bool cut = has_record_length(scene.study()) && !scene.study().effects.quasi_static();
-    return needs_samples(needs) || cut       ? scene.signal_meshes()
-           : noise_by_density(scene.study()) ? scene.span_meshes()
-                                             : 0;
+    return needs_samples(needs) || cut ? scene.signal_meshes()
+           : noise_by_density(scene.study()) || !scene.study().sensor.bearings.empty()
+               ? scene.span_meshes()
+               : 0;
 }
 
 int needed_sensor_meshes(const Scene& scene) {

@@ -114,7 +114,8 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
             sample_sensor_noise(gearbox, realization);
         }
     }
-    if (!gearbox.sensor.empty()) {
+    noise_.samples.clear();
+    if (!gearbox.sensor.empty() && keeps_samples()) {
         noise_.samples =
             sample_noise(scene_, realization, gearbox.sensor, noise_.sensor, span_.ring_teeth);
     }

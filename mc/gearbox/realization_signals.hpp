@@ -55,7 +55,8 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
 // Noise of one gearbox, common to all noise levels.
 struct RealizationNoise {
     signals::NoiseVariates sensor;
-    std::vector<double> samples;  // unit rms, one value per sample of LaneSignals::sensor
+    std::vector<double> samples;  // unit rms, one per sample of LaneSignals::sensor; empty unless
+                                  // they are used
     std::vector<double> encoder;  // for a noise level of 1 rad rms
 };
 

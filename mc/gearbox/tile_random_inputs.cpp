@@ -149,9 +149,14 @@ signals::Tones draw_tones(const Scene& scene, std::span<const Realization> reali
         }
     }
     for (const Tone& tone : requested) {
-        tones.frequency_Hz.insert(tones.frequency_Hz.end(), lanes, tone.frequency_Hz);
-        for (const Realization& one : realizations) {
-            tones.amplitude_m_s2.push_back(one.inputs.tone_level * tone.amplitude_m_s2);
+        const double turns_per_mesh =
+            tone.shaft ? scene.drivetrain().shaft_turns_per_mesh(*tone.shaft) : 0.0;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            tones.frequency_Hz.push_back(tone.shaft ? tone.order * turns_per_mesh /
+                                                          tones.mesh_period_s[lane]
+                                                    : tone.frequency_Hz);
+            tones.amplitude_m_s2.push_back(realizations[lane].inputs.tone_level *
+                                           tone.amplitude_m_s2);
         }
     }
     return tones;

@@ -115,6 +115,7 @@ class ValueForm {
         }
     }
     void operator()(const TonesAccess&) const { json_["type"] = "tones"; }
+    void operator()(const BearingsAccess&) const { json_["type"] = "bearings"; }
     void operator()(const PythonAccess&) const { json_["type"] = "python"; }
 
   private:

@@ -43,7 +43,8 @@ BatchPlan lives_plan(const Study& study) {
 Results lives_frame(const Study& study) {
     Results frame = results_frame(study_of_gearboxes(study));
     frame.parameters.pop_back();  // the fault size, which is not constant
-    frame.contact_loss.clear();   // superposed records have no contact loss ratio
+    frame.variants.clear();
+    frame.contact_loss.clear();  // superposed records have no contact loss ratio
     for (const OwnColumn& column : kOwnColumns) {
         frame.parameters.push_back({column.name, column.unit, {}});
     }

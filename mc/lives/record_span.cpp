@@ -88,10 +88,11 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     if (study.sensor.noise_levels.size() != 1) {
         reject("sensor.noise_levels", "a life has one noise level", "use noise_levels = [1]");
     }
-    if (has_random_fluctuations(study) || !study.sensor.tones.empty()) {
+    if (has_random_fluctuations(study) || !study.sensor.tones.empty() ||
+        !study.sensor.bearings.empty()) {
         reject("life.interval_h",
                "records are superpositions of steady signals, but the study has fluctuations, "
-               "gravity or tones that differ between records",
+               "gravity, tones or bearings that differ between records",
                "remove them");
     }
     if (short_records) {

@@ -11,7 +11,8 @@ namespace gearpod::mc {
 // The numbers are stable, because results depend on them: FNV-1a hashes of the texts. A test lists
 // all of them.
 enum class StreamPurpose : std::uint64_t {
-    // Inputs of a gearbox. The first three are completed by with_suffix().
+    // Inputs of a gearbox. The first three, and those of bearings, are completed by
+    // with_suffix().
     random_input = fnv1a(""),                           // and a key of [random]
     table_row = fnv1a("random.rows."),                  // and the number of a table
     sobol_scrambling = fnv1a("ensemble.sampling."),     // and a key of [random]
@@ -23,6 +24,7 @@ enum class StreamPurpose : std::uint64_t {
     torque_noise = fnv1a("operation.torque_noise.knots"),
     speed_noise = fnv1a("operation.speed_noise.knots"),
     tone_phases = fnv1a("sensor.tones.phase"),
+    bearing_impulses = fnv1a("sensor.bearings."),       // and the number of a bearing
     record_start = fnv1a("sensor.record.start"),        // tooth position at which a record begins
     assembled_teeth = fnv1a("gearbox.assembly.teeth"),  // of a baseline's assembly
     // Noise of records.

@@ -186,7 +186,7 @@ class Examples {
         rotate_to_first_tooth(features_.record(), scene_.te_samples_per_mesh(), te_turn);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
-                                             shape.values() - shape.parameters);
+                                             shape.features * shape.levels);
         // Features in Python keep their stored values.
         for (std::size_t f = 0; f < shape.features; ++f) {
             const features::Feature* known = find_feature(scene_.study(), frame_.features[f].name);

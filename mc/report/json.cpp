@@ -19,6 +19,7 @@
 #include "mc/summary/contact_loss.hpp"
 #include "mc/summary/failures.hpp"
 #include "mc/summary/monitoring_over_time.hpp"
+#include "mc/summary/other_fault.hpp"
 #include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
@@ -83,6 +84,21 @@ Json step_error_json(const Results& frame) {
     return json;
 }
 
+// Alarms of healthy gearboxes with another fault; null without one.
+Json other_fault_json(const Results& frame, const RowSource& rows) {
+    Json json = Json::array();
+    for (const OtherFaultAlarms& one : other_fault_alarms(frame, rows)) {
+        json.push_back({{"feature", frame.features[one.feature].name},
+                        {"noise_level", frame.noise_levels[one.level]},
+                        {"alarms", one.alarms},
+                        {"tested", one.tested},
+                        {"lower", one.interval.lower},
+                        {"upper", one.interval.upper},
+                        {"without", one.without}});
+    }
+    return json.empty() ? Json(nullptr) : json;
+}
+
 Json features_json(const Results& frame) {
     Json json = Json::array();
     for (const FeatureResult& result : frame.features) {
@@ -129,6 +145,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["numerical"] = numerical_json(frame, numerical_contributions(frame, rows, reliability));
     json["step_error"] = step_error_json(frame);
     json["contact_loss"] = contact_loss_json(frame, rows);
+    json["other_fault"] = other_fault_json(frame, rows);
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);
     const Failures failures = failures_of(frame, rows);

@@ -48,8 +48,8 @@ std::string_view view(const std::vector<std::byte>& bytes) {
 
 std::string text_of(const RunIdentity& identity) {
     const RowShape& shape = identity.shape;
-    return fmt::format("{}\n{}\n{} {} {} {}{}{}\n{}", identity.version, identity.seed,
-                       shape.parameters, shape.features, shape.levels, shape.meshes,
+    return fmt::format("{}\n{}\n{} {} {} {} {}{}{}\n{}", identity.version, identity.seed,
+                       shape.parameters, shape.features, shape.levels, shape.meshes, shape.variants,
                        identity.part.empty() ? "" : " ", identity.part, identity.study);
 }
 
@@ -62,7 +62,8 @@ RunIdentity identity_of(const std::string& text) {
     identity.seed = text.substr(version + 1, seed - version - 1);
     std::istringstream numbers(text.substr(seed + 1, shape - seed - 1));
     RowShape& own = identity.shape;
-    numbers >> own.parameters >> own.features >> own.levels >> own.meshes >> identity.part;
+    numbers >> own.parameters >> own.features >> own.levels >> own.meshes >> own.variants >>
+        identity.part;
     identity.study = text.substr(shape + 1);
     return identity;
 }

@@ -50,6 +50,15 @@ RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange
                   column);
         put(shape.contact_loss() + m, 1);
     }
+    for (std::size_t v = 0; v < shape.variants; ++v) {
+        const Variant& variant = frame.variants[v];
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            read_rows(root,
+                      std::string(kVariants) + "/" + variant.name + "/" + variant.features[f].name,
+                      {rows, shape.levels}, range, column);
+            put(shape.variant_value_of(v, f), shape.levels);
+        }
+    }
     return block;
 }
 

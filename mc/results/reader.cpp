@@ -46,6 +46,7 @@ class ResultsReader {
         read_instances();
         read_features();
         read_contact_loss();
+        read_variants();
         read_detection();
         read_numerical();
         read_step_error();
@@ -108,15 +109,32 @@ class ResultsReader {
         }
     }
 
+    std::vector<FeatureResult> features_in(hid_t group) {
+        std::vector<FeatureResult> features;
+        for (const std::string& name : link_names(group)) {
+            features.push_back({name, read_text(group, name, "unit"),
+                                alarm_of(read_text(group, name, "alarm")), column(group, name)});
+            require_count(features.back().values.size(),
+                          results_.group.size() * results_.noise_levels.size(), name);
+        }
+        return features;
+    }
+
     void read_features() {
         results_.noise_levels = numbers(root_, columns_name(results_));
-        const Hdf5Handle group = open_group(root_, "features");
-        for (const std::string& name : link_names(group.get())) {
-            results_.features.push_back({name, read_text(group.get(), name, "unit"),
-                                         alarm_of(read_text(group.get(), name, "alarm")),
-                                         column(group.get(), name)});
-            require_count(results_.features.back().values.size(),
-                          results_.group.size() * results_.noise_levels.size(), name);
+        results_.features = features_in(open_group(root_, "features").get());
+    }
+
+    void read_variants() {
+        if (!has_group(kVariants)) {
+            return;
+        }
+        const Hdf5Handle variants = open_group(root_, kVariants);
+        for (const std::string& name : link_names(variants.get())) {
+            const Hdf5Handle group = open_group(variants.get(), name);
+            results_.variants.push_back(
+                {name, read_text(variants.get(), name, "description"), features_in(group.get())});
+            require_count(results_.variants.back().features.size(), results_.features.size(), name);
         }
     }
 

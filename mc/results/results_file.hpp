@@ -7,6 +7,8 @@
 //   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
 //                          contact loss ratio. Absent if teeth cannot lose contact, and in files
 //                          of versions before 0.3
+//   /variants/<variant>/<feature>  as /features/<feature>, of the same gearboxes with other
+//                          signals; attribute `description` of the variant
 //   /noise_levels          factors on the sensor and encoder noise
 //   /status                one value per row, attribute `meanings`
 //   /detection             attributes false_alarm_rate, confidence, size_name (the parameter that
@@ -94,6 +96,16 @@ struct MeshResult {
     std::vector<double> values;  // one per row; NaN for a gearbox that failed
 };
 
+// Features of the same gearboxes with other signals.
+struct Variant {
+    std::string name, description;
+    std::vector<FeatureResult> features;  // all of Results::features, in the same order
+};
+
+// Name of the variant in which the healthy gearboxes of the threshold group have another fault than
+// that of the study (BearingRole::other_fault). Its values are NaN for graded gearboxes.
+inline constexpr const char* kOtherFault = "other_fault";
+
 struct Timing {
     std::string name;
     double seconds = 0.0;
@@ -134,6 +146,7 @@ struct Results {
     std::vector<double> noise_levels;  // for lives: hours of the records
     std::vector<FeatureResult> features;
     std::vector<MeshResult> contact_loss;  // empty if teeth cannot lose contact
+    std::vector<Variant> variants;
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;
     std::optional<NumericalError> numerical;

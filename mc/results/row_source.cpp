@@ -47,6 +47,15 @@ void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
     }
 }
 
+// Appends a row's values of the features at all noise levels.
+void add_levels(const std::vector<FeatureResult>& features, std::size_t row, std::size_t levels,
+                std::vector<double>& values) {
+    for (const FeatureResult& feature : features) {
+        const auto at = feature.values.begin() + static_cast<std::ptrdiff_t>(row * levels);
+        values.insert(values.end(), at, at + static_cast<std::ptrdiff_t>(levels));
+    }
+}
+
 }  // namespace
 
 void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
@@ -69,13 +78,12 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
             for (const ParameterResult& parameter : results_.parameters) {
                 block.values.push_back(parameter.values[row]);
             }
-            for (const FeatureResult& feature : results_.features) {
-                const auto at = feature.values.begin() + static_cast<std::ptrdiff_t>(row * levels);
-                block.values.insert(block.values.end(), at,
-                                    at + static_cast<std::ptrdiff_t>(levels));
-            }
+            add_levels(results_.features, row, levels, block.values);
             for (const MeshResult& mesh : results_.contact_loss) {
                 block.values.push_back(mesh.values[row]);
+            }
+            for (const Variant& variant : results_.variants) {
+                add_levels(variant.features, row, levels, block.values);
             }
         }
         use(block);
@@ -105,7 +113,7 @@ bool uses_noise_weights(const std::string& feature) {
 
 RowShape row_shape(const Results& results) {
     return {results.parameters.size(), results.features.size(), results.noise_levels.size(),
-            results.contact_loss.size()};
+            results.contact_loss.size(), results.variants.size()};
 }
 
 void fill_columns(Results& results, const RowSource& rows) {
@@ -125,6 +133,13 @@ void fill_columns(Results& results, const RowSource& rows) {
             }
             for (std::size_t m = 0; m < shape.meshes; ++m) {
                 results.contact_loss[m].values.push_back(values[shape.contact_loss() + m]);
+            }
+            for (std::size_t v = 0; v < shape.variants; ++v) {
+                for (std::size_t f = 0; f < shape.features; ++f) {
+                    const double* feature = values + shape.variant_value_of(v, f);
+                    std::vector<double>& column = results.variants[v].features[f].values;
+                    column.insert(column.end(), feature, feature + shape.levels);
+                }
             }
         }
     });

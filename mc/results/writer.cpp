@@ -34,6 +34,14 @@ void check_shapes(const Results& results) {
     for (const MeshResult& mesh : results.contact_loss) {
         require(mesh.values.size() == rows, mesh.name + " has another number of rows");
     }
+    for (const Variant& variant : results.variants) {
+        require(variant.features.size() == results.features.size(),
+                variant.name + " has another number of features");
+        for (const FeatureResult& feature : variant.features) {
+            require(feature.values.size() == rows * results.noise_levels.size(),
+                    variant.name + ": " + feature.name + " is not rows x noise levels");
+        }
+    }
     for (const analysis::FeatureDetection& detection : results.detection) {
         for (const analysis::LevelDetection& level : detection.levels) {
             require(level.cells.size() == results.request.groups.size(),
@@ -69,17 +77,38 @@ void create_instances(hid_t root, const Results& frame, hsize_t rows, Places& pl
     write_text(root, "status", "meanings", kStatusMeanings);
 }
 
+// Columns of features in a group; `first` is the index of the first one's values in a row.
+void create_features(hid_t group, const std::vector<FeatureResult>& features, std::size_t first,
+                     std::size_t levels, hsize_t rows, Places& places) {
+    for (const FeatureResult& feature : features) {
+        places.numbers.push_back(
+            {create_column(group, feature.name, {rows, levels}, ColumnKind::numbers), first,
+             levels});
+        first += levels;
+        write_text(group, feature.name, "unit", feature.unit);
+        write_text(group, feature.name, "alarm", analysis::alarm_name(feature.alarm));
+    }
+}
+
 void create_features(hid_t root, const Results& frame, hsize_t rows, Places& places) {
     const RowShape shape = row_shape(frame);
     write_numbers(root, columns_name(frame), {shape.levels}, frame.noise_levels);
     const Hdf5Handle group = create_group(root, "features");
-    for (std::size_t f = 0; f < shape.features; ++f) {
-        const FeatureResult& feature = frame.features[f];
-        places.numbers.push_back(
-            {create_column(group.get(), feature.name, {rows, shape.levels}, ColumnKind::numbers),
-             shape.value_of(f, 0), shape.levels});
-        write_text(group.get(), feature.name, "unit", feature.unit);
-        write_text(group.get(), feature.name, "alarm", analysis::alarm_name(feature.alarm));
+    create_features(group.get(), frame.features, shape.value_of(0, 0), shape.levels, rows, places);
+}
+
+void create_variants(hid_t root, const Results& frame, hsize_t rows, Places& places) {
+    if (frame.variants.empty()) {
+        return;
+    }
+    const RowShape shape = row_shape(frame);
+    const Hdf5Handle variants = create_group(root, kVariants);
+    for (std::size_t v = 0; v < shape.variants; ++v) {
+        const Variant& variant = frame.variants[v];
+        const Hdf5Handle group = create_group(variants.get(), variant.name);
+        write_text(variants.get(), variant.name, "description", variant.description);
+        create_features(group.get(), variant.features, shape.variant_value_of(v, 0), shape.levels,
+                        rows, places);
     }
 }
 
@@ -244,6 +273,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         create_instances(root.get(), frame, rows, places);
         create_features(root.get(), frame, rows, places);
         create_contact_loss(root.get(), frame, rows, places);
+        create_variants(root.get(), frame, rows, places);
         write_detection(root.get(), frame);
         write_numerical(root.get(), frame);
         write_step_error(root.get(), frame);

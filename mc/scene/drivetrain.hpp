@@ -25,6 +25,8 @@ class Drivetrain {
     // latter may be negative.
     virtual double input_turns_per_mesh() const = 0;
     virtual double frame_turns_per_mesh() const = 0;
+    // Turns of a member in the housing per mesh period, without sign; 0 if it stands still.
+    virtual double shaft_turns_per_mesh(Member member) const = 0;
     // Rigid rotation of the train: index of the input's degree of freedom, and speed along
     // dynamics::rigid_rotation, m/s.
     virtual int input_degree_of_freedom(const dynamics::GearboxLayout& layout) const = 0;
@@ -66,6 +68,7 @@ class PlanetaryDrivetrain : public Drivetrain {
     double mesh_frequency_rad_s(double speed_rad_s) const override;
     double input_turns_per_mesh() const override;
     double frame_turns_per_mesh() const override;
+    double shaft_turns_per_mesh(Member member) const override;
     int input_degree_of_freedom(const dynamics::GearboxLayout& layout) const override;
     double rotation_m_s(const InstanceInputs& instance) const override;
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
@@ -88,6 +91,8 @@ class PlanetaryDrivetrain : public Drivetrain {
         return gears::signed_speeds(train_, flow_, speed_of_, given);
     }
 
+    double turns_per_mesh(gears::Member member) const;
+
     gears::PlanetaryTrain train_;
     gears::PowerFlow flow_;
     gears::Member speed_of_, torque_on_;
@@ -103,6 +108,9 @@ class FixedShaftDrivetrain : public Drivetrain {
     double mesh_frequency_rad_s(double speed_rad_s) const override;
     double input_turns_per_mesh() const override { return 1.0 / pinion_teeth_; }
     double frame_turns_per_mesh() const override { return 0.0; }
+    double shaft_turns_per_mesh(Member member) const override {
+        return 1.0 / (member == Member::pinion ? pinion_teeth_ : gear_teeth_);
+    }
     int input_degree_of_freedom(const dynamics::GearboxLayout&) const override {
         return dynamics::u_m;
     }

@@ -155,6 +155,7 @@ InstanceInputs instance_inputs(const InputValues& values) {
         g.kind == GearboxKind::fixed_shaft ? 0.0 : values.of(study.sensor.path_exponent);
     inputs.gain = values.of(study.sensor.gain);
     inputs.tone_level = values.of(study.sensor.tone_level);
+    inputs.bearing_level = values.of(study.sensor.bearing_level);
     const SensorNoise noise =
         sensor_noise(study, values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
                      values.of(study.sensor.noise_m_s2));

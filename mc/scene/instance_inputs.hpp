@@ -52,6 +52,7 @@ struct InstanceInputs {
     double path_exponent;
     double gain;               // sensor's factor on the gearbox's vibration
     double tone_level;         // factor on the amplitudes of its tones
+    double bearing_level;      // factor on the amplitudes of its bearings
     double noise_m_s2;         // rms of all accelerometer noise
     double white_noise_m_s2;   // rms of the part that the low-pass does not filter
     double encoder_noise_rad;  // rms

@@ -75,12 +75,20 @@ double PlanetaryDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
     return gears::mesh_frequency(train_, speeds(speed_rad_s));
 }
 
-double PlanetaryDrivetrain::input_turns_per_mesh() const {
+double PlanetaryDrivetrain::turns_per_mesh(gears::Member member) const {
     const gears::Speeds turning = speeds(1.0);
-    const double input = flow_.input == gears::Member::sun    ? turning.sun
-                         : flow_.input == gears::Member::ring ? turning.ring
-                                                              : turning.carrier;
-    return std::abs(input) / gears::mesh_frequency(train_, turning);
+    const double speed = member == gears::Member::sun    ? turning.sun
+                         : member == gears::Member::ring ? turning.ring
+                                                         : turning.carrier;
+    return std::abs(speed) / gears::mesh_frequency(train_, turning);
+}
+
+double PlanetaryDrivetrain::input_turns_per_mesh() const {
+    return turns_per_mesh(flow_.input);
+}
+
+double PlanetaryDrivetrain::shaft_turns_per_mesh(Member member) const {
+    return turns_per_mesh(central_member(member));
 }
 
 double PlanetaryDrivetrain::frame_turns_per_mesh() const {

@@ -17,9 +17,11 @@
 #include "mc/input/problems.hpp"
 #include "mc/study/fault_shapes.hpp"
 #include "mc/study/life.hpp"
+#include "mc/study/member.hpp"
 #include "mc/study/numerics.hpp"
 #include "mc/study/python_feature.hpp"
 #include "mc/study/random_input.hpp"
+#include "mc/study/sensor.hpp"
 #include "signals/path/path_window.hpp"
 #include "stiffness/contact/hertz_contact.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
@@ -30,9 +32,6 @@ class FaultKind;  // mc/study/faults/fault_kind.hpp
 
 enum class GearboxKind { planetary, fixed_shaft };
 enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
-enum class Member { sun, planet, ring, carrier, pinion, gear };
-inline constexpr std::array kAllMembers{Member::sun,     Member::planet, Member::ring,
-                                        Member::carrier, Member::pinion, Member::gear};
 enum class MeshKind { sun_planet, ring_planet, pinion_gear };
 inline constexpr std::size_t kMeshKinds = 3;
 enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
@@ -44,17 +43,6 @@ using dynamics::MeshDamping;
 using stiffness::Contact;
 using FaultSide = lockstep::PlanetSide;
 
-// Array indexed by an enumeration with `kCount` enumerators.
-template <class Enum, std::size_t kCount, class Value>
-struct EnumArray {
-    std::array<Value, kCount> values{};
-
-    Value& operator[](Enum which) { return values.at(static_cast<std::size_t>(which)); }
-    const Value& operator[](Enum which) const { return values.at(static_cast<std::size_t>(which)); }
-    bool operator==(const EnumArray&) const = default;
-};
-template <class Value>
-using MemberArray = EnumArray<Member, kAllMembers.size(), Value>;
 template <class Value>
 using MeshArray = EnumArray<MeshKind, kMeshKinds, Value>;
 
@@ -235,35 +223,6 @@ struct Fault {
     FaultShapes shapes;
 
     bool operator==(const Fault&) const = default;
-};
-
-// Interfering tone at the sensor.
-struct Tone {
-    double frequency_Hz = 0.0;
-    double amplitude_m_s2 = 0.0;
-
-    bool operator==(const Tone&) const = default;
-};
-
-struct Sensor {
-    double sampling_Hz = 0.0;
-    double low_pass_Hz = 0.0;
-    Member position = Member::pinion;  // fixed-shaft: bearing on which the sensor is mounted
-    double path_exponent = 0.1;
-    double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
-    double noise_m_s2 = 0.0;  // rms, white
-    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered
-    double quantisation_m_s2 = 0.0;  // step of the analogue-to-digital converter
-    std::vector<Tone> tones;
-    double tone_level = 1.0;  // factor on the amplitudes of all tones
-    double encoder_sampling_Hz = 0.0;
-    double encoder_noise_rad = 0.0;         // rms
-    std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
-    // Length of a record, in seconds or in carrier turns; by default every tooth of the monitored
-    // gear meets every tooth of its mate once.
-    std::optional<double> record_s, record_turns;
-
-    bool operator==(const Sensor&) const = default;
 };
 
 struct Features {

@@ -25,6 +25,7 @@
 #include "mc/summary/feature_values.hpp"
 #include "mc/summary/monitoring_over_time.hpp"
 #include "mc/summary/numerical_section.hpp"
+#include "mc/summary/other_fault.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -146,6 +147,15 @@ std::string numerical_of(const analysis::Findings& findings,
                            findings.request.noise_levels[findings.reference]);
 }
 
+// Alarms of the answer's feature that another fault raises; "" without one.
+std::string other_fault_of(const analysis::Findings& findings, const Results& frame,
+                           const std::vector<OtherFaultAlarms>& others) {
+    return others.empty()
+               ? ""
+               : other_fault_limit(frame, others, findings.name(findings.best(findings.reference)),
+                                   findings.reference);
+}
+
 }  // namespace
 
 analysis::Report results_report(const Results& frame, const RowSource& rows,
@@ -167,7 +177,9 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
     report.add(state_section(frame, failures.counts));
     report.add(analysis::headline_section(findings, study ? run_conditions(*study) : "",
                                           facts_text(findings, failures.counts, study)));
-    report.add(analysis::limits_section(findings, numerical_of(findings, contributions)));
+    const auto others = other_fault_alarms(frame, rows);
+    report.add(analysis::limits_section(findings, numerical_of(findings, contributions),
+                                        other_fault_of(findings, frame, others)));
     analysis::Section values = feature_values(frame, rows);
     if (values.blocks.empty()) {
         add_detection_sections(report, findings);
@@ -185,6 +197,7 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
         }
         report.add(monitoring_section(*monitoring, best));
     }
+    report.add(other_fault_section(frame, others));
     report.add(contact_section(summarise_contact_loss(frame, rows)));
     report.add(numerical_section(frame, contributions));
     report.add(failures_section(frame, failures));
@@ -193,7 +206,7 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
 
 std::string headline_text(const analysis::Report& report) {
     std::string text;
-    for (const char* key : {"headline", "assumptions", "shortage"}) {
+    for (const char* key : {"headline", "limit.other_fault", "assumptions", "shortage"}) {
         if (const std::string statement = statement_text(report, key); !statement.empty()) {
             analysis::add_wrapped(text, statement, 2);
         }

@@ -145,6 +145,13 @@ inline std::vector<std::uint64_t> bits(const mc::Results& results) {
             all.push_back(std::bit_cast<std::uint64_t>(value));
         }
     }
+    for (const auto& variant : results.variants) {
+        for (const auto& feature : variant.features) {
+            for (const double value : feature.values) {
+                all.push_back(std::bit_cast<std::uint64_t>(value));
+            }
+        }
+    }
     all.insert(all.end(), results.group.begin(), results.group.end());
     all.insert(all.end(), results.status.begin(), results.status.end());
     return all;

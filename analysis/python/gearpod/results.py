@@ -69,6 +69,10 @@ class Results:
             self.features: List[str] = list(file["features"])
             # Meshes whose contact loss ratio is known; none where teeth cannot separate.
             self.meshes: List[str] = list(file.get("contact_loss", {}))
+            # Other signals of the same gearboxes whose features are stored, by name.
+            self.variants: Dict[str, str] = {
+                name: _text(group.attrs["description"])
+                for name, group in file.get("variants", {}).items()}
             self.units: Dict[str, str] = {
                 name: _text(file[folder][name].attrs["unit"])
                 for folder, names in (("instances", self.inputs), ("features", self.features))
@@ -112,6 +116,13 @@ class Results:
         the nominal path of contact, in which a tooth pair carries no load; NaN where there is no
         value."""
         return self._read("contact_loss", mesh, self.meshes)
+
+    def variant(self, name: str, feature: str) -> Array:
+        """Values of a feature of other signals, gearboxes x noise levels. The variant "other_fault"
+        has healthy gearboxes with a faulty bearing; it is NaN for graded ones."""
+        if name not in self.variants:
+            raise KeyError(f"no variant {name}; available: {', '.join(self.variants) or 'none'}")
+        return self._read(f"variants/{name}", feature, self.features)
 
     def level(self, noise: float) -> int:
         """Index of a noise level. Raises KeyError with the available levels."""

@@ -74,8 +74,10 @@ std::string unknown_text(const Findings& findings, std::size_t level);
 // The answer at the reference level, `assumptions` and `facts`, and the smallest fault by noise.
 Section headline_section(const Findings& findings, const std::string& assumptions,
                          const std::string& facts);
-// Limits of the answer. `numerical`: sentence on the numerical error of the answer's feature.
-Section limits_section(const Findings& findings, const std::string& numerical);
+// Limits of the answer. `numerical`, `other_fault`: sentences on the numerical error of the
+// answer's feature, and on the alarms that another fault raises.
+Section limits_section(const Findings& findings, const std::string& numerical,
+                       const std::string& other_fault = "");
 // Everything at one noise level.
 Section level_section(const Findings& findings, std::size_t level);
 // Smallest reliable sizes from the rates alone, warnings.

@@ -266,12 +266,14 @@ Section headline_section(const Findings& findings, const std::string& assumption
     return section;
 }
 
-Section limits_section(const Findings& findings, const std::string& numerical) {
+Section limits_section(const Findings& findings, const std::string& numerical,
+                       const std::string& other_fault) {
     Section section{"limits", "What limits it", {}};
     if (!findings.unassessable.empty() || !has_sizes(findings.request)) {
         return section;
     }
     section.state("limit.noise", noise_limit(findings));
+    section.state("limit.other_fault", other_fault);
     if (const auto& found = findings.smallest[findings.reference]) {
         if (findings.has_curves()) {
             section.state("limit.misses", misses_text(findings, findings.feature(found->feature),

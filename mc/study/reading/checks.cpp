@@ -83,6 +83,52 @@ void check_fixed_shaft_motion(StudyDraft& draft) {
     }
 }
 
+// Rejects a shaft that the gearbox does not have, or that stands still.
+void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member shaft) {
+    const Study& study = draft.study;
+    const bool pair = study.gearbox.kind == GearboxKind::fixed_shaft,
+               of_pair = shaft == Member::pinion || shaft == Member::gear;
+    const std::string_view name = member_name(shaft);
+    if (draft.usable("gearbox.kind") && pair != of_pair) {
+        draft.reject(
+            key,
+            fmt::format("number {}: this kind of gearbox has no {} (gearbox.kind)", number, name),
+            pair ? "use \"pinion\" or \"gear\"" : "use \"sun\", \"ring\" or \"carrier\"");
+    } else if (!pair && draft.usable("operation.fixed") && shaft == study.operation.fixed) {
+        draft.reject(key,
+                     fmt::format("number {}: the {} stands still (operation.fixed)", number, name),
+                     "use another shaft");
+    }
+}
+
+void check_tones_and_bearings(StudyDraft& draft) {
+    const Sensor& s = draft.study.sensor;
+    for (std::size_t i = 0; i < s.tones.size() && draft.usable("sensor.tones"); ++i) {
+        if (s.tones[i].shaft) {
+            check_shaft(draft, "sensor.tones", i + 1, *s.tones[i].shaft);
+        } else if (draft.usable("sensor.sampling_Hz") &&
+                   s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
+            draft.reject("sensor.tones",
+                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
+                                     i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
+                         "lower its frequency or raise sampling_Hz");
+        }
+    }
+    for (std::size_t i = 0; i < s.bearings.size() && draft.usable("sensor.bearings"); ++i) {
+        if (s.bearings[i].shaft) {
+            check_shaft(draft, "sensor.bearings", i + 1, *s.bearings[i].shaft);
+        }
+    }
+    if (!s.bearings.empty() && draft.study.ensemble.threshold_records > 1 &&
+        draft.usable("ensemble.threshold_records")) {
+        draft.reject("ensemble.threshold_records",
+                     fmt::format("is {}, but all records of a gearbox would have the same impulses "
+                                 "(sensor.bearings)",
+                                 draft.study.ensemble.threshold_records),
+                     "use 1, or remove the bearings");
+    }
+}
+
 void check_sampling(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
     if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
@@ -113,14 +159,7 @@ void check_sampling(StudyDraft& draft) {
                                  s.encoder_sampling_Hz, s.sampling_Hz),
                      "lower encoder_sampling_Hz or raise sampling_Hz");
     }
-    for (std::size_t i = 0; i < s.tones.size() && draft.all_usable({"sensor.tones"}); ++i) {
-        if (s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
-            draft.reject("sensor.tones",
-                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
-                                     i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
-                         "lower its frequency or raise sampling_Hz");
-        }
-    }
+    check_tones_and_bearings(draft);
 }
 
 void check_feature(StudyDraft& draft, const std::string& name) {

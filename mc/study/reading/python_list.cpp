@@ -20,7 +20,7 @@ const std::vector<std::string_view> kPythonNames{"name", "file",  "sha256", "tit
 
 class PythonList {
   public:
-    PythonList(bool runs, const RejectPython& reject) : runs_(runs), reject_(reject) {}
+    PythonList(bool runs, const RejectElement& reject) : runs_(runs), reject_(reject) {}
 
     void add(const Value& element) {
         if (element.kind == Value::Kind::text) {
@@ -109,14 +109,14 @@ class PythonList {
     }
 
     const bool runs_;
-    const RejectPython& reject_;
+    const RejectElement& reject_;
     std::vector<PythonFeature> all_;
 };
 
 }  // namespace
 
 std::vector<PythonFeature> read_python_features(const Value& list, bool runs,
-                                                const RejectPython& reject) {
+                                                const RejectElement& reject) {
     PythonList files(runs, reject);
     for (const Value& element : list.elements) {
         files.add(element);

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "features/feature.hpp"
+#include "mc/study/reading/bearings.hpp"
 #include "mc/study/reading/python_list.hpp"
+#include "mc/study/reading/tones.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -88,10 +90,18 @@ class ValueText {
     std::string operator()(const TonesAccess& access) const {
         std::vector<std::string> texts;
         for (const Tone& tone : access.get(study_)) {
-            texts.push_back(fmt::format("{{ frequency_Hz = {}, amplitude_m_s2 = {} }}",
-                                        tone.frequency_Hz, tone.amplitude_m_s2));
+            texts.push_back(tone_table(tone));
         }
         return in_brackets(texts);
+    }
+
+    // One line per bearing.
+    std::string operator()(const BearingsAccess& access) const {
+        std::string text;
+        for (const Bearing& bearing : access.get(study_)) {
+            text += fmt::format("    {},\n", bearing_table(bearing));
+        }
+        return text.empty() ? "" : fmt::format("[\n{}]", text);
     }
 
     // One line per feature, so that differences of studies show the feature.

@@ -1,19 +1,19 @@
 // Reads interfering tones as a study file lists them: [{ frequency_Hz = 50, amplitude_m_s2 = 0.1 },
-// ...].
+// { shaft = "sun", order = 2, amplitude_m_s2 = 0.1 }].
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "mc/input/document.hpp"
+#include "mc/study/reading/list_element.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Called with a problem, which names the tone by its position in the list, and a remedy.
-using RejectTone = std::function<void(std::string what, std::string remedy)>;
+// Problems name the tone by its position in the list.
+std::vector<Tone> read_tones(const Value& list, const RejectElement& reject);
 
-std::vector<Tone> read_tones(const Value& list, const RejectTone& reject);
+// Table with all values, which reads back to the same tone.
+std::string tone_table(const Tone& tone);
 
 }  // namespace gearpod::mc

@@ -5,6 +5,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/reading/bearings.hpp"
 #include "mc/study/reading/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/python_list.hpp"
@@ -120,19 +121,19 @@ class ValueReader {
 
     void operator()(const TonesAccess& access) {
         if (value_.elements.empty() ? is_list("tones") : nonempty_list("tones")) {
-            access.set(draft_.study, read_tones(value_, [&](std::string what, std::string remedy) {
-                           reject(std::move(what), std::move(remedy));
-                       }));
+            access.set(draft_.study, read_tones(value_, rejection()));
+        }
+    }
+
+    void operator()(const BearingsAccess& access) {
+        if (value_.elements.empty() ? is_list("bearings") : nonempty_list("bearings")) {
+            access.set(draft_.study, read_bearings(value_, rejection()));
         }
     }
 
     void operator()(const PythonAccess& access) {
         if (value_.elements.empty() ? is_list("Python files") : nonempty_list("Python files")) {
-            access.set(draft_.study,
-                       read_python_features(value_, draft_.runs_python,
-                                            [&](std::string what, std::string remedy) {
-                                                reject(std::move(what), std::move(remedy));
-                                            }));
+            access.set(draft_.study, read_python_features(value_, draft_.runs_python, rejection()));
         }
     }
 
@@ -196,6 +197,12 @@ class ValueReader {
             }
         }
         return value_.kind == Value::Kind::text ? value_.text : "";
+    }
+
+    RejectElement rejection() {
+        return [this](std::string what, std::string remedy) {
+            reject(std::move(what), std::move(remedy));
+        };
     }
 
     void reject(std::string what, std::string remedy) {

@@ -323,6 +323,13 @@ Presence with_tones(const Study& s) {
                : acceleration_detail(s);
 }
 
+Presence with_bearings(const Study& s) {
+    return s.sensor.bearings.empty() ? Presence{Need::forbidden,
+                                                "no bearings are given: sensor.bearings",
+                                                {"sensor.bearings"}}
+                                     : acceleration_detail(s);
+}
+
 Presence white_records(const Study& s) {
     constexpr std::string_view kRecords = "ensemble.threshold_records";
     if (s.ensemble.threshold_records == 1) {

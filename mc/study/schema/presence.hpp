@@ -61,10 +61,11 @@ Presence bearings_move(const Study&);  // only where planets move on their beari
 Presence bearings_damp(const Study&);  // and the gearbox has inertia
 Presence planet_masses(const Study&);  // only where their masses have an effect
 
-Presence with_tones(const Study&);    // only with sensor.tones
-Presence torque_sine(const Study&);   // only with operation.torque_fluctuation
-Presence torque_noise(const Study&);  // only with operation.torque_noise, and then required
-Presence speed_sine(const Study&);    // only with operation.speed_fluctuation, and then required
+Presence with_tones(const Study&);     // only with sensor.tones
+Presence with_bearings(const Study&);  // only with sensor.bearings
+Presence torque_sine(const Study&);    // only with operation.torque_fluctuation
+Presence torque_noise(const Study&);   // only with operation.torque_noise, and then required
+Presence speed_sine(const Study&);     // only with operation.speed_fluctuation, and then required
 Presence speed_phase(const Study&);
 Presence speed_noise(const Study&);
 Presence gravity(const Study&);  // only with effects.gravity
@@ -74,7 +75,7 @@ Presence inertia(const Study&);          // J needs the radii
 Presence inertia_over_r2(const Study&);  // required where no disc can be assumed
 Presence bearing(const Study&);          // unless the motion is torsional
 
-Presence acceleration(const Study&);  // required unless the motion is quasi-static
+Presence acceleration(const Study&);         // required unless the motion is quasi-static
 Presence white_records(const Study&);        // only with several records, of white noise
 Presence acceleration_detail(const Study&);  // forbidden if the motion is quasi-static
 Presence integration(const Study&);          // forbidden if nothing is integrated in time

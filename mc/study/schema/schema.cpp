@@ -61,7 +61,11 @@ struct KindText {
     }
     std::string operator()(const TextsAccess&) const { return "list of strings"; }
     std::string operator()(const TonesAccess&) const {
-        return "list of { frequency_Hz, amplitude_m_s2 }";
+        return "list of { frequency_Hz or shaft and order, amplitude_m_s2 }";
+    }
+    std::string operator()(const BearingsAccess&) const {
+        return "list of { fault, shaft or shaft_Hz, elements, diameter_ratio, amplitude_m_s2, "
+               "resonance_Hz, ... }";
     }
     std::string operator()(const PythonAccess&) const { return "list of Python files"; }
     std::string operator()(const ChoiceAccess& choice) const {

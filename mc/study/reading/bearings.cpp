@@ -1,0 +1,71 @@
+#include "mc/study/reading/bearings.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "mc/study/gears.hpp"
+#include "signals/noise/bearing_impulses.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr Range kAbove0{.low = 0.0, .low_open = true};
+
+constexpr std::array kFaults{ChoiceName{"outer", static_cast<int>(BearingFault::outer)},
+                             ChoiceName{"inner", static_cast<int>(BearingFault::inner)},
+                             ChoiceName{"roller", static_cast<int>(BearingFault::roller)},
+                             ChoiceName{"cage", static_cast<int>(BearingFault::cage)}};
+constexpr std::array kRoles{ChoiceName{"background", static_cast<int>(BearingRole::background)},
+                            ChoiceName{"other_fault", static_cast<int>(BearingRole::other_fault)}};
+
+Bearing read_bearing(const ListElement& element) {
+    Bearing bearing;
+    bearing.fault = static_cast<BearingFault>(element.choice("fault", kFaults, true).value_or(0));
+    if (element.first_of("shaft", "shaft_Hz")) {
+        bearing.shaft = element.shaft();
+    } else if (element.has("shaft_Hz")) {
+        bearing.shaft_Hz = element.number("shaft_Hz", kAbove0);
+    }
+    bearing.elements = element.integer("elements", {3.0, 1000.0});
+    bearing.diameter_ratio = element.number("diameter_ratio", {0.0, 0.9, true});
+    bearing.contact_angle_deg = element.number("contact_angle_deg", {0.0, 60.0}, 0.0);
+    bearing.amplitude_m_s2 = element.number("amplitude_m_s2", kAbove0);
+    bearing.resonance_Hz = element.number("resonance_Hz", kAbove0);
+    bearing.damping = element.number("damping", {0.0, signals::kMostResonanceDamping, true}, 0.05);
+    bearing.slip = element.number("slip", {0.0, signals::kMostSlip}, 0.01);
+    bearing.load_zone_deg = element.number("load_zone_deg", {0.0, 360.0, true}, 180.0);
+    bearing.role = static_cast<BearingRole>(element.choice("role", kRoles, false).value_or(0));
+    return bearing;
+}
+
+}  // namespace
+
+std::vector<Bearing> read_bearings(const Value& list, const RejectElement& reject) {
+    std::vector<Bearing> bearings;
+    for (std::size_t i = 0; i < list.elements.size(); ++i) {
+        bearings.push_back(read_bearing(ListElement(
+            list.elements[i], fmt::format("bearing {}", i + 1),
+            {"fault", "shaft", "shaft_Hz", "elements", "diameter_ratio", "contact_angle_deg",
+             "amplitude_m_s2", "resonance_Hz", "damping", "slip", "load_zone_deg", "role"},
+            "write { fault = \"outer\", shaft = \"sun\", elements = 9, diameter_ratio = 0.2, "
+            "amplitude_m_s2 = 3, resonance_Hz = 2500 }",
+            reject)));
+    }
+    return bearings;
+}
+
+std::string bearing_table(const Bearing& bearing) {
+    return fmt::format(
+        "{{ fault = \"{}\", {}, elements = {}, diameter_ratio = {}, contact_angle_deg = {}, "
+        "amplitude_m_s2 = {}, resonance_Hz = {}, damping = {}, slip = {}, load_zone_deg = {}, "
+        "role = \"{}\" }}",
+        kFaults[static_cast<std::size_t>(bearing.fault)].text,
+        bearing.shaft ? fmt::format("shaft = \"{}\"", member_name(*bearing.shaft))
+                      : fmt::format("shaft_Hz = {}", bearing.shaft_Hz),
+        bearing.elements, bearing.diameter_ratio, bearing.contact_angle_deg, bearing.amplitude_m_s2,
+        bearing.resonance_Hz, bearing.damping, bearing.slip, bearing.load_zone_deg,
+        kRoles[static_cast<std::size_t>(bearing.role)].text);
+}
+
+}  // namespace gearpod::mc

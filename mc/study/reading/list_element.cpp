@@ -1,0 +1,117 @@
+#include "mc/study/reading/list_element.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mc/input/spelling.hpp"
+
+namespace gearpod::mc {
+
+ListElement::ListElement(const Value& table, std::string which, std::vector<std::string_view> names,
+                         std::string example, const RejectElement& reject)
+    : table_(table), which_(std::move(which)), example_(std::move(example)), reject_(reject) {
+    if (table.kind != Value::Kind::table) {
+        spelled_ = false;
+        reject_(fmt::format("{} must be a table, but is {}", which_, table.kind_name()), example_);
+    }
+    for (const Entry& entry : table.entries) {
+        if (std::ranges::find(names, entry.name) == names.end()) {
+            spelled_ = false;
+            reject_(fmt::format("{}: unknown key {}", which_, entry.name),
+                    suggest(entry.name, names));
+        }
+    }
+}
+
+void ListElement::reject(const std::string& what, const std::string& remedy) const {
+    reject_(fmt::format("{}: {}", which_, what), remedy);
+}
+
+const Value* ListElement::find(std::string_view name, bool required) const {
+    const Entry* entry = table_.find(name);
+    if (entry == nullptr && required && spelled_) {
+        reject_(fmt::format("{} has no {}", which_, name), example_);
+    }
+    return entry == nullptr ? nullptr : &entry->value;
+}
+
+double ListElement::number(std::string_view name, const Range& range,
+                           std::optional<double> otherwise) const {
+    const Value* value = find(name, !otherwise);
+    if (value == nullptr) {
+        return otherwise.value_or(0.0);
+    }
+    if (value->kind != Value::Kind::number && value->kind != Value::Kind::integer) {
+        reject(fmt::format("{} must be a number, but is {}", name, value->kind_name()), "");
+        return 0.0;
+    }
+    if (!std::isfinite(value->number) || !range.contains(value->number)) {
+        reject(
+            fmt::format("{} must be {} and finite, but is {}", name, range.text(), value->number),
+            "");
+    }
+    return value->number;
+}
+
+int ListElement::integer(std::string_view name, const Range& range) const {
+    const Value* value = find(name, true);
+    if (value == nullptr) {
+        return 0;
+    }
+    if (value->kind != Value::Kind::integer || !range.contains(value->number)) {
+        reject(fmt::format("{} must be an integer {}, but is {}", name, range.text(),
+                           value->kind == Value::Kind::integer ? fmt::format("{}", value->integer)
+                                                               : value->kind_name()),
+               "");
+        return 0;
+    }
+    return static_cast<int>(value->integer);
+}
+
+std::optional<int> ListElement::choice(std::string_view name, std::span<const ChoiceName> choices,
+                                       bool required) const {
+    const Value* value = find(name, required);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    std::vector<std::string_view> texts;
+    for (const ChoiceName& choice : choices) {
+        if (value->kind == Value::Kind::text && value->text == choice.text) {
+            return choice.value;
+        }
+        texts.push_back(choice.text);
+    }
+    const std::string known = fmt::format("one of \"{}\"", fmt::join(texts, "\", \""));
+    if (value->kind != Value::Kind::text) {
+        reject(fmt::format("{} must be a string, but is {}", name, value->kind_name()), known);
+    } else {
+        reject(fmt::format("{}: unknown value \"{}\" ({})", name, value->text, known),
+               suggest(value->text, texts));
+    }
+    return std::nullopt;
+}
+
+std::optional<Member> ListElement::shaft() const {
+    static constexpr std::array kShafts{ChoiceName{"sun", static_cast<int>(Member::sun)},
+                                        ChoiceName{"carrier", static_cast<int>(Member::carrier)},
+                                        ChoiceName{"ring", static_cast<int>(Member::ring)},
+                                        ChoiceName{"pinion", static_cast<int>(Member::pinion)},
+                                        ChoiceName{"gear", static_cast<int>(Member::gear)}};
+    const std::optional<int> found = choice("shaft", kShafts, true);
+    return found ? std::optional(static_cast<Member>(*found)) : std::nullopt;
+}
+
+bool ListElement::first_of(std::string_view first, std::string_view second) const {
+    if (has(first) == has(second) && spelled_) {
+        reject(has(first) ? fmt::format("has both {} and {}", first, second)
+                          : fmt::format("has neither {} nor {}", first, second),
+               "give one of them: " + example_);
+    }
+    return has(first);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,52 @@
+// Inline table in a list of a study file, such as { frequency_Hz = 50, amplitude_m_s2 = 0.1 }.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mc/input/document.hpp"
+#include "mc/study/distributions/range.hpp"
+#include "mc/study/keys/key.hpp"
+
+namespace gearpod::mc {
+
+// Called with a problem and a remedy.
+using RejectElement = std::function<void(std::string what, std::string remedy)>;
+
+// Reads the values of one table. Whatever is wrong is rejected, and the value is then 0 or empty.
+class ListElement {
+  public:
+    // `which` names the table in messages ("tone 2"). Unknown names are rejected.
+    ListElement(const Value& table, std::string which, std::vector<std::string_view> names,
+                std::string example, const RejectElement& reject);
+
+    bool has(std::string_view name) const { return table_.find(name) != nullptr; }
+    // Number in a range; required without a value that stands for it.
+    double number(std::string_view name, const Range& range,
+                  std::optional<double> otherwise = {}) const;
+    int integer(std::string_view name, const Range& range) const;
+    // Value of one of the choices; empty if it is missing, which is rejected where it is required.
+    std::optional<int> choice(std::string_view name, std::span<const ChoiceName> choices,
+                              bool required) const;
+    // Member named by "shaft", which is required: one whose shaft may have a bearing in the
+    // housing.
+    std::optional<Member> shaft() const;
+    // Rejects the table unless it has exactly one of two names. True if it has the first.
+    bool first_of(std::string_view first, std::string_view second) const;
+
+  private:
+    // The entry of that name. Without it, the name is rejected where it is required.
+    const Value* find(std::string_view name, bool required) const;
+    void reject(const std::string& what, const std::string& remedy) const;
+
+    const Value& table_;
+    std::string which_, example_;
+    const RejectElement& reject_;
+    bool spelled_ = true;  // false if any name is unknown; names are then not reported as missing
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,67 @@
+// Sensors of a study, and what they pick up apart from the gearbox.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mc/study/member.hpp"
+
+namespace gearpod::mc {
+
+// Interfering tone at the sensor: of a given frequency, or an order of a shaft of the gearbox.
+struct Tone {
+    double frequency_Hz = 0.0;  // 0 if it belongs to a shaft
+    double amplitude_m_s2 = 0.0;
+    std::optional<Member> shaft = {};
+    double order = 0.0;  // cycles per turn of the shaft
+
+    bool operator==(const Tone&) const = default;
+};
+
+// Faulty part of a rolling bearing.
+enum class BearingFault { outer, inner, roller, cage };
+// Records in which a bearing is heard: all of them, or those of another fault than the study's.
+enum class BearingRole { background, other_fault };
+
+// Rolling bearing with a local fault (signals/noise/bearing_impulses.hpp). The outer ring stands
+// still, the inner ring turns with the shaft.
+struct Bearing {
+    BearingFault fault = BearingFault::outer;
+    std::optional<Member> shaft = {};  // of the gearbox, or elsewhere:
+    double shaft_Hz = 0.0;             // rotation of a shaft outside of the gearbox
+    int elements = 0;                  // rolling elements
+    double diameter_ratio = 0.0;       // of a rolling element to the pitch circle
+    double contact_angle_deg = 0.0;
+    double amplitude_m_s2 = 0.0;  // of the response to one impulse, before the low-pass
+    double resonance_Hz = 0.0, damping = 0.0;
+    double slip = 0.0;           // standard deviation of an interval over its mean
+    double load_zone_deg = 0.0;  // width
+    BearingRole role = BearingRole::background;
+
+    bool operator==(const Bearing&) const = default;
+};
+
+struct Sensor {
+    double sampling_Hz = 0.0;
+    double low_pass_Hz = 0.0;
+    Member position = Member::pinion;  // fixed-shaft: bearing on which the sensor is mounted
+    double path_exponent = 0.1;
+    double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
+    double noise_m_s2 = 0.0;  // rms, white
+    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered
+    double quantisation_m_s2 = 0.0;  // step of the analogue-to-digital converter
+    std::vector<Tone> tones;
+    double tone_level = 1.0;  // factor on the amplitudes of all tones
+    std::vector<Bearing> bearings;
+    double bearing_level = 1.0;  // factor on the amplitudes of all bearings
+    double encoder_sampling_Hz = 0.0;
+    double encoder_noise_rad = 0.0;         // rms
+    std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
+    // Length of a record, in seconds or in carrier turns; by default every tooth of the monitored
+    // gear meets every tooth of its mate once.
+    std::optional<double> record_s, record_turns;
+
+    bool operator==(const Sensor&) const = default;
+};
+
+}  // namespace gearpod::mc
