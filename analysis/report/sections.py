@@ -20,12 +20,19 @@ def detection(report, page):
     return page.section("detection", "Detection", body + report.tables("values."))
 
 
+def sensors(report):
+    """Each sensor of the run alone, and all together."""
+    if not report.table("sensors"):
+        return ""
+    return "<h3>Sensors</h3>" + report.notes("sensors.") + report.table("sensors")
+
+
 def features(report, page):
     if not report.curves:
         return ""
     return page.section("features", "Features compared", detection_figures.ranking(report, page)
                         + detection_figures.roc(report, page)
-                        + input_figures.combined(report, page))
+                        + input_figures.combined(report, page) + sensors(report))
 
 
 def inputs(report, page):

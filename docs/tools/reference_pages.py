@@ -3,6 +3,7 @@
 TYPES = {"number": "number", "integer": "integer", "boolean": "true or false",
          "numbers": "list of numbers", "texts": "list of strings",
          "python": "list of Python files", "tones": "list of { frequency_Hz or shaft and order, amplitude_m_s2 }",
+         "sensors": "list of { name, angle_deg, direction, gain, noise }",
          "bearings": "list of { fault, shaft or shaft_Hz, elements, ... }"}
 SECTION_TITLES = {
     "gearbox": "teeth, bodies, bearings and damping", "operation": "torque, speed and their variation",

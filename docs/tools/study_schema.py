@@ -27,6 +27,12 @@ BEARING = {"type": "object",
                               "resonance_Hz", "damping", "slip", "load_zone_deg")}},
            "required": ["fault", "elements", "diameter_ratio", "amplitude_m_s2", "resonance_Hz"],
            "additionalProperties": False}
+SENSOR = {"type": "object",
+          "properties": {"name": {"type": "string", "pattern": "^[a-z0-9-]+$"},
+                         "angle_deg": {"type": "number"},
+                         "direction": {"enum": ["radial", "tangential"]},
+                         "gain": {"type": "number"}, "noise": {"type": "number"}},
+          "required": ["name", "angle_deg"], "additionalProperties": False}
 PYTHON_FEATURE = {"type": "object",
                   "properties": {name: {"type": "string"} for name in
                                  ("file", "sha256", "name", "title", "unit", "alarm", "uses", "doc")},
@@ -60,6 +66,8 @@ def value_schema(key):
         return {"type": "array", "items": TONE}
     if kind == "bearings":
         return {"type": "array", "items": BEARING}
+    if kind == "sensors":
+        return {"type": "array", "items": SENSOR}
     if kind == "python":
         return {"type": "array", "items": {"anyOf": [{"type": "string"}, PYTHON_FEATURE]}}
     numbers = {"type": "array", "items": bounded({"type": "number"}, key)}

@@ -8,9 +8,9 @@
 #include "machine/team.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
-#include "mc/recordings/measured_features.hpp"
 #include "mc/gearbox/realization_signals.hpp"
 #include "mc/random/philox.hpp"
+#include "mc/recordings/measured_features.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/normals.hpp"
 #include "signals/sensor/sensor.hpp"
@@ -32,7 +32,7 @@ struct Item {
 class Simulator {
   public:
     Simulator(const Scene& scene, const RecordLengths& lengths, const SetSummary& summary)
-        : scene_(scene), path_(path_grid(scene)), lengths_(lengths), summary_(summary) {}
+        : scene_(scene), path_(sensor_paths(scene)), lengths_(lengths), summary_(summary) {}
 
     int lanes() const { return scene_.study().numerics.lanes; }
 
@@ -63,8 +63,8 @@ class Simulator {
 
     std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
                                    const signals::Tones& tones) const {
-        return signals::synthesize(tile.views, lane, tile.integration.content, scene_.span(), path_,
-                                   exponent, 0, scene_.signal_meshes(), tones);
+        return signals::synthesize(tile.views, lane, tile.integration.content, scene_.span(),
+                                   path_.first, exponent, 0, scene_.signal_meshes(), tones);
     }
 
     // Records of a gearbox with each background.
@@ -128,7 +128,7 @@ class Simulator {
     }
 
     const Scene& scene_;
-    const signals::PathGrid path_;
+    const SensorPaths path_;
     const RecordLengths& lengths_;
     const SetSummary& summary_;
 };

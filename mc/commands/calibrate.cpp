@@ -71,6 +71,11 @@ class Command {
                                  "choose a motion with inertia, e.g. \"translational-torsional\""});
             return stop();
         }
+        if (!scene->study().sensor.additional.empty()) {
+            problems_.push_back({options_.study.path, 0, "sensor.additional",
+                                 "calibration has one sensor", "remove them"});
+            return stop();
+        }
         if (!scene->study().sensor.bearings.empty()) {
             problems_.push_back({options_.study.path, 0, "sensor.bearings",
                                  "calibration does not simulate faulty bearings",

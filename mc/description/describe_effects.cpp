@@ -6,9 +6,9 @@
 #include <numbers>
 #include <set>
 
+#include "mc/description/describe_sensors.hpp"
 #include "mc/description/entries.hpp"
 #include "mc/description/undamped.hpp"
-#include "mc/gearbox/bearing_signals.hpp"
 #include "mc/scene/instance_inputs.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
@@ -262,41 +262,6 @@ void print_fault(const Study& study) {
     print_entry("fault", fmt::format("{} on the {}", study.fault.kind->title(), where));
 }
 
-// Prints the impulses of a faulty bearing at nominal speed, and their vibration after the low-pass.
-void print_bearing(const Scene& scene, const Bearing& bearing) {
-    const InstanceInputs inputs = nominal_inputs(scene.study());
-    const signals::BearingImpulses impulses = bearing_impulses(scene, inputs, bearing);
-    print_entry(bearing.role == BearingRole::other_fault ? "other fault" : "faulty bearing",
-                fmt::format("{}: {:.3f} impulses per shaft turn, {:.4g} Hz; {:.3g} m/s^2 rms after "
-                            "the low-pass, while loaded most",
-                            bearing_text(bearing), impulses_per_turn(bearing), impulses.rate_Hz,
-                            signals::bearing_rms(impulses, scene.study().sensor.low_pass_Hz)));
-}
-
-void print_sensor(const Scene& scene) {
-    const Study& study = scene.study();
-    if (study.effects.path != nullptr) {
-        print_entry("transmission path",
-                    fmt::format("{} window, exponent {:g}", study.effects.path->name,
-                                study.sensor.path_exponent));
-    } else {
-        print_entry("sensor", fmt::format("on the {} bearing, along the line of action",
-                                          member_name(study.sensor.position)));
-    }
-    if (study.sensor.gain != 1.0 || random(study, "sensor.gain")) {
-        print_entry("sensor gain",
-                    fmt::format("{:g} times the gearbox vibration", study.sensor.gain));
-    }
-    print_entry("sensor low-pass",
-                fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
-    if (!study.sensor.tones.empty()) {
-        print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
-    }
-    for (const Bearing& bearing : study.sensor.bearings) {
-        print_bearing(scene, bearing);
-    }
-}
-
 bool has_sensor_noise(const Study& study) {
     return sensor_noise_m_s2(study) > 0.0 || random(study, noise_key(study)) ||
            random(study, "sensor.noise_m_s2");
@@ -373,7 +338,7 @@ void print_effects(const Scene& scene) {
     print_excitation(study);
     print_fault(study);
     if (!study.effects.quasi_static()) {
-        print_sensor(scene);
+        print_sensors(scene);
         if (has_sensor_noise(study)) {
             print_entry("sensor noise", noise_text(study));
         }

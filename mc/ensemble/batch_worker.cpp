@@ -29,14 +29,18 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 RowShape row_shape(const Study& study) {
     const std::size_t meshes =
         teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
-    const std::size_t variants = has_bearings(study, BearingRole::other_fault) ? 1 : 0;
+    const std::size_t variants =
+        study.sensor.additional.size() + (has_bearings(study, BearingRole::other_fault) ? 1 : 0);
     return {input_columns(study).size(), study.features.use.size(),
             study.sensor.noise_levels.size(), meshes, variants};
 }
 
 BatchWorker::BatchWorker(const BatchTask& task)
-    : task_(task), features_(task.scene, &task.healthy), shape_(row_shape(task.scene.study())) {}
-
+    : task_(task), features_(task.scene, &task.healthy), shape_(row_shape(task.scene.study())) {
+    for (const HealthyReference& healthy : task.additional) {
+        additional_.emplace_back(task.scene, &healthy);
+    }
+}
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     const NoiseSampling noise_sampling = batch.group == Group::threshold
                                              ? threshold_noise_sampling(task_.scene.study())
@@ -68,7 +72,7 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
-    computed.sensor_response = nullptr;  // frees memory: `signals` holds copies
+    computed.sensor_responses.clear();  // frees memory: `signals` holds copies
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
@@ -91,6 +95,32 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
                 computed.superposition_fallbacks};
 }
 
+std::vector<double> BatchWorker::variants_of(const Realization& record,
+                                             const LaneSignals& signals) {
+    const Study& study = task_.scene.study();
+    std::vector<double> all;
+    const auto add = [&](const std::vector<double>& values) {
+        all.insert(all.end(), values.begin(), values.end());
+    };
+    for (std::size_t s = 0; s < additional_.size(); ++s) {
+        SensorSignals own = signals_of_sensor(signals, s, study.sensor.additional[s].noise);
+        own.record.baseline = own.baseline.data();
+        own.record.baselines = own.baseline.size();
+        add(additional_[s].compute(own.record, at_sensor(study, record, s + 1)));
+    }
+    if (has_bearings(study, BearingRole::other_fault)) {
+        if (record.id.group == Group::threshold) {
+            LaneSignals other = signals;
+            add_bearings(task_.scene, record, BearingRole::other_fault, other);
+            add(features_.compute(other, record));
+        } else {
+            add(std::vector<double>(shape_.features * shape_.levels,
+                                    std::numeric_limits<double>::quiet_NaN()));
+        }
+    }
+    return all;
+}
+
 void BatchWorker::add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
                           const LaneSignals& signals, BatchRows& rows) {
     const Status status = computed.status[lane];
@@ -98,16 +128,12 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
 
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> values(shape_.features * shape_.levels, kNone);
-    std::vector<double> variant(shape_.variants * values.size(), kNone);
+    std::vector<double> variants(shape_.variants * values.size(), kNone);
     double noise_weight = 1.0;
     if (status == Status::ok) {
         values = features_.compute(signals, record);
         noise_weight = features_.noise_weight();
-        if (shape_.variants > 0 && record.id.group == Group::threshold) {
-            LaneSignals other = signals;
-            add_bearings(task_.scene, record, BearingRole::other_fault, other);
-            variant = features_.compute(other, record);
-        }
+        variants = variants_of(record, signals);
     }
     append_random_inputs(task_.scene.study(), record, noise_weight, rows.values);
     rows.values.push_back(record.inputs.fault_size);
@@ -117,7 +143,7 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
         std::ranges::fill(loss, std::numeric_limits<double>::quiet_NaN());
     }
     rows.values.insert(rows.values.end(), loss.begin(), loss.end());
-    rows.values.insert(rows.values.end(), variant.begin(), variant.end());
+    rows.values.insert(rows.values.end(), variants.begin(), variants.end());
 }
 
 }  // namespace gearpod::mc

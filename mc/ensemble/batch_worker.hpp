@@ -32,14 +32,19 @@ RowShape row_shape(const Study& study);
 struct BatchTask {
     explicit BatchTask(const Scene& shared_scene)
         : scene(shared_scene),
-          path(path_grid(scene)),
+          path(sensor_paths(scene)),
           cache(scene),
-          healthy(healthy_reference(scene, path)) {}
+          healthy(healthy_reference(scene, path)) {
+        for (std::size_t s = 0; s < path.additional.size(); ++s) {
+            additional.push_back(healthy_reference(scene, path, s + 1));
+        }
+    }
 
     const Scene& scene;
-    const signals::PathGrid path;
+    const SensorPaths path;
     const IntegrationCache cache;
     const HealthyReference healthy;
+    std::vector<HealthyReference> additional;  // of the additional sensors
     // Noise of graded gearboxes with several records. If it is tilted, the study must use
     // importance sampling, so that its rows have a column for the weights.
     NoiseSampling graded_noise = NoiseSampling::plain;
@@ -63,8 +68,12 @@ class BatchWorker {
     void add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
                  const LaneSignals& signals, BatchRows& rows);
 
+    // Features of the variants of a record: additional sensors, another fault.
+    std::vector<double> variants_of(const Realization& record, const LaneSignals& signals);
+
     const BatchTask& task_;
     RealizationFeatures features_;
+    std::vector<RealizationFeatures> additional_;  // of the additional sensors
     RowShape shape_;
 };
 

@@ -1,5 +1,7 @@
 #include "mc/ensemble/ensemble.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -28,6 +30,12 @@ Results results_frame(const Study& study) {
                                     std::string(feature->unit),
                                     analysis::alarm_of(*feature),
                                     {}});
+    }
+    for (const AdditionalSensor& sensor : study.sensor.additional) {
+        results.variants.push_back({kSensorVariant + sensor.name,
+                                    fmt::format("sensor \"{}\", {:g} degrees from the first one",
+                                                sensor.name, sensor.angle_deg),
+                                    results.features});
     }
     if (has_bearings(study, BearingRole::other_fault)) {
         results.variants.push_back(

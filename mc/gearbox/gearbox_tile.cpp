@@ -17,7 +17,6 @@
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "signals/path/path_window.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
 #include "signals/windowing/folded_signal.hpp"
@@ -98,18 +97,6 @@ Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::L
 
 }  // namespace
 
-signals::PathGrid path_grid(const Scene& scene) {
-    const auto* planetary = dynamic_cast<const PlanetaryDrivetrain*>(&scene.drivetrain());
-    if (planetary == nullptr || scene.study().effects.path == nullptr) {
-        // A sensor on the housing: one window with constant weight.
-        return {signals::path_window("rectangular"), 1, scene.samples_per_mesh(), scene.span()};
-    }
-    const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
-                                                            : signals::CarrierSense::positive;
-    return {*scene.study().effects.path, gears::planet_places(planetary->train()),
-            scene.samples_per_mesh(), scene.span(), sense};
-}
-
 namespace {
 
 GearboxTile tile_of(std::vector<Realization> realizations, int lanes) {
@@ -140,7 +127,7 @@ void add_status(const Scene& scene, GearboxTile& tile) {
 }
 
 // Solves the tile and records its sensor signals meanwhile.
-void solve_and_record(const Scene& scene, const signals::PathGrid& path, int signal_meshes,
+void solve_and_record(const Scene& scene, const SensorPaths& path, int signal_meshes,
                       GearboxTile& tile) {
     TileSensorRecorder recorder(scene, path, tile.realizations, signal_meshes);
     solve(
@@ -149,20 +136,22 @@ void solve_and_record(const Scene& scene, const signals::PathGrid& path, int sig
             return choose_solution(scene, loads, {}, std::ref(recorder));
         },
         tile);
-    tile.sensor_response = recorder.take_response();
+    tile.sensor_responses = recorder.take_responses();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
     tile.signals_s += recorder.spent_s();
 }
 
 // Computes the signals of the sensors from an integrated tile.
-void add_signals(const Scene& scene, const signals::PathGrid& path, GearboxTile& tile) {
+void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile) {
     add_status(scene, tile);
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
-    if (tile.sensor_response != nullptr) {
-        tile.folded = tile.sensor_response->folded();
-        tile.te_turn = tile.sensor_response->averaged_te();
+    if (!tile.sensor_responses.empty()) {
+        for (const auto& response : tile.sensor_responses) {
+            tile.folded.push_back(response->folded());
+        }
+        tile.te_turn = tile.sensor_responses.front()->averaged_te();
         tile.signals_s += lap(start);
         return;
     }
@@ -175,15 +164,20 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, GearboxTile&
     if (!scene.study().effects.quasi_static()) {
         tile.tones = draw_tones(scene, tile.realizations);
         const signals::FoldPlan plan(tile.integration.content, scene.span());
-        signals::fold_squares(tile.views, plan, path, path_exponents(tile.realizations), tile.tones,
-                              tile.folded);
+        const std::vector<double> exponents = path_exponents(tile.realizations);
+        const auto fold = [&](const signals::PathGrid& grid) {
+            signals::fold_squares(tile.views, plan, grid, exponents, tile.tones,
+                                  tile.folded.emplace_back());
+        };
+        fold(path.first);
+        std::ranges::for_each(path.additional, fold);
     }
     signals::average_te(tile.views, tile.integration.content, scene.span(),
                         scene.te_samples_per_mesh(), tile.te_turn);
     tile.signals_s += lap(start);
 }
 
-void run_tile(const Scene& scene, const signals::PathGrid& path, const TileOptions& options,
+void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& options,
               GearboxTile& tile) {
     const IntegrationCache* const cache = options.records ? nullptr : options.cache;
     auto start = WallClock::now();
@@ -205,8 +199,8 @@ void run_tile(const Scene& scene, const signals::PathGrid& path, const TileOptio
     add_signals(scene, path, tile);
 }
 
-GearboxTile run_records(const Scene& scene, const signals::PathGrid& path,
-                        std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
+GearboxTile run_records(const Scene& scene, const SensorPaths& path, std::span<const GearboxId> ids,
+                        int fewest, const TileOptions& options) {
     GearboxTile tile = drawn_tile(scene, ids, lockstep::lanes_for(scene.plan().precision, fewest));
     run_tile(scene, path, options, tile);
     return tile;
@@ -249,7 +243,7 @@ std::vector<GearboxId> baselines_of(const Study& study, std::span<const GearboxI
 
 // Computes signals, status and times of the baseline records, at most as many at a time as there
 // are lanes. Their motion is freed before the test records are integrated.
-GearboxTile run_baselines(const Scene& scene, const signals::PathGrid& path,
+GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, int fewest,
                           const IntegrationCache* cache) {
     const int meshes = needed_sensor_meshes(scene);
@@ -289,7 +283,7 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 
 // Runs gearboxes that leave lanes free for all of their baseline records, which follow the test
 // records in the same tile.
-GearboxTile run_side_by_side(const Scene& scene, const signals::PathGrid& path,
+GearboxTile run_side_by_side(const Scene& scene, const SensorPaths& path,
                              std::span<const GearboxId> ids, int lanes, TileOptions options) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
     const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
@@ -314,7 +308,7 @@ GearboxTile run_side_by_side(const Scene& scene, const signals::PathGrid& path,
 
 }  // namespace
 
-GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
+GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, int fewest, const TileOptions& options) {
     if (!compares_records(scene.study())) {
         return run_records(scene, path, ids, fewest, options);
@@ -344,7 +338,7 @@ std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std:
     return mean;
 }
 
-GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
+GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
                              std::vector<Realization> realizations, int fewest,
                              const TileOptions& options) {
     GearboxTile tile =
@@ -363,7 +357,7 @@ GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization>
     return tile;
 }
 
-GearboxTile complete_tile(const Scene& scene, const signals::PathGrid& path,
+GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, lockstep::TileResult integration) {
     GearboxTile tile = drawn_tile(scene, ids, static_cast<int>(integration.status.size()));
     tile.integration = std::move(integration);

@@ -8,11 +8,11 @@
 
 #include "lockstep/tile/tile_inputs.hpp"
 #include "lockstep/tile/tile_records.hpp"
+#include "mc/gearbox/sensor_paths.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
 #include "signals/noise/tones.hpp"
-#include "signals/path/transmission_path.hpp"
 #include "signals/sensor/sensor_response.hpp"
 #include "signals/tile_signals.hpp"
 
@@ -22,7 +22,7 @@ class IntegrationCache;  // integration_cache.hpp
 
 // Signals of one lane of a tile.
 struct LaneSignals {
-    std::vector<double> folded;   // as GearboxTile::folded
+    std::vector<double> folded;   // as GearboxTile::folded, of the first sensor
     std::vector<double> te_turn;  // as GearboxTile::te_turn
     std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
     std::vector<double> te;       // rad, [mesh * P_te + p]; empty unless records have a length
@@ -31,13 +31,15 @@ struct LaneSignals {
     const LaneSignals* baseline = nullptr;
     std::size_t baselines = 0;
     double noise_m_s2 = 0.0;  // rms noise of the sensor in this record, at noise level 1
+    // Folded signals and samples of the additional sensors in this record; all else is the same.
+    std::vector<LaneSignals> additional;
     // Window of a record that was cut from the signals (record_window.hpp): turns of the monitored
     // gear, or 0 for the scene's span, and mesh period of the signals at which the record begins.
     int turns = 0, first_mesh = 0;
 };
 
 // Results of a tile. `integration.records` owns the data that `views` refers to. If
-// `sensor_response` recorded the sensor signal, `integration.records` holds only the healthy mesh
+// `sensor_responses` recorded the sensor signals, `integration.records` holds only the healthy mesh
 // period.
 struct GearboxTile {
     std::vector<Realization> realizations;  // one entry per lane
@@ -45,9 +47,11 @@ struct GearboxTile {
     lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
-    std::unique_ptr<signals::SensorResponse> sensor_response;  // null if the records were kept
-    signals::Tones tones;                                      // interfering tones; may be empty
-    machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
+    // Of the first and the additional sensors; empty if the records were kept.
+    std::vector<std::unique_ptr<signals::SensorResponse>> sensor_responses;
+    signals::Tones tones;  // interfering tones; may be empty
+    // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox.
+    std::vector<machine::AlignedVector> folded;
     machine::AlignedVector te_turn;  // [sample][lane], rad
     // Equally many entries for each requested gearbox, one gearbox after the other. Empty unless a
     // feature compares with baseline records.
@@ -61,9 +65,6 @@ struct GearboxTile {
         0;  // mesh periods integrated for this tile; 0 if `integration` came from the cache
     double integration_cpu_s = 0.0;  // processor time of this thread for the time integration
 };
-
-// Tables of the transfer path of a scene.
-signals::PathGrid path_grid(const Scene& scene);
 
 // Optional outputs of a tile.
 struct TileOptions {
@@ -81,13 +82,13 @@ struct TileOptions {
 // enough of its lanes are free. A gearbox whose baseline fails counts as failed. If every mesh
 // period is integrated, the sensor signals are recorded during integration and the motion is not
 // kept.
-GearboxTile run_gearboxes(const Scene& scene, const signals::PathGrid& path,
+GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, int fewest,
                           const TileOptions& options = {});
 
 // Runs the test records of these gearboxes, without baselines. Their inputs need not be those that
 // the study's distributions give.
-GearboxTile run_realizations(const Scene& scene, const signals::PathGrid& path,
+GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
                              std::vector<Realization> realizations, int fewest,
                              const TileOptions& options = {});
 
@@ -103,7 +104,7 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
 
 // Completes a tile from a time integration made elsewhere, as run_gearboxes does. The number of
 // lanes is the number of status entries of `integration`.
-GearboxTile complete_tile(const Scene& scene, const signals::PathGrid& path,
+GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
                           std::span<const GearboxId> ids, lockstep::TileResult integration);
 
 // Contact loss ratio of each mesh of the gearbox: the mean over the gear pairs of that mesh.
@@ -111,10 +112,18 @@ GearboxTile complete_tile(const Scene& scene, const signals::PathGrid& path,
 std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes);
 
 // Signals of one lane. `meshes` is the number of mesh periods of sensor signal, 0 for none.
-LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
                          int lane, int meshes);
 // Signals of all requested gearboxes, computed together.
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths& path,
                                           const GearboxTile& tile, int meshes);
+
+// Signals of an additional sensor of a gearbox, and those of its baseline records.
+struct SensorSignals {
+    LaneSignals record;
+    std::vector<LaneSignals> baseline;
+};
+// `noise`: factor on the noise of the first sensor. The record does not refer to its baselines.
+SensorSignals signals_of_sensor(const LaneSignals& all, std::size_t sensor, double noise);
 
 }  // namespace gearpod::mc

@@ -54,14 +54,9 @@ HealthyReference HealthyRecordsMean::mean() const {
     return mean;
 }
 
-HealthyReference healthy_reference(const Scene& scene, const signals::PathGrid& path) {
-    if (!needs_of(used_features(scene.study())).has<features::HealthyRecords>()) {
-        return {};
-    }
-    return simulated_reference(scene, path);
-}
+namespace {
 
-HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid& path) {
+HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::uint64_t sensor) {
     const int lanes = scene.study().numerics.lanes;
     RealizationSignals records(scene, features::SignalSet::of<features::SensorTurn>());
     const std::size_t levels = scene.study().sensor.noise_levels.size();
@@ -77,9 +72,14 @@ HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::throw_if_cancelled();
             if (tile.status[lane] == Status::ok) {
+                Realization realization = tile.realizations[lane];
+                if (sensor > 0) {
+                    realization = at_sensor(scene.study(), realization, sensor);
+                    signals[lane] = signals_of_sensor(signals[lane], sensor - 1, 1.0).record;
+                }
                 const LaneSignals record =
-                    drawn_record(scene, std::move(signals[lane]), tile.realizations[lane]);
-                records.load(record, tile.realizations[lane]);
+                    drawn_record(scene, std::move(signals[lane]), realization);
+                records.load(record, realization);
                 for (std::size_t level = 0; level < levels; ++level) {
                     mean.add(level, records.at(level));
                 }
@@ -87,6 +87,20 @@ HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid
         }
     }
     return mean.mean();
+}
+
+}  // namespace
+
+HealthyReference healthy_reference(const Scene& scene, const SensorPaths& path,
+                                   std::uint64_t sensor) {
+    if (!needs_of(used_features(scene.study())).has<features::HealthyRecords>()) {
+        return {};
+    }
+    return reference_of(scene, path, sensor);
+}
+
+HealthyReference simulated_reference(const Scene& scene, const SensorPaths& path) {
+    return reference_of(scene, path, 0);
 }
 
 }  // namespace gearpod::mc

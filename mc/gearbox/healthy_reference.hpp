@@ -37,8 +37,10 @@ class HealthyRecordsMean {
 
 // Mean over the first eight gearboxes of the threshold sample, with their own noise. Gearboxes that
 // failed are left out.
-HealthyReference simulated_reference(const Scene& scene, const signals::PathGrid& path);
-// The same mean; empty unless a feature of the study needs it.
-HealthyReference healthy_reference(const Scene& scene, const signals::PathGrid& path);
+HealthyReference simulated_reference(const Scene& scene, const SensorPaths& path);
+// The same mean, of the first sensor or of an additional one (GearboxId::sensor); empty unless a
+// feature of the study needs it.
+HealthyReference healthy_reference(const Scene& scene, const SensorPaths& path,
+                                   std::uint64_t sensor = 0);
 
 }  // namespace gearpod::mc

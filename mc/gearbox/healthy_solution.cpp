@@ -54,7 +54,7 @@ void clear_failed(HealthySolution::Signals& all) {
 
 }  // namespace
 
-HealthySolution::HealthySolution(const Scene& scene, const signals::PathGrid& path,
+HealthySolution::HealthySolution(const Scene& scene, const SensorPaths& path,
                                  std::vector<Realization> realizations, int fewest)
     : scene_(scene), path_(path), realizations_(std::move(realizations)) {
     for (Realization& one : realizations_) {
@@ -145,8 +145,9 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
         return;
     }
     const int phases = scene_.samples_per_mesh();
-    const auto sensor = signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(),
-                                            path_, path_exponents(realizations_), span.meshes);
+    const auto sensor =
+        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_.first,
+                            path_exponents(realizations_), span.meshes);
     for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {
             continue;

@@ -15,7 +15,7 @@ class HealthySolution {
   public:
     // The fault sizes of the gearboxes are ignored. The sensor gain is taken as 1, because the
     // records apply it later.
-    HealthySolution(const Scene& scene, const signals::PathGrid& path,
+    HealthySolution(const Scene& scene, const SensorPaths& path,
                     std::vector<Realization> realizations, int fewest);
 
     // Sensor signal, transmission error and status of each gearbox. A gearbox that failed has no
@@ -36,7 +36,7 @@ class HealthySolution {
     void change_sensor(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const;
 
     const Scene& scene_;
-    const signals::PathGrid& path_;
+    const SensorPaths& path_;
     std::vector<Realization> realizations_;
     int lanes_ = 0;
     lockstep::SpanStates states_;

@@ -23,15 +23,28 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
 
 namespace {
 
+// Folded signal of a sensor in one lane; empty for a quasi-static gearbox.
+std::vector<double> folded_of(const GearboxTile& tile, std::size_t sensor, int lane) {
+    if (sensor >= tile.folded.size()) {
+        return {};
+    }
+    const machine::AlignedVector& all = tile.folded[sensor];
+    std::vector<double> folded(all.size() / static_cast<std::size_t>(tile.views.lanes));
+    signals::copy_lane(all, tile.views.lanes, lane, folded);
+    return folded;
+}
+
 // All signals of a lane except the sensor samples.
-LaneSignals folded_lane(const GearboxTile& tile, int lane) {
-    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
+LaneSignals folded_lane(const SensorPaths& path, const GearboxTile& tile, int lane) {
     LaneSignals lane_result;
     lane_result.noise_m_s2 = tile.realizations[static_cast<std::size_t>(lane)].inputs.noise_m_s2;
-    lane_result.folded.resize(tile.folded.size() / lanes);
-    lane_result.te_turn.resize(tile.te_turn.size() / lanes);
-    signals::copy_lane(tile.folded, tile.views.lanes, lane, lane_result.folded);
+    lane_result.folded = folded_of(tile, 0, lane);
+    lane_result.te_turn.resize(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
     signals::copy_lane(tile.te_turn, tile.views.lanes, lane, lane_result.te_turn);
+    lane_result.additional.resize(path.additional.size());
+    for (std::size_t s = 0; s < path.additional.size(); ++s) {
+        lane_result.additional[s].folded = folded_of(tile, s + 1, lane);
+    }
     if (!tile.baseline.empty()) {
         lane_result.baselines = tile.baseline.size() / tile.status.size();
         lane_result.baseline =
@@ -48,8 +61,8 @@ bool cuts_records(const Scene& scene, int meshes) {
 // Transmission error of a lane over the mesh periods of the scene's signals.
 std::vector<double> te_signal(const Scene& scene, const GearboxTile& tile, int lane) {
     const int meshes = scene.signal_meshes();
-    if (tile.sensor_response != nullptr) {
-        return tile.sensor_response->te_signal(lane, meshes);
+    if (!tile.sensor_responses.empty()) {
+        return tile.sensor_responses.front()->te_signal(lane, meshes);
     }
     const auto& content = tile.integration.content;
     const auto lanes = static_cast<std::size_t>(tile.views.lanes);
@@ -67,47 +80,81 @@ std::vector<double> te_signal(const Scene& scene, const GearboxTile& tile, int l
 
 }  // namespace
 
-LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
-                         int lane, int meshes) {
-    LaneSignals lane_result = folded_lane(tile, lane);
-    if (meshes > 0 && tile.sensor_response != nullptr) {
-        lane_result.sensor = tile.sensor_response->signal(lane, meshes);
-    } else if (meshes > 0) {
-        lane_result.sensor = signals::synthesize(
-            tile.views, lane, tile.integration.content, scene.span(), path,
-            tile.realizations[static_cast<std::size_t>(lane)].inputs.path_exponent, 0, meshes,
-            tile.tones);
-    }
+namespace {
+
+// The first sensor's signals for number 0, else those of an additional one.
+LaneSignals& of_sensor(LaneSignals& signals, std::size_t sensor) {
+    return sensor == 0 ? signals : signals.additional[sensor - 1];
+}
+
+// Adds what all lanes have in common to a lane with sensor samples.
+void complete(const Scene& scene, const GearboxTile& tile, int lane, int meshes,
+              LaneSignals& signals) {
     if (cuts_records(scene, meshes)) {
-        lane_result.te = te_signal(scene, tile, lane);
+        signals.te = te_signal(scene, tile, lane);
     }
-    add_bearings(scene, tile.realizations[static_cast<std::size_t>(lane)], BearingRole::background,
-                 lane_result);
+    const Realization& realization = tile.realizations[static_cast<std::size_t>(lane)];
+    for (std::size_t sensor = 0; sensor <= signals.additional.size(); ++sensor) {
+        add_bearings(scene, realization, BearingRole::background, of_sensor(signals, sensor));
+    }
+}
+
+}  // namespace
+
+LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
+                         int lane, int meshes) {
+    LaneSignals lane_result = folded_lane(path, tile, lane);
+    for (std::size_t sensor = 0; meshes > 0 && sensor <= path.additional.size(); ++sensor) {
+        const signals::PathGrid& grid = sensor == 0 ? path.first : path.additional[sensor - 1];
+        of_sensor(lane_result, sensor).sensor =
+            !tile.sensor_responses.empty()
+                ? tile.sensor_responses[sensor]->signal(lane, meshes)
+                : signals::synthesize(
+                      tile.views, lane, tile.integration.content, scene.span(), grid,
+                      tile.realizations[static_cast<std::size_t>(lane)].inputs.path_exponent, 0,
+                      meshes, tile.tones);
+    }
+    complete(scene, tile, lane, meshes, lane_result);
     return lane_result;
 }
 
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths& path,
                                           const GearboxTile& tile, int meshes) {
     std::vector<LaneSignals> all;
     for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
-        all.push_back(folded_lane(tile, static_cast<int>(lane)));
-        if (cuts_records(scene, meshes)) {
-            all.back().te = te_signal(scene, tile, static_cast<int>(lane));
+        all.push_back(folded_lane(path, tile, static_cast<int>(lane)));
+    }
+    for (std::size_t sensor = 0; meshes > 0 && sensor <= path.additional.size(); ++sensor) {
+        const signals::PathGrid& grid = sensor == 0 ? path.first : path.additional[sensor - 1];
+        auto samples = !tile.sensor_responses.empty()
+                           ? tile.sensor_responses[sensor]->signals(all.size(), meshes)
+                           : signals::synthesize(
+                                 tile.views, tile.integration.content, scene.span(), grid,
+                                 path_exponents(std::span(tile.realizations).first(all.size())), 0,
+                                 meshes, tile.tones);
+        for (std::size_t lane = 0; lane < all.size(); ++lane) {
+            of_sensor(all[lane], sensor).sensor = std::move(samples[lane]);
         }
     }
-    if (meshes > 0) {
-        auto sensor = tile.sensor_response != nullptr
-                          ? tile.sensor_response->signals(all.size(), meshes)
-                          : signals::synthesize(
-                                tile.views, tile.integration.content, scene.span(), path,
-                                path_exponents(std::span(tile.realizations).first(all.size())), 0,
-                                meshes, tile.tones);
-        for (std::size_t lane = 0; lane < all.size(); ++lane) {
-            all[lane].sensor = std::move(sensor[lane]);
-            add_bearings(scene, tile.realizations[lane], BearingRole::background, all[lane]);
-        }
+    for (std::size_t lane = 0; lane < all.size(); ++lane) {
+        complete(scene, tile, static_cast<int>(lane), meshes, all[lane]);
     }
     return all;
+}
+
+SensorSignals signals_of_sensor(const LaneSignals& all, std::size_t sensor, double noise) {
+    const auto one = [&](const LaneSignals& record) {
+        LaneSignals own = record.additional[sensor];
+        own.te_turn = record.te_turn;
+        own.te = record.te;
+        own.noise_m_s2 = noise * record.noise_m_s2;
+        return own;
+    };
+    SensorSignals own{one(all), {}};
+    for (std::size_t k = 0; k < all.baselines; ++k) {
+        own.baseline.push_back(one(all.baseline[k]));
+    }
+    return own;
 }
 
 }  // namespace gearpod::mc

@@ -61,23 +61,45 @@ void add_motion(const Scene& scene, const GearboxTile& tile, MeshRange meshes, S
     }
 }
 
-void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::PathGrid& path,
-                const RealizationFeatures& features, std::size_t rows, Simulation& out) {
-    const Realization& realization = tile.realizations[0];
-    const LaneSignals record =
-        drawn_record(scene, lane_signals(scene, path, tile, 0, scene.signal_meshes()), realization);
+// Adds a sensor's samples without and with noise. `signals` are those of the scene's
+// signal_meshes().
+void add_sensor(const Scene& scene, const Realization& realization, LaneSignals signals,
+                const RealizationFeatures& features, const std::string& name, std::size_t rows,
+                Simulation& out) {
+    const LaneSignals record = drawn_record(scene, std::move(signals), realization);
     const std::vector<double>& clean = record.sensor;
     const auto noise = sample_noise(scene, realization, clean, features.noise().sensor,
                                     record.turns > 0 ? record.turns : scene.span().ring_teeth);
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
-    out.columns.push_back({"sensor", "m/s^2", first(clean)});
+    out.columns.push_back({name, "m/s^2", first(clean)});
     for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
         std::vector<double> noisy = clean;
         add_noise(noise, out.noise_levels[level] * realization.inputs.noise_m_s2, noisy);
         out.columns.push_back(
-            {fmt::format("sensor_noise_{:g}", out.noise_levels[level]), "m/s^2", first(noisy)});
+            {fmt::format("{}_noise_{:g}", name, out.noise_levels[level]), "m/s^2", first(noisy)});
+    }
+}
+
+// Adds the samples of all sensors. `features` are those of the first one.
+void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths& path,
+                 const RealizationFeatures& features, std::size_t rows, Simulation& out) {
+    const Realization& realization = tile.realizations[0];
+    const LaneSignals all = lane_signals(scene, path, tile, 0, scene.signal_meshes());
+    add_sensor(scene, realization, all, features, "sensor", rows, out);
+    const std::vector<AdditionalSensor>& additional = scene.study().sensor.additional;
+    for (std::size_t s = 0; s < additional.size(); ++s) {
+        const HealthyReference healthy = healthy_reference(scene, path, s + 1);
+        RealizationFeatures own_features(scene, &healthy, false);
+        const Realization own = at_sensor(scene.study(), realization, s + 1);
+        SensorSignals signals = signals_of_sensor(
+            lane_signals(scene, path, tile, 0, own_features.meshes()), s, additional[s].noise);
+        signals.record.baseline = signals.baseline.data();
+        signals.record.baselines = signals.baseline.size();
+        own_features.compute(signals.record, own);
+        add_sensor(scene, own, signals_of_sensor(all, s, additional[s].noise).record, own_features,
+                   kSensorVariant + additional[s].name, rows, out);
     }
 }
 
@@ -127,7 +149,7 @@ GearboxId id_of_row(const Study& study, long row) {
 }
 
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
-    const signals::PathGrid path = path_grid(scene);
+    const SensorPaths path = sensor_paths(scene);
     const MeshRange range{
         has_record_length(scene.study())
             ? record_window(scene, id, record_turns(scene, scene.sampler().draw(id).inputs))
@@ -166,7 +188,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
         out.columns.push_back(angle);
     }
     if (!scene.study().effects.quasi_static()) {
-        add_sensor(scene, tile, path, features, rows, out);
+        add_sensors(scene, tile, path, features, rows, out);
     }
     add_motion(scene, tile, range, out);
     if (!tile.integration.contact_loss.empty()) {

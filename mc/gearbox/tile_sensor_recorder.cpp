@@ -27,7 +27,7 @@ std::vector<double> path_exponents(std::span<const Realization> realizations) {
     return exponents;
 }
 
-TileSensorRecorder::TileSensorRecorder(const Scene& scene, const signals::PathGrid& path,
+TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& path,
                                        std::span<const Realization> realizations, int kept_meshes)
     : realizations_(realizations),
       has_gain_(has_gain(realizations)),
@@ -35,12 +35,16 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const signals::PathGr
       recorded_meshes_(scene.recorded_meshes()) {
     const signals::Tones tones = draw_tones(scene, realizations);
     const std::vector<double> exponents = path_exponents(realizations);
-    response_ = std::make_unique<signals::SensorResponse>(
-        path, scene.span(),
-        signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents, &tones,
-                                      scene.te_samples_per_mesh(), signal_meshes_,
-                                      kept_meshes < 0 ? signal_meshes_ : kept_meshes,
-                                      has_record_length(scene.study())});
+    const auto add = [&](const signals::PathGrid& grid) {
+        responses_.push_back(std::make_unique<signals::SensorResponse>(
+            grid, scene.span(),
+            signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents, &tones,
+                                          scene.te_samples_per_mesh(), signal_meshes_,
+                                          kept_meshes < 0 ? signal_meshes_ : kept_meshes,
+                                          has_record_length(scene.study())}));
+    };
+    add(path.first);
+    std::ranges::for_each(path.additional, add);
 }
 
 void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
@@ -52,7 +56,9 @@ void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
         acceleration = amplified_acceleration_.data();
     }
     for (int at = k; at < signal_meshes_; at += recorded_meshes_) {
-        response_->record_mesh(at, acceleration, record.te.data());
+        for (const auto& response : responses_) {
+            response->record_mesh(at, acceleration, record.te.data());
+        }
     }
     spent_s_ += seconds_since(start);
 }

@@ -116,6 +116,7 @@ class ValueForm {
     }
     void operator()(const TonesAccess&) const { json_["type"] = "tones"; }
     void operator()(const BearingsAccess&) const { json_["type"] = "bearings"; }
+    void operator()(const SensorsAccess&) const { json_["type"] = "sensors"; }
     void operator()(const PythonAccess&) const { json_["type"] = "python"; }
 
   private:

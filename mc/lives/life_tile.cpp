@@ -10,7 +10,7 @@ LifeTiles::LifeTiles(const Scene& scene)
       speeds_(distributions_.speed, integrated_speeds(scene.study().life),
               scene.study().life.polynomial_speeds),
       sampler_(study_of_gearboxes(scene.study())),
-      path_(path_grid(scene)),
+      path_(sensor_paths(scene)),
       crack_(scene) {}
 
 std::size_t LifeTiles::lanes() const {

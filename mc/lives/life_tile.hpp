@@ -101,7 +101,7 @@ class LifeTiles {
     const RecordDistributions distributions_;
     const LoadAxis torques_, speeds_;
     const Sampler sampler_;  // of study_of_gearboxes()
-    const signals::PathGrid path_;
+    const SensorPaths path_;
     const CrackLife crack_;
 };
 

@@ -95,6 +95,9 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
                "gravity, tones or bearings that differ between records",
                "remove them");
     }
+    if (!study.sensor.additional.empty()) {
+        reject("sensor.additional", "lives have the first sensor only", "remove them");
+    }
     if (short_records) {
         try {
             record_span(scene, nominal_inputs(study).speed_rad_s);

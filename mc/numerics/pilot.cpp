@@ -118,7 +118,7 @@ std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride
 }
 
 Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
-    : ids_(std::move(ids)), path_(path_grid(scene)) {}
+    : ids_(std::move(ids)), path_(sensor_paths(scene)) {}
 
 PilotRecord Pilot::run(const Scene& scene) const {
     const lockstep::Precision precision = scene.plan().precision;
@@ -170,8 +170,8 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
                 lane_signals(scene, path_, tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
             record.sensor.back() =
-                signals::synthesize(tile.views, lane, tile.integration.content, scene.span(), path_,
-                                    realization.inputs.path_exponent, 0, meshes);
+                signals::synthesize(tile.views, lane, tile.integration.content, scene.span(),
+                                    path_.first, realization.inputs.path_exponent, 0, meshes);
             record.te.back() = te_without_mean(scene, tile, lane, meshes);
         }
     }

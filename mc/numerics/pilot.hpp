@@ -9,7 +9,6 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
-#include "signals/path/transmission_path.hpp"
 
 namespace gearpod::mc {
 
@@ -56,7 +55,7 @@ class Pilot {
     PilotRecord record(const Scene& scene, int lanes, const Tile& tile_of) const;
 
     std::vector<GearboxId> ids_;
-    signals::PathGrid path_;
+    SensorPaths path_;
 };
 
 // Error of a record relative to a reference.

@@ -46,7 +46,7 @@ class StepPilot {
     GearboxTile run(const Scene& scene) const {
         const int lanes =
             lockstep::lanes_for(scene.plan().precision, static_cast<int>(gearboxes_.size()));
-        return run_realizations(scene, path_grid(scene), gearboxes_, lanes,
+        return run_realizations(scene, sensor_paths(scene), gearboxes_, lanes,
                                 {.records = lockstep::RecordOptions{}});
     }
 

@@ -390,7 +390,7 @@ HealthyReference simulated_reference_at(double noise_level, const Scene& scene) 
         return {};
     }
     const auto at = static_cast<std::size_t>(level - levels.begin());
-    const HealthyReference all = simulated_reference(scene, path_grid(scene));
+    const HealthyReference all = simulated_reference(scene, sensor_paths(scene));
     return {{all.residual_variance[at]}, {all.envelope_variance[at]}, {all.amplitude[at]}};
 }
 

@@ -154,7 +154,7 @@ class Examples {
     Examples(const Scene& scene, const Results& frame)
         : scene_(scene),
           frame_(frame),
-          path_(path_grid(scene)),
+          path_(sensor_paths(scene)),
           healthy_(healthy_reference(scene, path_)),
           features_(scene, &healthy_, false),
           level_(reference_level(frame.noise_levels)) {}
@@ -263,7 +263,7 @@ class Examples {
 
     const Scene& scene_;
     const Results& frame_;
-    const signals::PathGrid path_;
+    const SensorPaths path_;
     const HealthyReference healthy_;
     RealizationFeatures features_;
     const std::size_t level_;

@@ -21,6 +21,7 @@
 #include "mc/summary/monitoring_over_time.hpp"
 #include "mc/summary/other_fault.hpp"
 #include "mc/summary/run_report.hpp"
+#include "mc/summary/sensors.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -84,6 +85,26 @@ Json step_error_json(const Results& frame) {
     return json;
 }
 
+Json change_json(const analysis::NumberDifference& change) {
+    return change.refusal.empty() ? Json{{"difference", finite_json(change.difference())},
+                                         {"lower", finite_json(change.bounds.lower)},
+                                         {"upper", finite_json(change.bounds.upper)}}
+                                  : Json(nullptr);
+}
+
+// Detection by each sensor and by all together; null with one sensor.
+Json sensors_json(const std::vector<SensorDetection>& sensors) {
+    Json json = Json::array();
+    for (const SensorDetection& one : sensors) {
+        json.push_back({{"name", one.name},
+                        {"feature", one.feature},
+                        {"size", one.smallest ? Json(one.smallest->size) : Json(nullptr)},
+                        {"a90", one.change ? change_json(one.change->a90) : Json(nullptr)},
+                        {"auc", one.change ? change_json(one.change->auc) : Json(nullptr)}});
+    }
+    return json.empty() ? Json(nullptr) : json;
+}
+
 // Alarms of healthy gearboxes with another fault; null without one.
 Json other_fault_json(const Results& frame, const RowSource& rows) {
     Json json = Json::array();
@@ -145,6 +166,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["numerical"] = numerical_json(frame, numerical_contributions(frame, rows, reliability));
     json["step_error"] = step_error_json(frame);
     json["contact_loss"] = contact_loss_json(frame, rows);
+    json["sensors"] = sensors_json(sensor_detections(frame, rows));
     json["other_fault"] = other_fault_json(frame, rows);
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);

@@ -102,6 +102,8 @@ struct Variant {
     std::vector<FeatureResult> features;  // all of Results::features, in the same order
 };
 
+// Beginning of the names of variants that are measured by additional sensors.
+inline const std::string kSensorVariant = "sensor_";
 // Name of the variant in which the healthy gearboxes of the threshold group have another fault than
 // that of the study (BearingRole::other_fault). Its values are NaN for graded gearboxes.
 inline constexpr const char* kOtherFault = "other_fault";

@@ -32,6 +32,11 @@ StreamPurpose record_purpose(const GearboxId& id, StreamPurpose purpose) {
 }
 
 StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {
+    const bool own = id.sensor > 0 && (purpose == StreamPurpose::sensor_noise ||
+                                       purpose == StreamPurpose::sensor_noise_direction);
+    if (own) {
+        purpose = with_suffix(purpose, ".sensor." + std::to_string(id.sensor));
+    }
     return record_purpose(id, id.repeat == 0
                                   ? purpose
                                   : with_suffix(purpose, ".repeat." + std::to_string(id.repeat)));

@@ -32,6 +32,7 @@ struct GearboxId {
     // set, all random inputs that have a quantile are computed from normal variates.
     std::optional<std::span<const analysis::InputExchange>> exchanged = {};
     std::uint64_t baseline = 0;  // number of a baseline record, from 0
+    std::uint64_t sensor = 0;    // 0: the first one, else 1 + the number of an additional one
 };
 
 // Row of a record of `run` in the results.

@@ -86,6 +86,15 @@ GearboxId owner(GearboxId id, DrawnPer per) {
 
 }  // namespace
 
+Realization at_sensor(const Study& study, const Realization& realization, std::uint64_t sensor) {
+    Realization own = realization;
+    own.id.sensor = sensor;
+    const double noise = study.sensor.additional[sensor - 1].noise;
+    own.inputs.noise_m_s2 *= noise;
+    own.inputs.white_noise_m_s2 *= noise;
+    return own;
+}
+
 NoiseSampling threshold_noise_sampling(const Study& study) {
     return study.ensemble.uses_importance_sampling() ? NoiseSampling::towards_alarms
                                                      : NoiseSampling::plain;

@@ -23,6 +23,9 @@ struct Realization {
     std::vector<double> random_values = {};
 };
 
+// The same gearbox at an additional sensor (GearboxId::sensor): it has noise of its own.
+Realization at_sensor(const Study& study, const Realization& realization, std::uint64_t sensor);
+
 // Noise distribution of the records that set the thresholds.
 NoiseSampling threshold_noise_sampling(const Study& study);
 

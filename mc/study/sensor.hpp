@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mc/study/member.hpp"
@@ -41,11 +42,23 @@ struct Bearing {
     bool operator==(const Bearing&) const = default;
 };
 
+// Further accelerometer on the ring of a planetary gearbox, compared with the first one.
+struct AdditionalSensor {
+    std::string name;
+    double angle_deg = 0.0;   // from the first one, in the sense of the carrier's positive rotation
+    bool tangential = false;  // direction: tangential, or else radial
+    double gain = 1.0;        // factors on those of the first one
+    double noise = 1.0;
+
+    bool operator==(const AdditionalSensor&) const = default;
+};
+
 struct Sensor {
     double sampling_Hz = 0.0;
     double low_pass_Hz = 0.0;
     Member position = Member::pinion;  // fixed-shaft: bearing on which the sensor is mounted
     double path_exponent = 0.1;
+    std::vector<AdditionalSensor> additional;
     double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
     std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered

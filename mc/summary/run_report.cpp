@@ -26,6 +26,7 @@
 #include "mc/summary/monitoring_over_time.hpp"
 #include "mc/summary/numerical_section.hpp"
 #include "mc/summary/other_fault.hpp"
+#include "mc/summary/sensors.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -150,10 +151,11 @@ std::string numerical_of(const analysis::Findings& findings,
 // Alarms of the answer's feature that another fault raises; "" without one.
 std::string other_fault_of(const analysis::Findings& findings, const Results& frame,
                            const std::vector<OtherFaultAlarms>& others) {
-    return others.empty()
-               ? ""
-               : other_fault_limit(frame, others, findings.name(findings.best(findings.reference)),
-                                   findings.reference);
+    if (others.empty() || findings.order.empty() || findings.order[findings.reference].empty()) {
+        return "";
+    }
+    return other_fault_limit(frame, others, findings.name(findings.best(findings.reference)),
+                             findings.reference);
 }
 
 }  // namespace
@@ -197,6 +199,7 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
         }
         report.add(monitoring_section(*monitoring, best));
     }
+    report.add(sensors_section(frame, sensor_detections(frame, rows)));
     report.add(other_fault_section(frame, others));
     report.add(contact_section(summarise_contact_loss(frame, rows)));
     report.add(numerical_section(frame, contributions));

@@ -16,10 +16,9 @@ namespace gearpod::test {
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};
-    return mc::run_gearboxes(
-        scene, mc::path_grid(scene), std::span(&id, 1), 1,
-        {.records =
-             lockstep::RecordOptions{.motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
+    return mc::run_gearboxes(scene, mc::sensor_paths(scene), std::span(&id, 1), 1,
+                             {.records = lockstep::RecordOptions{
+                                  .motion_meshes = with_motion ? scene.recorded_meshes() : 0}});
 }
 
 // Sensor signal over the first `meshes` mesh periods, in m/s^2.
@@ -28,8 +27,8 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
-                               mc::path_grid(scene), tile.realizations[0].inputs.path_exponent, 0,
-                               meshes);
+                               mc::sensor_paths(scene).first,
+                               tile.realizations[0].inputs.path_exponent, 0, meshes);
 }
 
 // Amplitudes of a signal's spectral lines; line 0 is twice its mean.

@@ -62,6 +62,8 @@ const std::array<EvidenceSubject, 8>& evidence_subjects() {
           "measured_coverage",
           "curves.",
           "rates.",
+          "sensors",
+          "sensors.",
           "reliable_sizes",
           "responses.",
           "responses_refused.",

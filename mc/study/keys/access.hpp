@@ -163,7 +163,7 @@ template <auto... Named>
 void set_list(Study& s, TypeOf<Named...> value) {
     stored<Named...>(s) = std::move(value);
 }
-// List of strings, of tones, of bearings or of features in Python.
+// List of strings, of tones, of bearings, of sensors or of features in Python.
 template <auto Member>
 constexpr Access<TypeOf<Member>, TypeOf<Member>> list{get_list<Member>, set_list<Member>};
 template <auto... Named>

@@ -56,10 +56,11 @@ struct NumbersAccess {
 using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
 using TonesAccess = Access<std::vector<Tone>, std::vector<Tone>>;
 using BearingsAccess = Access<std::vector<Bearing>, std::vector<Bearing>>;
+using SensorsAccess = Access<std::vector<AdditionalSensor>, std::vector<AdditionalSensor>>;
 using PythonAccess = Access<std::vector<PythonFeature>, std::vector<PythonFeature>>;
 using AnyAccess =
     std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess, NumbersAccess,
-                 TextsAccess, TonesAccess, BearingsAccess, PythonAccess>;
+                 TextsAccess, TonesAccess, BearingsAccess, SensorsAccess, PythonAccess>;
 
 // Requirement of a key (required, optional or forbidden) and the reason. It depends on the keys
 // `governors`; "" for none.

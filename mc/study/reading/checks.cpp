@@ -119,6 +119,11 @@ void check_tones_and_bearings(StudyDraft& draft) {
             check_shaft(draft, "sensor.bearings", i + 1, *s.bearings[i].shaft);
         }
     }
+    if (!s.additional.empty() && draft.study.ensemble.uses_importance_sampling() &&
+        draft.usable("ensemble.threshold_tilt")) {
+        draft.reject("sensor.additional", "importance sampling tilts the noise of one sensor only",
+                     "remove them, or ensemble.threshold_tilt");
+    }
     if (!s.bearings.empty() && draft.study.ensemble.threshold_records > 1 &&
         draft.usable("ensemble.threshold_records")) {
         draft.reject("ensemble.threshold_records",

@@ -95,6 +95,22 @@ std::optional<int> ListElement::choice(std::string_view name, std::span<const Ch
     return std::nullopt;
 }
 
+std::string ListElement::word(std::string_view name) const {
+    const Value* value = find(name, true);
+    if (value == nullptr) {
+        return "";
+    }
+    const auto plain = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+    };
+    if (value->kind != Value::Kind::text || value->text.empty() ||
+        !std::ranges::all_of(value->text, plain)) {
+        reject(fmt::format("{} must have lower-case letters, digits and dashes only", name), "");
+        return "";
+    }
+    return value->text;
+}
+
 std::optional<Member> ListElement::shaft() const {
     static constexpr std::array kShafts{ChoiceName{"sun", static_cast<int>(Member::sun)},
                                         ChoiceName{"carrier", static_cast<int>(Member::carrier)},

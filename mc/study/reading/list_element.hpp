@@ -32,6 +32,8 @@ class ListElement {
     // Value of one of the choices; empty if it is missing, which is rejected where it is required.
     std::optional<int> choice(std::string_view name, std::span<const ChoiceName> choices,
                               bool required) const;
+    // Required text of lower-case letters, digits and dashes; "" if it is rejected.
+    std::string word(std::string_view name) const;
     // Member named by "shaft", which is required: one whose shaft may have a bearing in the
     // housing.
     std::optional<Member> shaft() const;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "features/feature.hpp"
+#include "mc/study/reading/additional_sensors.hpp"
 #include "mc/study/reading/bearings.hpp"
 #include "mc/study/reading/python_list.hpp"
 #include "mc/study/reading/tones.hpp"
@@ -93,6 +94,14 @@ class ValueText {
             texts.push_back(tone_table(tone));
         }
         return in_brackets(texts);
+    }
+
+    std::string operator()(const SensorsAccess& access) const {
+        std::string text;
+        for (const AdditionalSensor& sensor : access.get(study_)) {
+            text += fmt::format("    {},\n", sensor_table(sensor));
+        }
+        return text.empty() ? "" : fmt::format("[\n{}]", text);
     }
 
     // One line per bearing.

@@ -5,6 +5,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/reading/additional_sensors.hpp"
 #include "mc/study/reading/bearings.hpp"
 #include "mc/study/reading/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
@@ -128,6 +129,12 @@ class ValueReader {
     void operator()(const BearingsAccess& access) {
         if (value_.elements.empty() ? is_list("bearings") : nonempty_list("bearings")) {
             access.set(draft_.study, read_bearings(value_, rejection()));
+        }
+    }
+
+    void operator()(const SensorsAccess& access) {
+        if (value_.elements.empty() ? is_list("sensors") : nonempty_list("sensors")) {
+            access.set(draft_.study, read_additional_sensors(value_, rejection()));
         }
     }
 

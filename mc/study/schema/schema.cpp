@@ -67,6 +67,9 @@ struct KindText {
         return "list of { fault, shaft or shaft_Hz, elements, diameter_ratio, amplitude_m_s2, "
                "resonance_Hz, ... }";
     }
+    std::string operator()(const SensorsAccess&) const {
+        return "list of { name, angle_deg, direction, gain, noise }";
+    }
     std::string operator()(const PythonAccess&) const { return "list of Python files"; }
     std::string operator()(const ChoiceAccess& choice) const {
         std::vector<std::string> names;

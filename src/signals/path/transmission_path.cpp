@@ -11,6 +11,13 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+// Angles of a sensor per turn.
+constexpr long kSensorAngles = 36'000;
+
+long wrapped(long angle, long turn) {
+    return (angle % turn + turn) % turn;
+}
+
 gears::PlanetPlaces equally_spaced(int planets) {
     return gears::planet_places({.planets = planets});
 }
@@ -21,7 +28,7 @@ PathGrid::PathGrid(const PathWindow& window, int planets, int phases, const Span
     : PathGrid(window, equally_spaced(planets), phases, layout) {}
 
 PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
-                   const SpanLayout& layout, CarrierSense sense)
+                   const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor)
     : planets_(static_cast<int>(planets.place.size())),
       phases_(phases),
       positions_(layout.carrier_meshes) {
@@ -29,16 +36,21 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
         throw std::invalid_argument(
             "path grid: planets, phases and meshes per carrier turn must be positive");
     }
-    // Carrier and planet angles are whole steps of a turn, so that the wrap is exact.
-    const long places = planets.places;
+    // Carrier, planet and sensor angles are whole steps of a turn, so that the wrap is exact.
+    const bool mirrored = sense == CarrierSense::negative;
+    const long parts = sensor.angle_deg == 0.0 ? 1 : kSensorAngles;
+    const long sensor_part =
+        std::lround(sensor.angle_deg / 360.0 * kSensorAngles) * (mirrored ? -1 : 1);
+    const long places = planets.places * parts;
     const long mesh = places * phases_;
     const long turn = mesh * positions_;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(turn);
     const bool turns = positions_ > 1;
-    const bool mirrored = sense == CarrierSense::negative;
+    const long sensor_angle = wrapped(turn / kSensorAngles * sensor_part, turn);
     const auto position = [&](int n) {
-        const long place = planets.place[static_cast<std::size_t>(n)];
-        return turn / places * (mirrored ? (places - place) % places : place);
+        const long place = planets.place[static_cast<std::size_t>(n)] * parts;
+        const long angle = turn / places * (mirrored ? (places - place) % places : place);
+        return wrapped(angle - sensor_angle, turn);
     };
     // Planets a whole number of samples apart share their angles and window values.
     std::vector<double> known(static_cast<std::size_t>(turn / places), kUnknown);
@@ -56,12 +68,14 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
     for (int p = 0; p < phases_; ++p) {
         for (int c = 0; c < positions_; ++c) {
             const long carrier = turns ? (static_cast<long>(c) * phases_ + p) * places : 0;
-            const double sine = std::sin(step * static_cast<double>(carrier));
-            sine_.push_back(mirrored ? -sine : sine);
-            cosine_.push_back(std::cos(step * static_cast<double>(carrier)));
+            const double angle = step * static_cast<double>(wrapped(carrier - sensor_angle, turn));
+            const double sine = mirrored ? -std::sin(angle) : std::sin(angle),
+                         cosine = std::cos(angle);
+            sine_.push_back(sensor.tangential ? cosine : sine);
+            cosine_.push_back(sensor.tangential ? -sine : cosine);
             for (int n = 0; n < planets_; ++n) {
                 const long planet = (carrier + position(n)) % turn;
-                window_.push_back(weight(planet));
+                window_.push_back(sensor.gain * weight(planet));
             }
         }
         for (int n = 0; n < planets_; ++n) {

@@ -27,12 +27,23 @@ namespace gearpod::signals {
 // Sense of the carrier's rotation.
 enum class CarrierSense { positive, negative };
 
+// Place and kind of a sensor on the housing. Without them it is Liang's: it measures along the line
+// from the centre to itself, and planet n passes it at x_n = pi.
+struct SensorPlace {
+    double angle_deg = 0.0;   // around the axis from that place, in the positive sense
+    bool tangential = false;  // measures across the line to the centre
+    double gain = 1.0;
+};
+
 // Part of the path that all gearboxes of a study share, tabulated at every sample of a carrier
 // turn. At mesh c = 0..M_c - 1 and phase p/P, theta = 2 pi (c + p/P) / M_c, or its negative where
 // the carrier turns in the negative sense. For a stationary carrier theta = 0 at all phases.
 //
 // A carrier in the negative sense is the mirror image of one in the positive sense with the planets
 // at -psi_n: g(x) = g(2 pi - x), and sin theta changes its sign.
+//
+// A sensor at the angle beta has theta - beta instead of theta, rounded to 0.01 degree. One that
+// measures along the tangent has cos and -sin instead of sin and cos.
 //
 // Only exp(alpha (x - pi)^2) differs between lanes. At a given phase the planet angles are
 // equidistant in c: x - pi = h (m + f) with h = 2 pi / M_c, integer m and a fraction f. Hence
@@ -44,7 +55,8 @@ class PathGrid {
   public:
     // Throws std::invalid_argument unless planets and phases are positive.
     PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
-             const SpanLayout& layout, CarrierSense sense = CarrierSense::positive);
+             const SpanLayout& layout, CarrierSense sense = CarrierSense::positive,
+             const SensorPlace& sensor = {});
     // Path of equally spaced planets.
     PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout);
 

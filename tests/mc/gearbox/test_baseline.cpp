@@ -31,7 +31,7 @@ class Computed {
     Computed(const Study& study, const std::vector<GearboxId>& ids)
         : scene_(study),
           levels_(study.sensor.noise_levels.size()),
-          path_(path_grid(scene_)),
+          path_(sensor_paths(scene_)),
           tile_(run_gearboxes(scene_, path_, ids, 8)),
           features_(scene_, &healthy_) {
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
@@ -53,7 +53,7 @@ class Computed {
   private:
     Scene scene_;
     std::size_t levels_;
-    signals::PathGrid path_;
+    SensorPaths path_;
     GearboxTile tile_;
     HealthyReference healthy_;
     RealizationFeatures features_;

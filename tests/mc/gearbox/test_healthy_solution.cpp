@@ -23,7 +23,7 @@ Study real_teeth(const std::string& convergence_tolerance) {
 
 TEST_CASE("A fault changes the meshes after its passage begins, and no others") {
     const Scene scene(real_teeth("1e-8"));
-    const auto path = path_grid(scene);
+    const auto path = sensor_paths(scene);
     Realization gearbox = scene.sampler().draw({Group::graded, 3});
     gearbox.inputs.gain = 1.0;
     gearbox.inputs.fault_size = 3e-3;
@@ -45,12 +45,11 @@ TEST_CASE("A fault changes the meshes after its passage begins, and no others") 
 
 TEST_CASE("Few meshes are integrated for a further size of a fault") {
     const Scene scene(real_teeth("1e-4"));
-    const auto path = path_grid(scene);
+    const auto path = sensor_paths(scene);
     Realization gearbox = scene.sampler().draw({Group::graded, 5});
     gearbox.inputs.fault_size = 0.0;
-    const GearboxTile healthy =
-        run_realizations(scene, path, {gearbox}, 1,
-                         {.records = lockstep::RecordOptions{.states = true}});
+    const GearboxTile healthy = run_realizations(
+        scene, path, {gearbox}, 1, {.records = lockstep::RecordOptions{.states = true}});
     // A fault of size zero causes no change.
     const GearboxTile none =
         run_fault_perturbations(scene, {gearbox}, 1, healthy.integration.states);

@@ -37,7 +37,7 @@ const GearboxId kTest{Group::graded, 4};
 
 std::vector<double> features_of(const Study& study, const GearboxId& id) {
     const Scene scene(study);
-    const signals::PathGrid path = path_grid(scene);
+    const SensorPaths path = sensor_paths(scene);
     const GearboxTile tile = run_gearboxes(scene, path, std::span(&id, 1), 8);
     REQUIRE(tile.status[0] == Status::ok);
     const HealthyReference healthy;
@@ -47,7 +47,7 @@ std::vector<double> features_of(const Study& study, const GearboxId& id) {
 }
 
 std::vector<double> sensor_of(const Scene& scene, const GearboxId& id) {
-    const signals::PathGrid path = path_grid(scene);
+    const SensorPaths path = sensor_paths(scene);
     const Realization one = scene.sampler().draw(id);
     const GearboxTile tile = run_realizations(scene, path, {one}, 8);
     return lane_signals(scene, path, tile, 0, scene.span_meshes()).sensor;

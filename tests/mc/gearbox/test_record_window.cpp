@@ -33,7 +33,7 @@ class Computed {
   public:
     explicit Computed(const Study& study, GearboxId id = {Group::graded, 4})
         : scene_(study),
-          path_(path_grid(scene_)),
+          path_(sensor_paths(scene_)),
           tile_(run_gearboxes(scene_, path_, std::span(&id, 1), 1)),
           features_(scene_, &healthy_),
           signals_(lane_signals(scene_, path_, tile_, 0, scene_.signal_meshes())) {
@@ -51,7 +51,7 @@ class Computed {
 
   private:
     Scene scene_;
-    signals::PathGrid path_;
+    SensorPaths path_;
     GearboxTile tile_;
     HealthyReference healthy_;
     RealizationFeatures features_;

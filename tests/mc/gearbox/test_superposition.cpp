@@ -34,7 +34,7 @@ Study study_with(const std::string& horizon, const std::vector<std::string>& mor
 // Graded gearboxes 0 to 7.
 class Tile {
   public:
-    explicit Tile(const Study& study) : scene_(study), path_(path_grid(scene_)) {
+    explicit Tile(const Study& study) : scene_(study), path_(sensor_paths(scene_)) {
         std::vector<GearboxId> ids;
         for (std::uint64_t i = 0; i < 8; ++i) {
             ids.push_back({Group::graded, i});
@@ -50,7 +50,7 @@ class Tile {
 
   private:
     Scene scene_;
-    signals::PathGrid path_;
+    SensorPaths path_;
     GearboxTile tile_;
 };
 
@@ -204,7 +204,7 @@ TEST_CASE("Integrations of lives start from superposed states as from integrated
     const auto cracked = [](const std::string& horizon) {
         const Study study = study_with(horizon);
         const Scene scene(study);
-        const signals::PathGrid path = path_grid(scene);
+        const SensorPaths path = sensor_paths(scene);
         const HealthySolution healthy_solution(scene, path,
                                                {scene.sampler().draw({Group::graded, 1})}, 1);
         return healthy_solution.with_fault(2e-3).lane[0].sensor;

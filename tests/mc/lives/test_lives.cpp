@@ -39,7 +39,7 @@ TEST_CASE("A record equals its gearbox integrated at that depth and torque") {
         inputs.fault_size = record.depth_m;
         inputs.torque_N_m *= record.torque;
         inputs.gain *= record.gain;
-        const auto path = mc::path_grid(scene);
+        const auto path = mc::sensor_paths(scene);
         const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
         const auto integrated_features =
             features.compute(mc::lane_signals(scene, path, tile, 0, 0), gearbox);

@@ -116,7 +116,7 @@ TEST_CASE("A record at another speed is close to an integration at that speed") 
         inputs.fault_size = 0.0;
         inputs.torque_N_m *= record.torque;
         inputs.speed_rad_s *= record.speed;
-        const auto path = mc::path_grid(scene);
+        const auto path = mc::sensor_paths(scene);
         const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
         const auto integrated =
             features.compute(mc::lane_signals(scene, path, tile, 0, 0), gearbox);

@@ -28,7 +28,7 @@ Study study_of(const std::string& text, const std::vector<std::string>& override
 }
 
 GearboxTile run(const Scene& scene, std::vector<GearboxId> ids, int lanes) {
-    return run_gearboxes(scene, path_grid(scene), ids, lanes,
+    return run_gearboxes(scene, sensor_paths(scene), ids, lanes,
                          {.records = lockstep::RecordOptions{}});
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, with 
     const GearboxTile four = run(scene, {ids[5], ids[2], ids[7]}, 4);
     const GearboxTile one = run(scene, {ids[2]}, 1);
     CHECK(eight.status[2] == Status::ok);
-    CHECK(bits(eight.folded, 8, 2) == bits(one.folded, 1, 0));
+    CHECK(bits(eight.folded[0], 8, 2) == bits(one.folded[0], 1, 0));
     CHECK(bits(eight.te_turn, 8, 2) == bits(one.te_turn, 1, 0));
     CHECK(bits(four.te_turn, 4, 1) == bits(one.te_turn, 1, 0));
     CHECK(bits(eight.te_turn, 8, 5) == bits(four.te_turn, 4, 0));

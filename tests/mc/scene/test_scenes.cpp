@@ -20,7 +20,7 @@ namespace {
 
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
-    return mc::run_gearboxes(scene, mc::path_grid(scene), std::span(&id, 1), 1,
+    return mc::run_gearboxes(scene, mc::sensor_paths(scene), std::span(&id, 1), 1,
                              {.records = lockstep::RecordOptions{.motion_meshes = 1}});
 }
 

@@ -1,0 +1,58 @@
+#include "mc/description/describe_sensors.hpp"
+
+#include <fmt/format.h>
+
+#include "mc/description/entries.hpp"
+#include "mc/gearbox/bearing_signals.hpp"
+#include "mc/scene/instance_inputs.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Prints the impulses of a faulty bearing at nominal speed, and their vibration after the low-pass.
+void print_bearing(const Scene& scene, const Bearing& bearing) {
+    const InstanceInputs inputs = nominal_inputs(scene.study());
+    const signals::BearingImpulses impulses = bearing_impulses(scene, inputs, bearing);
+    print_entry(bearing.role == BearingRole::other_fault ? "other fault" : "faulty bearing",
+                fmt::format("{}: {:.3f} impulses per shaft turn, {:.4g} Hz; {:.3g} m/s^2 rms after "
+                            "the low-pass, while loaded most",
+                            bearing_text(bearing), impulses_per_turn(bearing), impulses.rate_Hz,
+                            signals::bearing_rms(impulses, scene.study().sensor.low_pass_Hz)));
+}
+
+}  // namespace
+
+void print_sensors(const Scene& scene) {
+    const Study& study = scene.study();
+    if (study.effects.path != nullptr) {
+        print_entry("transmission path",
+                    fmt::format("{} window, exponent {:g}", study.effects.path->name,
+                                study.sensor.path_exponent));
+    } else {
+        print_entry("sensor", fmt::format("on the {} bearing, along the line of action",
+                                          member_name(study.sensor.position)));
+    }
+    if (study.sensor.gain != 1.0 || study.find_random("sensor.gain") != nullptr) {
+        print_entry("sensor gain",
+                    fmt::format("{:g} times the gearbox vibration", study.sensor.gain));
+    }
+    print_entry("sensor low-pass",
+                fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
+    if (!study.sensor.tones.empty()) {
+        print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
+    }
+    for (const AdditionalSensor& sensor : study.sensor.additional) {
+        print_entry(
+            "additional sensor",
+            fmt::format("\"{}\": {:g} degrees from the first one, {}, gain x {:g}, noise x "
+                        "{:g}",
+                        sensor.name, sensor.angle_deg, sensor.tangential ? "tangential" : "radial",
+                        sensor.gain, sensor.noise));
+    }
+    for (const Bearing& bearing : study.sensor.bearings) {
+        print_bearing(scene, bearing);
+    }
+}
+
+}  // namespace gearpod::mc
