@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -57,6 +58,13 @@ std::string of_teeth(const features::FeatureInput& input, double rounding) {
                : "";
 }
 
+// True if the feature has no meaning without mesh lines.
+bool divides_by_mesh_lines(const features::Feature& feature) {
+    constexpr std::array kNames{"energy_ratio", "fm0", "amplitude_modulation", "phase_modulation"};
+    return std::ranges::any_of(kNames,
+                               [&](const char* name) { return feature.name.ends_with(name); });
+}
+
 // Reason for features of the averaged turn.
 std::string of_turn(const features::Feature& feature, const features::SensorTurn& turn,
                     double rounding) {
@@ -68,7 +76,7 @@ std::string of_turn(const features::Feature& feature, const features::SensorTurn
                    ? comparison("the sideband amplitude", amplitude, error, kUnit)
                    : "";
     }
-    if (feature.name.ends_with("energy_ratio")) {
+    if (divides_by_mesh_lines(feature)) {
         const double regular = rms_of(turn.regular), error = rounding_of_regular(turn, rounding);
         return regular < kClearFactor * error
                    ? comparison("the rms of the mesh lines", regular, error, kUnit)

@@ -7,8 +7,10 @@
 
 #include "features/baseline_correlation.hpp"
 #include "features/crest_factor.hpp"
+#include "features/demodulation/mesh_demodulation.hpp"
 #include "features/energy_ratio.hpp"
 #include "features/feature.hpp"
+#include "features/fm0.hpp"
 #include "features/fm4.hpp"
 #include "features/frms.hpp"
 #include "features/m6a.hpp"
@@ -152,6 +154,17 @@ constexpr std::array kFeatures{
     feature<window_m8a<Gear::ring>>(
         "ring_window_m8a", "eighth moment at the worst ring tooth over that at the median tooth",
         "1", AlarmSide::high, "largest ring tooth M8A over the median one"),
+    feature<fm0>("fm0", "peak of the averaged vibration over its mesh harmonics", "1",
+                 AlarmSide::high,
+                 "peak-to-peak of the average over the sum of its mesh harmonics' amplitudes; "
+                 "Stewart (1977)"),
+    feature<amplitude_modulation>(
+        "amplitude_modulation", "amplitude modulation of the strongest mesh harmonic", "1",
+        AlarmSide::high,
+        "largest deviation of its normalised envelope from the mean; McFadden (1986)"),
+    feature<phase_modulation>("phase_modulation", "phase modulation of the strongest mesh harmonic",
+                              "rad", AlarmSide::high,
+                              "peak-to-peak of its demodulated phase; McFadden (1986)"),
 };
 
 // Features computed from the change since the baseline record: its energy, its location on the

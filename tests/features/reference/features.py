@@ -139,6 +139,27 @@ def te_features(te):
     }
 
 
+def demodulated(turn, teeth):
+    """Band around the mesh harmonic with the largest amplitude, times the conjugate carrier."""
+    n = len(turn)
+    half = (teeth - 1) // 2
+    spectrum = np.fft.fft(turn)
+    carrier = max((k for k in range(teeth, n, teeth) if 2 * (k + half) < n), key=lambda k: abs(spectrum[k]))
+    order = np.arange(n)
+    analytic = np.fft.ifft(np.where(abs(order - carrier) <= half, 2 * spectrum, 0))
+    return analytic * np.exp(-2j * np.pi * carrier * order / n)
+
+
+def mesh_line_features(turn, amplitude):
+    b = demodulated(turn, ZP)
+    envelope = np.abs(b)
+    return {
+        "fm0": np.ptp(turn) / np.sum(amplitude[ZP : (len(turn) + 1) // 2 : ZP]),
+        "amplitude_modulation": np.max(np.abs(envelope / np.mean(envelope) - 1)),
+        "phase_modulation": np.ptp(np.unwrap(np.angle(b))),
+    }
+
+
 def sensor_features(y, healthy):
     turn = averaged(y)
     parts = separate(turn, ZP)
@@ -167,6 +188,7 @@ def sensor_features(y, healthy):
         x = parts[part]
         variance = np.mean([np.var(r[part]) for r in records])
         out[name] = np.mean((x - np.mean(x)) ** 4) / variance**2
+    out |= mesh_line_features(turn, s)
     out |= windows("", best_teeth(y, ZP, ZR), False)
     out |= windows("sun_", best_teeth(y, ZS, ZR), False)
     out |= windows("ring_", best_teeth(y, ZR, ZP), True)
