@@ -5,6 +5,7 @@
 
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
+#include "signals/prediction/prewhitening.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
 namespace gearpod::mc {
@@ -86,8 +87,22 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
         input.get<features::ToothMoments<Gear::planet>>() = {planet_.kurtosis, planet_.crest,
                                                              planet_.m8a};
     }
+    if (needs_.has<features::WhitenedToothRms>()) {
+        whitened_teeth(span, planet, input);
+    }
     central_teeth<Gear::sun>(samples, Member::sun, sun_, input);
     central_teeth<Gear::ring>(samples, Member::ring, ring_, input);
+}
+
+void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
+                                  features::FeatureInput& input) {
+    const int phases = scene_.samples_per_mesh();
+    signals::Windowing windowing(planet.layout(), phases, scene_.study().features.tukey_taper);
+    windowing.load(signals::fold_of_squares(signals::prewhitened(span),
+                                            static_cast<std::size_t>(planet.teeth) * phases));
+    whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
+    windowing.search(0.0, whitened_rms_);
+    input.get<features::WhitenedToothRms>() = {whitened_rms_};
 }
 
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of

@@ -36,11 +36,14 @@ class SpanAnalysis {
     void central_teeth(std::span<const double> samples, Member member,
                        signals::ToothStatistics& statistics, features::FeatureInput& input);
 
+    void whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
+                        features::FeatureInput& input);
+
     const Scene& scene_;
     features::SignalSet needs_;
     std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
-    std::vector<double> average_;
+    std::vector<double> average_, whitened_rms_;
     signals::ToothStatistics planet_, sun_, ring_;
 };
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "features/median.hpp"
 #include "features/sideband_index.hpp"
+#include "features/statistics/median.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -34,6 +34,12 @@ struct ToothMoments {
     std::span<const double> kurtosis, crest, m8a;
 };
 
+// RMS of the windowed sensor signal of every planet tooth after cepstral pre-whitening of the
+// record, in arbitrary units: signals/prediction/prewhitening.hpp.
+struct WhitenedToothRms {
+    std::span<const double> rms;
+};
+
 // Signal averaged over planet turns, and its parts: signals/spectra/mesh_separation.hpp.
 struct SeparatedTurn {
     std::span<const double> turn;  // mean not removed
@@ -64,7 +70,7 @@ struct HealthyRecords {
 using AllSignals = std::tuple<TeTurn, SensorPower, ToothRms<Gear::planet>, TeParts, SensorTurn,
                               FilteredSensor, SensorSamples, ToothMoments<Gear::planet>,
                               ToothRms<Gear::sun>, ToothMoments<Gear::sun>, ToothRms<Gear::ring>,
-                              ToothMoments<Gear::ring>, HealthyRecords>;
+                              ToothMoments<Gear::ring>, HealthyRecords, WhitenedToothRms>;
 
 // Signals of one record. Signals that no requested feature needs are empty.
 struct FeatureInput {

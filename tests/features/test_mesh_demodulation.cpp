@@ -4,9 +4,9 @@
 #include <numbers>
 #include <vector>
 
-#include "features/demodulation/mesh_demodulation.hpp"
 #include "features/feature.hpp"
 #include "features/fm0.hpp"
+#include "features/mesh_demodulation.hpp"
 #include "signals/spectra/mesh_separation.hpp"
 
 namespace test_mesh_demodulation {
