@@ -7,6 +7,7 @@
 #include "mc/study/gears.hpp"
 #include "signals/prediction/prewhitening.hpp"
 #include "signals/spectra/synchronous_average.hpp"
+#include "signals/windowing/planet_separation.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -90,6 +91,9 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
     if (needs_.has<features::WhitenedToothRms>()) {
         whitened_teeth(span, planet, input);
     }
+    if (needs_.has<features::SeparatedPlanets>()) {
+        separated_planets(span, input);
+    }
     central_teeth<Gear::sun>(samples, Member::sun, sun_, input);
     central_teeth<Gear::ring>(samples, Member::ring, ring_, input);
 }
@@ -103,6 +107,19 @@ void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::G
     whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
     windowing.search(0.0, whitened_rms_);
     input.get<features::WhitenedToothRms>() = {whitened_rms_};
+}
+
+void SpanAnalysis::separated_planets(std::span<const double> span, features::FeatureInput& input) {
+    const int phases = scene_.samples_per_mesh();
+    planets_ =
+        signals::planet_averages(span, scene_.span(), scene_.study().gearbox.planets, phases);
+    signals::MeshSeparation parts(scene_.span().planet_teeth * phases, scene_.span().planet_teeth);
+    planet_differences_.clear();
+    for (const std::vector<double>& planet : planets_) {
+        parts.load(planet);
+        planet_differences_.emplace_back(parts.difference().begin(), parts.difference().end());
+    }
+    input.get<features::SeparatedPlanets>() = {planets_, planet_differences_};
 }
 
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of

@@ -38,12 +38,14 @@ class SpanAnalysis {
 
     void whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
                         features::FeatureInput& input);
+    void separated_planets(std::span<const double> span, features::FeatureInput& input);
 
     const Scene& scene_;
     features::SignalSet needs_;
     std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
     std::vector<double> average_, whitened_rms_;
+    std::vector<std::vector<double>> planets_, planet_differences_;
     signals::ToothStatistics planet_, sun_, ring_;
 };
 

@@ -58,6 +58,17 @@ std::string of_teeth(const features::FeatureInput& input, double rounding) {
                : "";
 }
 
+// Reason for features of the single planets' averages.
+std::string of_planets(const features::SeparatedPlanets& planets, double rounding) {
+    double rms = 0.0;
+    for (const std::vector<double>& difference : planets.difference) {
+        rms = std::max(rms, rms_of(difference));
+    }
+    return rms < kClearFactor * rounding
+               ? comparison("the rms of the planets' difference signals", rms, rounding, "m/s^2")
+               : "";
+}
+
 // True if the feature has no meaning without mesh lines.
 bool divides_by_mesh_lines(const features::Feature& feature) {
     constexpr std::array kNames{"energy_ratio", "fm0", "amplitude_modulation", "phase_modulation"};
@@ -133,8 +144,11 @@ std::string rounding_reason(const features::Feature& feature, const features::Fe
     if (feature.needs.has<features::SensorTurn>()) {
         return of_turn(feature, input.get<features::SensorTurn>(), rounding);
     }
-    if (feature.needs.has<features::ToothRms<Gear::planet>>()) {
+    if (feature.needs.has<features::ToothRms<Gear::planet>, features::WhitenedToothRms>()) {
         return of_teeth<Gear::planet>(input, rounding);
+    }
+    if (feature.needs.has<features::SeparatedPlanets>()) {
+        return of_planets(input.get<features::SeparatedPlanets>(), rounding);
     }
     if (feature.needs.has<features::ToothRms<Gear::sun>>()) {
         return of_teeth<Gear::sun>(input, rounding);

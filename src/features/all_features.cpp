@@ -24,6 +24,7 @@
 #include "features/nb4.hpp"
 #include "features/nsds.hpp"
 #include "features/sensor_rms.hpp"
+#include "features/separated_fm4.hpp"
 #include "features/sideband_index.hpp"
 #include "features/spectral_kurtosis.hpp"
 #include "features/te_fc.hpp"
@@ -197,6 +198,10 @@ constexpr std::array kFeatures{
                           AlarmSide::high,
                           "kurtosis of the average after minimum-entropy deconvolution; Endo and "
                           "Randall (2007)"),
+    feature<separated_fm4>(
+        "separated_fm4", "kurtosis of the irregular vibration of the worst planet", "1",
+        AlarmSide::high,
+        "largest FM4 of the planets' averages from windows at the sensor; McFadden (1991)"),
     feature<te_speed_kurtosis>("te_speed_kurtosis", "kurtosis of the speed error", "1",
                                AlarmSide::high,
                                "kurtosis of the derivative of the averaged transmission error"),

@@ -8,6 +8,7 @@
 #include "features/cyclic_coherence.hpp"
 #include "features/envelope_order.hpp"
 #include "features/feature.hpp"
+#include "features/separated_fm4.hpp"
 #include "features/te_speed_kurtosis.hpp"
 
 namespace test_cyclic_features {
@@ -106,6 +107,26 @@ TEST_CASE("Cyclic features need three turns and a signal") {
         CHECK(find_feature(name)->from_sensor);
         CHECK(!find_feature(name)->basic());
     }
+}
+
+TEST_CASE("The FM4 of separated planets is that of the worst planet, if any is above rounding") {
+    std::vector<double> mesh(kTeeth * 8), tone(mesh), impulse(mesh.size(), 0.0), rounding(mesh);
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const auto k = static_cast<double>(i);
+        mesh[i] = 4.0 * std::cos(2.0 * std::numbers::pi * k / 8.0);
+        tone[i] = std::cos(2.0 * std::numbers::pi * k / 62.0);
+        rounding[i] = 1e-16 * std::sin(k * k);
+    }
+    impulse[5] = 0.3;
+    const std::vector<std::vector<double>> turn{mesh, mesh, mesh},
+        none{rounding, rounding, rounding};
+    const std::vector<std::vector<double>> faulty{tone, impulse, rounding}, sound{tone, tone, tone};
+    CHECK(separated_fm4({turn, sound}) == Approx(1.5));
+    const double p = 1.0 / static_cast<double>(mesh.size()), q = 1.0 - p;
+    CHECK(separated_fm4({turn, faulty}) == Approx((q * q * q + p * p * p) / (p * q)));
+    CHECK(std::isnan(separated_fm4({turn, none})));
+    CHECK(std::isnan(separated_fm4({})));
+    CHECK(!find_feature("separated_fm4")->basic());
 }
 
 TEST_CASE("The speed error of one sine has the kurtosis 3/2, that of two equal ones 9/4") {

@@ -240,6 +240,29 @@ def prewhitened(y):
     return np.fft.ifft(np.where(keep, spectrum / magnitude, 0)).real
 
 
+def planet_averages(y):
+    """Windows around the passages of the sensor, one planet at a time."""
+    carrier, turn = ZR * P, ZP * P
+    passages = len(y) // carrier
+    offsets = [p * carrier // PLANETS for p in range(PLANETS)]
+    window = 0.5 - 0.5 * np.cos(np.pi * np.arange(2 * P) / P)
+    squares = np.sum(y[: passages * carrier].reshape(passages, carrier) ** 2, axis=0)
+
+    def energy(first):
+        at = np.array(offsets)[:, None] + first + np.arange(2 * P)
+        return np.sum(window**2 * squares[at % carrier])
+
+    energies = np.array([energy(c) for c in range(-(-carrier // PLANETS))])
+    first = np.argmax(energies >= (1 - 1e-12) * np.max(energies))
+    for offset in offsets:
+        total, weight = np.zeros(turn), np.zeros(turn)
+        for k in range(passages):
+            at = k * carrier + first + offset + np.arange(2 * P)
+            np.add.at(total, at % turn, window * y[at % len(y)])
+            np.add.at(weight, at % turn, window)
+        yield total / weight
+
+
 def filtered_features(span, turn, residual):
     x = turn - np.mean(turn)
     energy = residual**2 - np.roll(residual, 1) * np.roll(residual, -1)
@@ -251,6 +274,7 @@ def filtered_features(span, turn, residual):
         "cyclic_coherence": cyclic_coherence(span),
         "whitened_window_ratio": white.max() / np.median(white),
         "med_kurtosis": moment(deconvolved(x), 4),
+        "separated_fm4": max(moment(separate(t, ZP)["difference"], 4) for t in planet_averages(span)),
     }
 
 
