@@ -5,7 +5,6 @@
 
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
-#include "signals/prediction/prewhitening.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/planet_separation.hpp"
 
@@ -100,9 +99,12 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
 
 void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
                                   features::FeatureInput& input) {
+    if (!prewhitening_ || static_cast<std::size_t>(prewhitening_->points()) != span.size()) {
+        prewhitening_ = std::make_unique<signals::Prewhitening>(static_cast<int>(span.size()));
+    }
     const int phases = scene_.samples_per_mesh();
     signals::Windowing windowing(planet.layout(), phases, scene_.study().features.tukey_taper);
-    windowing.load(signals::fold_of_squares(signals::prewhitened(span),
+    windowing.load(signals::fold_of_squares(prewhitening_->whitened(span),
                                             static_cast<std::size_t>(planet.teeth) * phases));
     whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
     windowing.search(0.0, whitened_rms_);

@@ -8,6 +8,7 @@
 
 #include "features/feature.hpp"
 #include "mc/scene/scene.hpp"
+#include "signals/prediction/prewhitening.hpp"
 #include "signals/spectra/mesh_separation.hpp"
 #include "signals/windowing/tooth_signals.hpp"
 #include "signals/windowing/windowing.hpp"
@@ -44,6 +45,7 @@ class SpanAnalysis {
     features::SignalSet needs_;
     std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
+    std::unique_ptr<signals::Prewhitening> prewhitening_;  // of the length used last
     std::vector<double> average_, whitened_rms_;
     std::vector<std::vector<double>> planets_, planet_differences_;
     signals::ToothStatistics planet_, sun_, ring_;

@@ -17,6 +17,7 @@
 #include "features/averaged_turn.hpp"
 #include "features/signals.hpp"
 #include "features/statistics/standardised_moment.hpp"
+#include "signals/prediction/periodic_signal.hpp"
 #include "signals/prediction/toeplitz.hpp"
 
 namespace gearpod::features {
@@ -28,14 +29,15 @@ inline double ar_residual_kurtosis(const SensorTurn& sensor) {
     }
     const std::size_t per_mesh = x.size() / static_cast<std::size_t>(sensor.mesh_order);
     const std::size_t order = std::min(2 * per_mesh, x.size() / 4);
-    const std::vector<double> r = signals::corrected_autocorrelation(x, order + 1);
+    signals::PeriodicSignal signal(x);
+    const std::vector<double> r = signal.corrected_autocorrelation(order + 1);
     const std::vector<double> a =
         signals::solve_toeplitz(std::span(r).first(order), std::span(r).subspan(1, order));
     std::vector<double> error_filter{1.0};
     for (const double coefficient : a) {
         error_filter.push_back(-coefficient);
     }
-    return standardised_moment(signals::circular_filter(error_filter, x), 4);
+    return standardised_moment(signal.filtered(error_filter), 4);
 }
 
 }  // namespace gearpod::features

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "signals/prediction/periodic_signal.hpp"
 #include "signals/prediction/toeplitz.hpp"
 
 namespace gearpod::signals {
@@ -21,17 +22,17 @@ void scale_to_unit_rms(std::vector<double>& values) {
 }  // namespace
 
 std::vector<double> deconvolve(std::span<const double> x, std::size_t length, int iterations) {
-    const std::vector<double> r = corrected_autocorrelation(x, length);
+    PeriodicSignal signal(x);
+    const std::vector<double> r = signal.corrected_autocorrelation(length);
     std::vector<double> impulse(length, 0.0);
     impulse[length / 2] = 1.0;
-    std::vector<double> y = circular_filter(impulse, x);
+    std::vector<double> y = signal.filtered(impulse);
     for (int round = 0; round < iterations; ++round) {
         scale_to_unit_rms(y);
         for (double& value : y) {
             value = value * value * value;
         }
-        const std::vector<double> correlation = circular_correlation(x, y, length);
-        y = circular_filter(solve_toeplitz(r, correlation), x);
+        y = signal.filtered(solve_toeplitz(r, signal.correlated(y, length)));
     }
     return y;
 }

@@ -13,7 +13,7 @@ namespace gearpod::signals {
 //
 //     sum over m of r_|l-m| f_m = sum over i of y_i^3 x_(i-l),   l = 0 to length - 1,
 //
-// with the autocorrelation r of x (toeplitz.hpp), and scales y to an RMS of 1. These are the
+// with the autocorrelation r of x (periodic_signal.hpp), and scales y to an RMS of 1. These are the
 // conditions for a stationary kurtosis of y. Few iterations may stop short of the maximum. x must
 // not be zero.
 std::vector<double> deconvolve(std::span<const double> x, std::size_t length, int iterations);

@@ -1,31 +1,33 @@
 #include "signals/prediction/prewhitening.hpp"
 
 #include <algorithm>
-#include <complex>
-
-#include "signals/spectra/fourier_transform.hpp"
+#include <cmath>
 
 namespace gearpod::signals {
 
-std::vector<double> prewhitened(std::span<const double> samples) {
-    constexpr double kRoundingMagnitude = 1e-12;
-    const std::size_t n = samples.size();
-    std::vector<std::complex<double>> values(samples.begin(), samples.end()), spectrum(n);
-    FourierTransform(static_cast<int>(n)).transform(values, spectrum);
+Prewhitening::Prewhitening(int points)
+    : forward_(points),
+      backward_(points, FourierTransform::Direction::back),
+      spectrum_(static_cast<std::size_t>(points)) {}
+
+std::vector<double> Prewhitening::whitened(std::span<const double> samples) {
+    constexpr double kRoundingPower = 1e-24;  // of the largest squared magnitude
+    values_.assign(samples.begin(), samples.end());
+    forward_.transform(values_, spectrum_);
     double largest = 0.0;
-    for (const auto& value : spectrum) {
-        largest = std::max(largest, std::abs(value));
+    for (const auto& value : spectrum_) {
+        largest = std::max(largest, std::norm(value));
     }
-    spectrum[0] = 0.0;
-    for (auto& value : spectrum) {
-        const double magnitude = std::abs(value);
-        value = magnitude > kRoundingMagnitude * largest ? value / magnitude : 0.0;
+    const auto scale = 1.0 / static_cast<double>(samples.size());
+    spectrum_[0] = 0.0;
+    for (auto& value : spectrum_) {
+        const double square = std::norm(value);
+        value = square > kRoundingPower * largest ? scale / std::sqrt(square) * value : 0.0;
     }
-    FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
-        .transform(spectrum, values);
-    std::vector<double> white;
-    for (const auto& value : values) {
-        white.push_back(value.real() / static_cast<double>(n));
+    backward_.transform(spectrum_, values_);
+    std::vector<double> white(samples.size());
+    for (std::size_t i = 0; i < white.size(); ++i) {
+        white[i] = values_[i].real();
     }
     return white;
 }

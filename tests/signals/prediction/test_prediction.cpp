@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "signals/prediction/periodic_signal.hpp"
 #include "signals/prediction/prewhitening.hpp"
 #include "signals/prediction/toeplitz.hpp"
 
@@ -36,12 +37,13 @@ TEST_CASE("Levinson's recursion solves Toeplitz equations with known solutions")
 
 TEST_CASE("Periodic filters and correlations equal their sums") {
     const std::vector<double> x{1.0, -2.0, 4.0, 0.5, 3.0, -1.0, 2.0}, f{2.0, 0.0, -1.0};
-    const std::vector<double> filtered = circular_filter(f, x),
-                              related = circular_correlation(x, filtered, 3);
+    PeriodicSignal signal(x);
+    const std::vector<double> filtered = signal.filtered(f);
+    const std::vector<double> related = signal.correlated(filtered, 3);
     for (std::size_t i = 0; i < 7; ++i) {
         CHECK(filtered[i] == Approx(2.0 * x[i] - x[(i + 5) % 7]));
     }
-    const std::vector<double> r = corrected_autocorrelation(x, 3);
+    const std::vector<double> r = signal.corrected_autocorrelation(3);
     for (std::size_t l = 0; l < 3; ++l) {
         double own = 0.0, both = 0.0;
         for (std::size_t i = 0; i < 7; ++i) {
@@ -57,9 +59,10 @@ TEST_CASE("Pre-whitening keeps an impulse and makes tones as weak as every other
     // An impulse has equal magnitudes; without its mean it is 1 - 1/n there and -1/n elsewhere.
     constexpr std::size_t kPoints = 420;
     const auto n = static_cast<double>(kPoints);
+    Prewhitening prewhitening(kPoints);
     std::vector<double> x(kPoints, 0.0);
     x[37] = 0.02;
-    std::vector<double> white = prewhitened(x);
+    std::vector<double> white = prewhitening.whitened(x);
     for (std::size_t i = 0; i < kPoints; ++i) {
         CHECK(white[i] == Approx((i == 37 ? 1.0 : 0.0) - 1.0 / n).margin(1e-12));
     }
@@ -67,10 +70,10 @@ TEST_CASE("Pre-whitening keeps an impulse and makes tones as weak as every other
         x[i] += 50.0 * std::cos(2.0 * std::numbers::pi * 20.0 * static_cast<double>(i) / n);
     }
     // The tone changes the phases of order 20 and its mirror only, by at most 2 each.
-    white = prewhitened(x);
+    white = prewhitening.whitened(x);
     CHECK(white[37] == Approx(1.0 - 1.0 / n).margin(4.0 / n + 1e-9));
     CHECK(std::abs(white[36]) < 6.0 / n);
-    for (const double value : prewhitened(std::vector<double>(kPoints, 2.0))) {
+    for (const double value : prewhitening.whitened(std::vector<double>(kPoints, 2.0))) {
         CHECK(value == 0.0);
     }
 }
