@@ -6,6 +6,7 @@
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
 #include "signals/spectra/synchronous_average.hpp"
+#include "signals/windowing/planet_separation.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -86,8 +87,41 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int
         input.get<features::ToothMoments<Gear::planet>>() = {planet_.kurtosis, planet_.crest,
                                                              planet_.m8a};
     }
+    if (needs_.has<features::WhitenedToothRms>()) {
+        whitened_teeth(span, planet, input);
+    }
+    if (needs_.has<features::SeparatedPlanets>()) {
+        separated_planets(span, input);
+    }
     central_teeth<Gear::sun>(samples, Member::sun, sun_, input);
     central_teeth<Gear::ring>(samples, Member::ring, ring_, input);
+}
+
+void SpanAnalysis::whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
+                                  features::FeatureInput& input) {
+    if (!prewhitening_ || static_cast<std::size_t>(prewhitening_->points()) != span.size()) {
+        prewhitening_ = std::make_unique<signals::Prewhitening>(static_cast<int>(span.size()));
+    }
+    const int phases = scene_.samples_per_mesh();
+    signals::Windowing windowing(planet.layout(), phases, scene_.study().features.tukey_taper);
+    windowing.load(signals::fold_of_squares(prewhitening_->whitened(span),
+                                            static_cast<std::size_t>(planet.teeth) * phases));
+    whitened_rms_.resize(static_cast<std::size_t>(planet.teeth));
+    windowing.search(0.0, whitened_rms_);
+    input.get<features::WhitenedToothRms>() = {whitened_rms_};
+}
+
+void SpanAnalysis::separated_planets(std::span<const double> span, features::FeatureInput& input) {
+    const int phases = scene_.samples_per_mesh();
+    planets_ =
+        signals::planet_averages(span, scene_.span(), scene_.study().gearbox.planets, phases);
+    signals::MeshSeparation parts(scene_.span().planet_teeth * phases, scene_.span().planet_teeth);
+    planet_differences_.clear();
+    for (const std::vector<double>& planet : planets_) {
+        parts.load(planet);
+        planet_differences_.emplace_back(parts.difference().begin(), parts.difference().end());
+    }
+    input.get<features::SeparatedPlanets>() = {planets_, planet_differences_};
 }
 
 // The teeth of a fixed gear have constant positions along the path; their statistics are freed of

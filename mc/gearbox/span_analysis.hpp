@@ -8,6 +8,7 @@
 
 #include "features/feature.hpp"
 #include "mc/scene/scene.hpp"
+#include "signals/prediction/prewhitening.hpp"
 #include "signals/spectra/mesh_separation.hpp"
 #include "signals/windowing/tooth_signals.hpp"
 #include "signals/windowing/windowing.hpp"
@@ -36,11 +37,17 @@ class SpanAnalysis {
     void central_teeth(std::span<const double> samples, Member member,
                        signals::ToothStatistics& statistics, features::FeatureInput& input);
 
+    void whitened_teeth(std::span<const double> span, const signals::GearTurns& planet,
+                        features::FeatureInput& input);
+    void separated_planets(std::span<const double> span, features::FeatureInput& input);
+
     const Scene& scene_;
     features::SignalSet needs_;
     std::vector<double> window_;  // one mesh period
     std::unique_ptr<signals::MeshSeparation> sensor_turn_, te_turn_;
-    std::vector<double> average_;
+    std::unique_ptr<signals::Prewhitening> prewhitening_;  // of the length used last
+    std::vector<double> average_, whitened_rms_;
+    std::vector<std::vector<double>> planets_, planet_differences_;
     signals::ToothStatistics planet_, sun_, ring_;
 };
 

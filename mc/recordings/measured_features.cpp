@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "features/worst_tooth.hpp"
+#include "features/statistics/worst_tooth.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/python_features.hpp"
 #include "mc/gearbox/span_analysis.hpp"

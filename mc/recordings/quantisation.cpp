@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "features/median.hpp"
 #include "features/sideband_index.hpp"
+#include "features/statistics/median.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -57,6 +58,24 @@ std::string of_teeth(const features::FeatureInput& input, double rounding) {
                : "";
 }
 
+// Reason for features of the single planets' averages.
+std::string of_planets(const features::SeparatedPlanets& planets, double rounding) {
+    double rms = 0.0;
+    for (const std::vector<double>& difference : planets.difference) {
+        rms = std::max(rms, rms_of(difference));
+    }
+    return rms < kClearFactor * rounding
+               ? comparison("the rms of the planets' difference signals", rms, rounding, "m/s^2")
+               : "";
+}
+
+// True if the feature has no meaning without mesh lines.
+bool divides_by_mesh_lines(const features::Feature& feature) {
+    constexpr std::array kNames{"energy_ratio", "fm0", "amplitude_modulation", "phase_modulation"};
+    return std::ranges::any_of(kNames,
+                               [&](const char* name) { return feature.name.ends_with(name); });
+}
+
 // Reason for features of the averaged turn.
 std::string of_turn(const features::Feature& feature, const features::SensorTurn& turn,
                     double rounding) {
@@ -68,7 +87,7 @@ std::string of_turn(const features::Feature& feature, const features::SensorTurn
                    ? comparison("the sideband amplitude", amplitude, error, kUnit)
                    : "";
     }
-    if (feature.name.ends_with("energy_ratio")) {
+    if (divides_by_mesh_lines(feature)) {
         const double regular = rms_of(turn.regular), error = rounding_of_regular(turn, rounding);
         return regular < kClearFactor * error
                    ? comparison("the rms of the mesh lines", regular, error, kUnit)
@@ -125,8 +144,11 @@ std::string rounding_reason(const features::Feature& feature, const features::Fe
     if (feature.needs.has<features::SensorTurn>()) {
         return of_turn(feature, input.get<features::SensorTurn>(), rounding);
     }
-    if (feature.needs.has<features::ToothRms<Gear::planet>>()) {
+    if (feature.needs.has<features::ToothRms<Gear::planet>, features::WhitenedToothRms>()) {
         return of_teeth<Gear::planet>(input, rounding);
+    }
+    if (feature.needs.has<features::SeparatedPlanets>()) {
+        return of_planets(input.get<features::SeparatedPlanets>(), rounding);
     }
     if (feature.needs.has<features::ToothRms<Gear::sun>>()) {
         return of_teeth<Gear::sun>(input, rounding);

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "features/median.hpp"
+#include "features/statistics/median.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/printable.hpp"
 #include "signals/spectra/alignment.hpp"

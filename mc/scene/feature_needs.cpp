@@ -90,6 +90,10 @@ signals::GearTurns central_turns(const signals::SpanLayout& span, int teeth) {
 
 int least_meshes(const features::Feature& feature, const Study& study,
                  const signals::SpanLayout& span) {
+    // Cyclic statistics of the samples tell the lines of the planet turn from their neighbours.
+    if (feature.needs.has<features::SensorSamples>() && feature.needs.has<features::SensorTurn>()) {
+        return kLeastRecordTurns * span.planet_teeth;
+    }
     return feature.needs.overlaps(features::kCentralGears) ||
                    feature.needs.has<features::FilteredSensor>()
                ? meshes_needed(study, span, feature.needs)

@@ -13,7 +13,7 @@
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/report/wording.hpp"
-#include "features/median.hpp"
+#include "features/statistics/median.hpp"
 
 namespace gearpod::mc {
 namespace {

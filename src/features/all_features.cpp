@@ -5,25 +5,35 @@
 #include <string>
 #include <vector>
 
+#include "features/ar_residual_kurtosis.hpp"
 #include "features/baseline_correlation.hpp"
 #include "features/crest_factor.hpp"
+#include "features/cyclic_coherence.hpp"
+#include "features/energy_operator.hpp"
 #include "features/energy_ratio.hpp"
+#include "features/envelope_order.hpp"
 #include "features/feature.hpp"
+#include "features/fm0.hpp"
 #include "features/fm4.hpp"
 #include "features/frms.hpp"
 #include "features/m6a.hpp"
 #include "features/m8a.hpp"
+#include "features/med_kurtosis.hpp"
+#include "features/mesh_demodulation.hpp"
 #include "features/na4.hpp"
 #include "features/nb4.hpp"
 #include "features/nsds.hpp"
 #include "features/sensor_rms.hpp"
+#include "features/separated_fm4.hpp"
 #include "features/sideband_index.hpp"
 #include "features/spectral_kurtosis.hpp"
 #include "features/te_fc.hpp"
 #include "features/te_fm0.hpp"
 #include "features/te_kurtosis.hpp"
 #include "features/te_rms.hpp"
+#include "features/te_speed_kurtosis.hpp"
 #include "features/turn_kurtosis.hpp"
+#include "features/whitened_window_ratio.hpp"
 #include "features/window_crest.hpp"
 #include "features/window_kurtosis.hpp"
 #include "features/window_m8a.hpp"
@@ -152,6 +162,49 @@ constexpr std::array kFeatures{
     feature<window_m8a<Gear::ring>>(
         "ring_window_m8a", "eighth moment at the worst ring tooth over that at the median tooth",
         "1", AlarmSide::high, "largest ring tooth M8A over the median one"),
+    feature<fm0>("fm0", "peak of the averaged vibration over its mesh harmonics", "1",
+                 AlarmSide::high,
+                 "peak-to-peak of the average over the sum of its mesh harmonics' amplitudes; "
+                 "Stewart (1977)"),
+    feature<amplitude_modulation>(
+        "amplitude_modulation", "amplitude modulation of the strongest mesh harmonic", "1",
+        AlarmSide::high,
+        "largest deviation of its normalised envelope from the mean; McFadden (1986)"),
+    feature<phase_modulation>("phase_modulation", "phase modulation of the strongest mesh harmonic",
+                              "rad", AlarmSide::high,
+                              "peak-to-peak of its demodulated phase; McFadden (1986)"),
+    feature<energy_operator>("energy_operator", "kurtosis of the residual vibration's energy", "1",
+                             AlarmSide::high,
+                             "kurtosis of the residual signal's Teager-Kaiser energy; "
+                             "Bechhoefer and Kingsley (2009)"),
+    feature<ar_residual_kurtosis>(
+        "ar_residual_kurtosis", "kurtosis of the vibration that linear prediction leaves", "1",
+        AlarmSide::high,
+        "kurtosis of an autoregressive model's prediction error; Wang and Wong (2002)"),
+    feature<envelope_order>("envelope_order", "lines of the planet turn in the envelope spectrum",
+                            "1", AlarmSide::high,
+                            "sum of the lines over their background, in the band with the largest "
+                            "kurtosis; Antoni (2007)"),
+    feature<cyclic_coherence>("cyclic_coherence", "cyclic coherence at the planet turn", "1",
+                              AlarmSide::high,
+                              "mean squared cyclic spectral coherence at one cycle per planet "
+                              "turn; Antoni (2007, 2009)"),
+    feature<whitened_window_ratio>(
+        "whitened_window_ratio",
+        "pre-whitened vibration at the worst tooth over that at the median tooth", "1",
+        AlarmSide::high,
+        "largest over median tooth rms after cepstral pre-whitening; Borghesani et al. (2013)"),
+    feature<med_kurtosis>("med_kurtosis", "kurtosis of the deconvolved vibration", "1",
+                          AlarmSide::high,
+                          "kurtosis of the average after minimum-entropy deconvolution; Endo and "
+                          "Randall (2007)"),
+    feature<separated_fm4>(
+        "separated_fm4", "kurtosis of the irregular vibration of the worst planet", "1",
+        AlarmSide::high,
+        "largest FM4 of the planets' averages from windows at the sensor; McFadden (1991)"),
+    feature<te_speed_kurtosis>("te_speed_kurtosis", "kurtosis of the speed error", "1",
+                               AlarmSide::high,
+                               "kurtosis of the derivative of the averaged transmission error"),
 };
 
 // Features computed from the change since the baseline record: its energy, its location on the

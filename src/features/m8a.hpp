@@ -3,7 +3,7 @@
 #pragma once
 
 #include "features/signals.hpp"
-#include "features/standardised_moment.hpp"
+#include "features/statistics/standardised_moment.hpp"
 
 namespace gearpod::features {
 

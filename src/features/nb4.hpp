@@ -3,7 +3,7 @@
 #pragma once
 
 #include "features/signals.hpp"
-#include "features/trending.hpp"
+#include "features/statistics/trending.hpp"
 
 namespace gearpod::features {
 

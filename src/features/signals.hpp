@@ -5,6 +5,7 @@
 #include <span>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 namespace gearpod::features {
 
@@ -34,6 +35,18 @@ struct ToothMoments {
     std::span<const double> kurtosis, crest, m8a;
 };
 
+// RMS of the windowed sensor signal of every planet tooth after cepstral pre-whitening of the
+// record, in arbitrary units: signals/prediction/prewhitening.hpp.
+struct WhitenedToothRms {
+    std::span<const double> rms;
+};
+
+// Averaged turns of the single planets and their difference signals, m/s^2; none without passages
+// of all teeth: signals/windowing/planet_separation.hpp.
+struct SeparatedPlanets {
+    std::span<const std::vector<double>> turn, difference;
+};
+
 // Signal averaged over planet turns, and its parts: signals/spectra/mesh_separation.hpp.
 struct SeparatedTurn {
     std::span<const double> turn;  // mean not removed
@@ -61,10 +74,11 @@ struct HealthyRecords {
     std::span<const double> amplitude;  // m/s^2, [order] of the averaged turn
 };
 
-using AllSignals = std::tuple<TeTurn, SensorPower, ToothRms<Gear::planet>, TeParts, SensorTurn,
-                              FilteredSensor, SensorSamples, ToothMoments<Gear::planet>,
-                              ToothRms<Gear::sun>, ToothMoments<Gear::sun>, ToothRms<Gear::ring>,
-                              ToothMoments<Gear::ring>, HealthyRecords>;
+using AllSignals =
+    std::tuple<TeTurn, SensorPower, ToothRms<Gear::planet>, TeParts, SensorTurn, FilteredSensor,
+               SensorSamples, ToothMoments<Gear::planet>, ToothRms<Gear::sun>,
+               ToothMoments<Gear::sun>, ToothRms<Gear::ring>, ToothMoments<Gear::ring>,
+               HealthyRecords, WhitenedToothRms, SeparatedPlanets>;
 
 // Signals of one record. Signals that no requested feature needs are empty.
 struct FeatureInput {
@@ -126,9 +140,9 @@ class SignalSet {
 inline constexpr SignalSet kBasicSignals =
     SignalSet::of<TeTurn, SensorPower, ToothRms<Gear::planet>>();
 
-// Signals of sun and ring, which only planetary gearboxes have.
+// Signals of sun, ring and single planets, which only planetary gearboxes have.
 inline constexpr SignalSet kCentralGears =
     SignalSet::of<ToothRms<Gear::sun>, ToothMoments<Gear::sun>, ToothRms<Gear::ring>,
-                  ToothMoments<Gear::ring>>();
+                  ToothMoments<Gear::ring>, SeparatedPlanets>();
 
 }  // namespace gearpod::features

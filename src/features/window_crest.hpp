@@ -3,7 +3,7 @@
 #pragma once
 
 #include "features/signals.hpp"
-#include "features/worst_tooth.hpp"
+#include "features/statistics/worst_tooth.hpp"
 
 namespace gearpod::features {
 

@@ -15,7 +15,7 @@
 #include "features/nb4.hpp"
 #include "features/nsds.hpp"
 #include "features/sideband_index.hpp"
-#include "features/standardised_moment.hpp"
+#include "features/statistics/standardised_moment.hpp"
 #include "features/window_crest.hpp"
 #include "features/window_kurtosis.hpp"
 #include "features/window_m8a.hpp"

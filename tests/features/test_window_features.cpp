@@ -3,8 +3,8 @@
 #include <random>
 #include <vector>
 
-#include "features/median.hpp"
 #include "features/sensor_rms.hpp"
+#include "features/statistics/median.hpp"
 #include "features/window_ratio.hpp"
 #include "features/window_z.hpp"
 

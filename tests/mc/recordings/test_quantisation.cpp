@@ -19,14 +19,15 @@ namespace {
 constexpr int kTeeth = 11, kPerMesh = 8, kSamples = kTeeth * kPerMesh;
 constexpr double kStep = 2e-3;
 
-// Orders between the mesh lines, RMS about 1, and the mesh lines at this RMS.
+// Orders between the mesh lines, RMS about 1, and the mesh lines near this RMS. The first is the
+// strongest: rounding must not decide which one is demodulated.
 std::vector<double> turn(double mesh) {
     std::mt19937_64 engine(4);
     std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
     std::vector<double> samples(kSamples, 0.0);
     for (int k = 1; k < kSamples / 2; ++k) {
         const int from_mesh = std::min(k % kTeeth, kTeeth - k % kTeeth);
-        const double amplitude = from_mesh <= 1 ? mesh / 3.0 : 0.25;
+        const double amplitude = k == kTeeth ? mesh / 2.0 : from_mesh <= 1 ? mesh / 3.0 : 0.25;
         const double begin = phase(engine);
         for (int i = 0; i < kSamples; ++i) {
             samples[static_cast<std::size_t>(i)] +=

@@ -1,4 +1,4 @@
-#include "features/trending.hpp"
+#include "features/statistics/trending.hpp"
 
 namespace gearpod::features {
 

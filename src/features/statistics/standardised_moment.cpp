@@ -1,4 +1,4 @@
-#include "features/standardised_moment.hpp"
+#include "features/statistics/standardised_moment.hpp"
 
 namespace gearpod::features {
 

@@ -1,9 +1,9 @@
-#include "features/worst_tooth.hpp"
+#include "features/statistics/worst_tooth.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "features/median.hpp"
+#include "features/statistics/median.hpp"
 
 namespace gearpod::features {
 

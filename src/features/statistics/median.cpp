@@ -1,4 +1,4 @@
-#include "features/median.hpp"
+#include "features/statistics/median.hpp"
 
 #include <algorithm>
 #include <limits>
