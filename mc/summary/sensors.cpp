@@ -9,7 +9,7 @@
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/holm.hpp"
 #include "features/feature.hpp"
-#include "features/median.hpp"
+#include "features/statistics/median.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
