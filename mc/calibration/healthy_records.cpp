@@ -145,9 +145,14 @@ std::vector<const Feature*> select_features(const std::vector<HealthyRecord>& re
     if (!requested.empty()) {
         return chosen;
     }
+    // Features that transform the whole record would take most of the time.
+    constexpr auto kSlow =
+        features::SignalSet::of<features::SensorSamples, features::WhitenedToothRms,
+                                features::SeparatedPlanets>();
     for (const Feature& feature : features::record_features()) {
-        const bool central = feature.needs.overlaps(features::kCentralGears);
-        if (is_plain_sensor_feature(feature) && !central && all_have(records, feature)) {
+        const bool left_out =
+            feature.needs.overlaps(features::kCentralGears) || feature.needs.overlaps(kSlow);
+        if (is_plain_sensor_feature(feature) && !left_out && all_have(records, feature)) {
             chosen.push_back(&feature);
         }
     }

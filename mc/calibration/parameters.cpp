@@ -92,8 +92,9 @@ double CalibratedInput::unit_of(double value) const {
 }
 
 bool CalibratedInput::independent_of_motion() const {
-    constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain", "sensor.tone_level",
-                                 "sensor.noise_m_s2", "sensor.noise_density_m_s2_per_sqrt_Hz"};
+    constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain",
+                                 "sensor.tone_level",    "sensor.background_level",
+                                 "sensor.noise_m_s2",    "sensor.noise_density_m_s2_per_sqrt_Hz"};
     return std::ranges::find(kSensor, key) != kSensor.end();
 }
 

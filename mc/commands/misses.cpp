@@ -58,6 +58,11 @@ void check_numbers(const Study& study, const MissesOptions& options, Problems& p
              .what = "its study gives the noise by density, which is not white after the "
                      "low-pass; `misses` needs white noise (sensor.noise_m_s2)"});
     }
+    if (!study.sensor.bearings.empty()) {
+        problems.push_back({.file = options.results,
+                            .what = "its study has faulty bearings, whose impulses all records of "
+                                    "a gearbox would share (sensor.bearings)"});
+    }
     if (options.records < kKinds || options.records % kKinds != 0 ||
         options.records > kMostRecords) {
         problems.push_back({.file = "--records",

@@ -30,10 +30,21 @@ class Stopwatch {
 
 }  // namespace
 
+namespace {
+
+double sample_s(const Scene& scene, const InstanceInputs& inputs) {
+    return dynamics::mesh_period_s(scene.inputs(inputs)) / scene.samples_per_mesh();
+}
+
+}  // namespace
+
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
-    const double sample_s =
-        dynamics::mesh_period_s(scene.inputs(inputs)) / scene.samples_per_mesh();
-    return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s);
+    return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s(scene, inputs));
+}
+
+signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs) {
+    return {background_spectrum(scene.study()), scene.study().sensor.low_pass_Hz,
+            1.0 / sample_s(scene, inputs)};
 }
 
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
@@ -43,10 +54,12 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
         const auto normals = [&](StreamPurpose purpose) {
             return Normals::of_noise(scene.study(), realization.id, purpose);
         };
-        Normals engine = normals(StreamPurpose::sensor_noise),
-                white = normals(StreamPurpose::sensor_noise_direction);
+        Normals filtered = normals(StreamPurpose::sensor_noise),
+                white = normals(StreamPurpose::sensor_noise_direction),
+                background = normals(StreamPurpose::background_noise);
         std::vector<double> unit(clean.size());
-        draw_unit_noise(scene, realization.inputs, engine, white, std::span(unit));
+        draw_unit_noise(scene, realization.inputs, NoiseEngines{filtered, white, background},
+                        std::span(unit));
         return unit;
     }
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives

@@ -15,6 +15,7 @@
 #include "signals/noise/low_pass_noise.hpp"
 #include "signals/noise/normals.hpp"
 #include "signals/noise/sensor_noise.hpp"
+#include "signals/noise/shaped_noise.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
 #include "signals/windowing/windowing.hpp"
@@ -32,21 +33,48 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
 // Low-pass filter for the unit noise of a sensor whose noise is given by its spectral density.
 // Samples count as evenly spaced even if the speed fluctuates.
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
-// Draws unit noise with the spectrum of a study with a noise density: the filtered part from
-// `engine` and, if there is one, the white part from `white_engine`.
-template <class Engine, class WhiteEngine>
-void draw_unit_noise(const Scene& scene, const InstanceInputs& inputs, Engine& engine,
-                     WhiteEngine& white_engine, std::span<double> unit) {
-    low_pass_noise(scene, inputs).draw(engine, unit);
-    if (inputs.white_noise_m_s2 == 0.0) {
+// Filter for the unit noise of the machine's background, likewise.
+signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs);
+// Random numbers of the parts of a record's noise.
+template <class Engine>
+struct NoiseEngines {
+    Engine& filtered;
+    Engine& white;
+    Engine& background;
+};
+// Draws unit noise with the spectrum of a study that gives noise by density: the filtered part, and
+// the white part and the background if there are any.
+template <class Engine>
+void draw_unit_noise(const Scene& scene, const InstanceInputs& inputs, NoiseEngines<Engine> engines,
+                     std::span<double> unit) {
+    const double all = inputs.noise_m_s2, white = inputs.white_noise_m_s2 / all,
+                 background = inputs.background_noise_m_s2 / all;
+    if (scene.study().sensor.noise_density_m_s2_per_sqrt_Hz) {
+        low_pass_noise(scene, inputs).draw(engines.filtered, unit);
+    } else {
+        std::ranges::fill(unit, 0.0);
+    }
+    if (!(white > 0.0) && !(background > 0.0)) {
         return;
     }
-    std::vector<double> white(unit.size());
-    signals::draw_normals(white_engine, std::span(white));
-    const double share = inputs.white_noise_m_s2 / inputs.noise_m_s2;
-    const double filtered_share = std::sqrt(1.0 - std::min(1.0, share * share));
-    for (std::size_t i = 0; i < unit.size(); ++i) {
-        unit[i] = filtered_share * unit[i] + share * white[i];
+    const double filtered_share =
+        std::sqrt(1.0 - std::min(1.0, white * white + background * background));
+    for (double& value : unit) {
+        value *= filtered_share;
+    }
+    std::vector<double> part(unit.size());
+    const auto add = [&](double share) {
+        for (std::size_t i = 0; i < unit.size(); ++i) {
+            unit[i] += share * part[i];
+        }
+    };
+    if (white > 0.0) {
+        signals::draw_normals(engines.white, std::span(part));
+        add(white);
+    }
+    if (background > 0.0) {
+        background_noise(scene, inputs).draw(engines.background, std::span(part));
+        add(background);
     }
 }
 // Computes samples[i] += sigma * unit[i].

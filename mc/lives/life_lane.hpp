@@ -59,7 +59,8 @@ class LifeTiles::Lane {
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
         Philox engine = gearbox_stream(study, id_, StreamPurpose::reference_noise);
         if (noise_by_density(study)) {
-            draw_unit_noise(tiles_.scene_, inputs_, engine, engine, std::span(noise_.sensor));
+            draw_unit_noise(tiles_.scene_, inputs_, NoiseEngines{engine, engine, engine},
+                            std::span(noise_.sensor));
         } else {
             signals::draw_normals(engine, std::span(noise_.sensor));
         }
@@ -162,12 +163,15 @@ class LifeTiles::Lane {
         InstanceInputs& inputs = own_record.inputs;
         if (tiles_.distributions_.sensor_noise_only) {
             const SensorNoise noise = with_rms_factor(
-                tiles_.scene_.study(), {inputs.noise_m_s2, inputs.white_noise_m_s2}, record.noise);
+                tiles_.scene_.study(),
+                {inputs.noise_m_s2, inputs.white_noise_m_s2, inputs.background_noise_m_s2},
+                record.noise);
             inputs.noise_m_s2 = noise.all_m_s2;
             inputs.white_noise_m_s2 = noise.white_m_s2;
         } else {
             inputs.noise_m_s2 *= record.noise;
             inputs.white_noise_m_s2 *= record.noise;
+            inputs.background_noise_m_s2 *= record.noise;
             inputs.encoder_noise_rad *= record.noise;
         }
         const std::vector<std::size_t> starts = starts_of(r);

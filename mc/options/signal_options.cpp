@@ -146,7 +146,8 @@ void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code) {
     command
         ->add_option("--feature", calibrate.feature,
                      "feature to compare; may be repeated (default: all features of the "
-                     "acceleration except those of sun and ring)")
+                     "acceleration except those of sun and ring and those that transform the "
+                     "whole record)")
         ->allow_extra_args(false);
     add_number(*command, "--draws", calibrate.sets,
                "parameter sets simulated in each of two rounds (default: 200); each set integrates "

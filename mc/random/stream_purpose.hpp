@@ -30,7 +30,8 @@ enum class StreamPurpose : std::uint64_t {
     // Noise of records.
     sensor_noise = fnv1a("noise.sensor"),
     sensor_noise_direction = fnv1a("noise.sensor.direction"),  // from folded noise to samples
-    sensor_noise_kind = fnv1a("noise.sensor.tilt"),            // kind of importance sampling
+    background_noise = fnv1a("noise.background"),
+    sensor_noise_kind = fnv1a("noise.sensor.tilt"),  // kind of importance sampling
     encoder_noise = fnv1a("noise.encoder"),
     // Lives.
     life_records = fnv1a("life.records"),  // torque, gain and noise of records

@@ -33,7 +33,8 @@ StreamPurpose record_purpose(const GearboxId& id, StreamPurpose purpose) {
 
 StreamPurpose noise_purpose(const GearboxId& id, StreamPurpose purpose) {
     const bool own = id.sensor > 0 && (purpose == StreamPurpose::sensor_noise ||
-                                       purpose == StreamPurpose::sensor_noise_direction);
+                                       purpose == StreamPurpose::sensor_noise_direction ||
+                                       purpose == StreamPurpose::background_noise);
     if (own) {
         purpose = with_suffix(purpose, ".sensor." + std::to_string(id.sensor));
     }

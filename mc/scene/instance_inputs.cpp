@@ -156,11 +156,12 @@ InstanceInputs instance_inputs(const InputValues& values) {
     inputs.gain = values.of(study.sensor.gain);
     inputs.tone_level = values.of(study.sensor.tone_level);
     inputs.bearing_level = values.of(study.sensor.bearing_level);
-    const SensorNoise noise =
-        sensor_noise(study, values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
-                     values.of(study.sensor.noise_m_s2));
+    const SensorNoise noise = sensor_noise(
+        study, {values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
+                values.of(study.sensor.noise_m_s2), values.of(study.sensor.background_level)});
     inputs.noise_m_s2 = noise.all_m_s2;
     inputs.white_noise_m_s2 = noise.white_m_s2;
+    inputs.background_noise_m_s2 = noise.background_m_s2;
     inputs.encoder_noise_rad = values.of(study.sensor.encoder_noise_rad);
     inputs.fault_size = study.fault.kind == nullptr
                             ? 0.0

@@ -50,13 +50,14 @@ struct InstanceInputs {
     double speed_rad_s;  // of speed_member()
     FluctuationInstance fluctuations;
     double path_exponent;
-    double gain;               // sensor's factor on the gearbox's vibration
-    double tone_level;         // factor on the amplitudes of its tones
-    double bearing_level;      // factor on the amplitudes of its bearings
-    double noise_m_s2;         // rms of all accelerometer noise
-    double white_noise_m_s2;   // rms of the part that the low-pass does not filter
-    double encoder_noise_rad;  // rms
-    double fault_size;         // 0 in the threshold group and without a fault
+    double gain;                   // sensor's factor on the gearbox's vibration
+    double tone_level;             // factor on the amplitudes of its tones
+    double bearing_level;          // factor on the amplitudes of its bearings
+    double noise_m_s2;             // rms of all accelerometer noise
+    double white_noise_m_s2;       // rms of the part that the low-pass does not filter
+    double background_noise_m_s2;  // rms of the part that is the machine's background
+    double encoder_noise_rad;      // rms
+    double fault_size;             // 0 in the threshold group and without a fault
     // Parameters of crack growth as in Life; 0 without one.
     double paris_factor, paris_exponent, curve_pace;
 };

@@ -92,6 +92,7 @@ Realization at_sensor(const Study& study, const Realization& realization, std::u
     const double noise = study.sensor.additional[sensor - 1].noise;
     own.inputs.noise_m_s2 *= noise;
     own.inputs.white_noise_m_s2 *= noise;
+    own.inputs.background_noise_m_s2 *= noise;
     return own;
 }
 

@@ -10,35 +10,49 @@
 namespace gearpod::mc {
 
 bool noise_by_density(const Study& study) {
-    return study.sensor.noise_density_m_s2_per_sqrt_Hz.has_value();
+    return study.sensor.noise_density_m_s2_per_sqrt_Hz.has_value() || has_background(study);
 }
 
-SensorNoise sensor_noise(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
-                         double rms_m_s2) {
+bool has_background(const Study& study) {
+    return !study.sensor.background_Hz.empty();
+}
+
+signals::NoiseSpectrum background_spectrum(const Study& study) {
+    return {study.sensor.background_Hz, study.sensor.background_density_m_s2_per_sqrt_Hz};
+}
+
+SensorNoise sensor_noise(const Study& study, const SensorNoiseInputs& inputs) {
     const double step_m_s2 = study.sensor.quantisation_m_s2;
     SensorNoise noise;
-    noise.white_m_s2 =
-        step_m_s2 > 0.0 ? std::hypot(rms_m_s2, step_m_s2 / std::sqrt(12.0)) : rms_m_s2;
+    noise.white_m_s2 = step_m_s2 > 0.0 ? std::hypot(inputs.rms_m_s2, step_m_s2 / std::sqrt(12.0))
+                                       : inputs.rms_m_s2;
     const double filtered_m_s2 =
-        density_m_s2_per_sqrt_Hz.value_or(0.0) *
+        inputs.density_m_s2_per_sqrt_Hz.value_or(0.0) *
         std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz));
-    noise.all_m_s2 = !density_m_s2_per_sqrt_Hz ? noise.white_m_s2
-                     : noise.white_m_s2 == 0.0 ? filtered_m_s2
-                                               : std::hypot(filtered_m_s2, noise.white_m_s2);
+    noise.all_m_s2 = !inputs.density_m_s2_per_sqrt_Hz ? noise.white_m_s2
+                     : noise.white_m_s2 == 0.0        ? filtered_m_s2
+                                                      : std::hypot(filtered_m_s2, noise.white_m_s2);
+    if (has_background(study)) {
+        noise.background_m_s2 =
+            inputs.background_level * background_spectrum(study).rms_m_s2(study.sensor.low_pass_Hz);
+        noise.all_m_s2 = std::hypot(noise.all_m_s2, noise.background_m_s2);
+    }
     return noise;
 }
 
 double sensor_noise_m_s2(const Study& study) {
     const Sensor& s = study.sensor;
-    return sensor_noise(study, s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2).all_m_s2;
+    return sensor_noise(study, {s.noise_density_m_s2_per_sqrt_Hz, s.noise_m_s2, s.background_level})
+        .all_m_s2;
 }
 
 std::string noise_text(const Study& study) {
     const Sensor& s = study.sensor;
-    const bool filtered = noise_by_density(study);
+    const bool filtered = s.noise_density_m_s2_per_sqrt_Hz.has_value();
     std::string text =
         fmt::format("{:.4g} m/s^2 rms times the noise level", sensor_noise_m_s2(study));
-    if (s.quantisation_m_s2 == 0.0 && (!filtered || s.noise_m_s2 == 0.0)) {
+    if (s.quantisation_m_s2 == 0.0 && (!filtered || s.noise_m_s2 == 0.0) &&
+        !has_background(study)) {
         return text + (filtered ? ", white noise, filtered by the low-pass"
                                 : ", white noise, not filtered by the low-pass");
     }
@@ -48,6 +62,11 @@ std::string noise_text(const Study& study) {
                             *s.noise_density_m_s2_per_sqrt_Hz *
                                 std::sqrt(signals::low_pass_noise_bandwidth_Hz(s.low_pass_Hz)));
     }
+    if (has_background(study)) {
+        text +=
+            fmt::format(" {:.4g} of the background,",
+                        s.background_level * background_spectrum(study).rms_m_s2(s.low_pass_Hz));
+    }
     return text + fmt::format(" {:.4g} white, {:.4g} by quantisation", s.noise_m_s2,
                               s.quantisation_m_s2 / std::sqrt(12.0));
 }
@@ -55,16 +74,17 @@ std::string noise_text(const Study& study) {
 SensorNoise with_rms_factor(const Study& study, const SensorNoise& noise, double factor) {
     const double rounding = study.sensor.quantisation_m_s2 / std::sqrt(12.0);
     if (rounding == 0.0 && noise.all_m_s2 == noise.white_m_s2) {
-        return {noise.all_m_s2 * factor, noise.white_m_s2 * factor};
+        return {noise.all_m_s2 * factor, noise.white_m_s2 * factor, 0.0};
     }
     const double other = noise.all_m_s2 * noise.all_m_s2 - noise.white_m_s2 * noise.white_m_s2,
                  rms = noise.white_m_s2 * noise.white_m_s2 - rounding * rounding,
                  white = rms * factor * factor + rounding * rounding;
-    return {std::sqrt(std::max(0.0, other) + white), std::sqrt(white)};
+    return {std::sqrt(std::max(0.0, other) + white), std::sqrt(white), noise.background_m_s2};
 }
 
 const char* noise_key(const Study& study) {
-    return noise_by_density(study) ? "sensor.noise_density_m_s2_per_sqrt_Hz" : "sensor.noise_m_s2";
+    return study.sensor.noise_density_m_s2_per_sqrt_Hz ? "sensor.noise_density_m_s2_per_sqrt_Hz"
+                                                       : "sensor.noise_m_s2";
 }
 
 }  // namespace gearpod::mc

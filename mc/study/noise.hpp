@@ -1,25 +1,37 @@
-// Accelerometer noise of a study. Three independent parts add in quadrature: noise by its density,
-// which the low-pass filters, white noise by its rms, and the rounding of the converter.
+// Accelerometer noise of a study. Four independent parts add in quadrature: noise by its density,
+// which the low-pass filters, the background of the machine by its spectrum, white noise by its
+// rms, and the rounding of the converter.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "mc/study/study.hpp"
+#include "signals/noise/shaped_noise.hpp"
 
 namespace gearpod::mc {
 
-// True if a part is given by its density before the low-pass, nominal or random.
+// True if a part is given by its density before the low-pass, nominal or random: the sensor's or
+// the background's.
 bool noise_by_density(const Study& study);
+bool has_background(const Study& study);
+// Spectrum of the background at level 1. Precondition: has_background().
+signals::NoiseSpectrum background_spectrum(const Study& study);
 
-// Standard deviation of every sample, m/s^2: of all parts, and of those that are white.
+// Standard deviation of every sample, m/s^2: of all parts, of those that are white, and of the
+// background.
 struct SensorNoise {
-    double all_m_s2 = 0.0, white_m_s2 = 0.0;
+    double all_m_s2 = 0.0, white_m_s2 = 0.0, background_m_s2 = 0.0;
+};
+// Values of a gearbox that its noise depends on.
+struct SensorNoiseInputs {
+    std::optional<double> density_m_s2_per_sqrt_Hz;
+    double rms_m_s2 = 0.0;
+    double background_level = 1.0;
 };
 // Noise of a gearbox with these values. Rounding to steps of q has the variance q^2 / 12 (W. R.
 // Bennett, Bell Syst. Tech. J. 27 (1948), 446-472), if the signal spans several steps.
-SensorNoise sensor_noise(const Study& study, std::optional<double> density_m_s2_per_sqrt_Hz,
-                         double rms_m_s2);
+SensorNoise sensor_noise(const Study& study, const SensorNoiseInputs& inputs);
 // The same noise with a factor on the rms of its white part without the quantisation.
 SensorNoise with_rms_factor(const Study& study, const SensorNoise& noise, double factor);
 // Nominal standard deviation of every sample, m/s^2.

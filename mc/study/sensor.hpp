@@ -62,6 +62,9 @@ struct Sensor {
     double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
     std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered
+    // Background of the machine by its density at given frequencies, in addition; may be empty.
+    std::vector<double> background_Hz, background_density_m_s2_per_sqrt_Hz;
+    double background_level = 1.0;   // factor on that density
     double quantisation_m_s2 = 0.0;  // step of the analogue-to-digital converter
     std::vector<Tone> tones;
     double tone_level = 1.0;  // factor on the amplitudes of all tones

@@ -274,7 +274,8 @@ analysis::Section sensors_section(const Results& frame,
         fmt::format(
             "Each sensor alone, and all together, at noise x {}, with features of the "
             "acceleration. Values of all sensors are the mean and the largest of their "
-            "deviations from healthy gearboxes. Changes are those from the first sensor, "
+            "deviations from healthy gearboxes. The noise of the sensors is independent. Changes "
+            "are those from the first sensor, "
             "in the same gearboxes, each with its own best feature; a dash where one of both has "
             "no curve.",
             noise));

@@ -101,6 +101,24 @@ void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member 
     }
 }
 
+void check_background(StudyDraft& draft) {
+    const Sensor& s = draft.study.sensor;
+    constexpr const char* kDensity = "sensor.background_density_m_s2_per_sqrt_Hz";
+    if (s.background_Hz.empty() || !draft.all_usable({"sensor.background_Hz", kDensity})) {
+        return;
+    }
+    if (s.background_Hz.size() < 2) {
+        draft.reject("sensor.background_Hz", "has one frequency, but a spectrum needs two",
+                     "give the lowest and the highest");
+    } else if (s.background_density_m_s2_per_sqrt_Hz.size() != s.background_Hz.size()) {
+        draft.reject(
+            kDensity,
+            fmt::format("has {} values, but sensor.background_Hz has {}",
+                        s.background_density_m_s2_per_sqrt_Hz.size(), s.background_Hz.size()),
+            "give one for each frequency");
+    }
+}
+
 void check_tones_and_bearings(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
     for (std::size_t i = 0; i < s.tones.size() && draft.usable("sensor.tones"); ++i) {
@@ -164,6 +182,7 @@ void check_sampling(StudyDraft& draft) {
                                  s.encoder_sampling_Hz, s.sampling_Hz),
                      "lower encoder_sampling_Hz or raise sampling_Hz");
     }
+    check_background(draft);
     check_tones_and_bearings(draft);
 }
 

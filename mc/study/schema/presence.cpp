@@ -323,6 +323,17 @@ Presence with_tones(const Study& s) {
                : acceleration_detail(s);
 }
 
+Presence background_needs(const Study& s) {
+    constexpr std::string_view kGiven = "sensor.background_Hz";
+    return s.sensor.background_Hz.empty()
+               ? Presence{Need::forbidden, "no background is given: sensor.background_Hz", {kGiven}}
+               : Presence{Need::required, "sensor.background_Hz is given", {kGiven}};
+}
+
+Presence with_background(const Study& s) {
+    return s.sensor.background_Hz.empty() ? background_needs(s) : acceleration_detail(s);
+}
+
 Presence with_bearings(const Study& s) {
     return s.sensor.bearings.empty() ? Presence{Need::forbidden,
                                                 "no bearings are given: sensor.bearings",

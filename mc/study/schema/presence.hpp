@@ -61,7 +61,10 @@ Presence bearings_move(const Study&);  // only where planets move on their beari
 Presence bearings_damp(const Study&);  // and the gearbox has inertia
 Presence planet_masses(const Study&);  // only where their masses have an effect
 
-Presence with_tones(const Study&);     // only with sensor.tones
+Presence with_tones(const Study&);  // only with sensor.tones
+// background_needs: required with sensor.background_Hz; with_background: only with it.
+Presence background_needs(const Study&);
+Presence with_background(const Study&);
 Presence with_bearings(const Study&);  // only with sensor.bearings
 Presence torque_sine(const Study&);    // only with operation.torque_fluctuation
 Presence torque_noise(const Study&);   // only with operation.torque_noise, and then required

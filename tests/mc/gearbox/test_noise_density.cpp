@@ -192,7 +192,7 @@ TEST_CASE("A study may give its noise by rms and by density") {
           Approx(std::hypot(0.3, 0.01 * std::sqrt(1.0261721529 * 800.0))));
     // A factor on the rms leaves the other parts alone.
     const mc::SensorNoise scaled =
-        mc::with_rms_factor(*both.study, mc::sensor_noise(*both.study, 0.01, 0.3), 2.0);
+        mc::with_rms_factor(*both.study, mc::sensor_noise(*both.study, {0.01, 0.3}), 2.0);
     CHECK(scaled.white_m_s2 == Approx(0.6));
     CHECK(scaled.all_m_s2 == Approx(std::hypot(0.6, 0.01 * std::sqrt(1.0261721529 * 800.0))));
 
@@ -239,6 +239,66 @@ TEST_CASE("A study with noise by density is calibrated by its density") {
     CHECK(at->independent_of_motion());
     CHECK(std::ranges::find(inputs, "sensor.noise_m_s2", &mc::CalibratedInput::key) ==
           inputs.end());
+}
+
+namespace {
+
+const std::string kBackground =
+    " --set sensor.background_Hz=[10,60] --set "
+    "sensor.background_density_m_s2_per_sqrt_Hz=[0.05,0.05] ";
+
+}  // namespace
+
+// From 10 to 60 Hz the low-pass of 120 Hz passes all but 1e-3 of the power.
+TEST_CASE("The background of the machine has the rms of its density, and none out of band") {
+    const Folder folder;
+    const std::string quiet = kBackground + "--set sensor.noise_m_s2=0 ";
+    const double expected = 0.05 * std::sqrt(50.0);
+    const Noise noise = noise_of(kSmall, quiet, folder.file("b.csv"), 31.0);
+    CHECK(noise.rms == Approx(expected).epsilon(0.05));
+    CHECK(noise.below > 0.999);
+    const Noise loud =
+        noise_of(kSmall, quiet + "--set sensor.background_level=3 ", folder.file("l.csv"), 31.0);
+    CHECK(loud.rms == Approx(3.0 * noise.rms).epsilon(1e-6));
+    const Noise both =
+        noise_of(kSmall, kBackground + "--set sensor.noise_m_s2=0.4 ", folder.file("w.csv"), 31.0);
+    CHECK(both.rms == Approx(std::hypot(0.4, expected)).epsilon(0.05));
+}
+
+TEST_CASE("A run with a background has the same bits for any threads and parts") {
+    const Folder folder;
+    const std::string run = "run " + kSmall + kBackground +
+                            " --quiet --set ensemble.instances=20"
+                            " --set ensemble.threshold_instances=20 --out ";
+    REQUIRE(program(run + folder.file("a.h5")).code == 0);
+    REQUIRE(program(run + folder.file("b.h5") + " --set numerics.threads=3").code == 0);
+    REQUIRE(program(run + folder.file("1.h5") + " --part 1/2").code == 0);
+    REQUIRE(program(run + folder.file("2.h5") + " --part 2/2").code == 0);
+    REQUIRE(program("merge --out " + folder.file("m.h5") + " " + folder.file("1.h5") + " " +
+                    folder.file("2.h5"))
+                .code == 0);
+    CHECK(bits(folder.file("a.h5")) == bits(folder.file("b.h5")));
+    CHECK(bits(folder.file("a.h5")) == bits(folder.file("m.h5")));
+}
+
+TEST_CASE("A background needs two frequencies and a density for each") {
+    const auto refused = [](const std::string& options, const char* text) {
+        const auto outcome = program("describe " + kSmall + options);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions(text));
+    };
+    refused(" --set sensor.background_Hz=[10,60]", "sensor.background_Hz is given");
+    refused(" --set sensor.background_density_m_s2_per_sqrt_Hz=[1,2]", "no background is given");
+    refused(
+        " --set sensor.background_Hz=[10] --set "
+        "sensor.background_density_m_s2_per_sqrt_Hz=[1]",
+        "a spectrum needs two");
+    refused(
+        " --set sensor.background_Hz=[10,60,70] --set "
+        "sensor.background_density_m_s2_per_sqrt_Hz=[1,2]",
+        "has 2 values, but sensor.background_Hz has 3");
+    CHECK(program("describe " + kSmall + kBackground).mentions("0.3535 of the background"));
 }
 
 }  // namespace test_noise_density

@@ -1,0 +1,132 @@
+#include "signals/noise/shaped_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "signals/spectra/fourier_transform.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+using Complex = std::complex<double>;
+using Direction = FourierTransform::Direction;
+constexpr auto kCount = static_cast<std::size_t>(ShapedNoise::kTaps);
+
+// |H|^2 of the low-pass.
+double passed(double frequency_Hz, double low_pass_Hz) {
+    return 1.0 / (1.0 + std::pow(frequency_Hz / low_pass_Hz, 8.0));
+}
+
+bool valid(const NoiseSpectrum& spectrum) {
+    const auto above_0 = [](double value) { return value > 0.0 && std::isfinite(value); };
+    const std::vector<double>& f = spectrum.frequency_Hz;
+    return f.size() >= 2 && f.size() == spectrum.density_m_s2_per_sqrt_Hz.size() &&
+           std::ranges::all_of(f, above_0) &&
+           std::ranges::all_of(spectrum.density_m_s2_per_sqrt_Hz, above_0) &&
+           std::ranges::adjacent_find(f, std::greater_equal<>()) == f.end();
+}
+
+}  // namespace
+
+double NoiseSpectrum::at(double f) const {
+    if (!(f >= frequency_Hz.front() && f <= frequency_Hz.back())) {
+        return 0.0;
+    }
+    const auto above = std::ranges::upper_bound(frequency_Hz, f);
+    const auto i =
+        std::min(static_cast<std::size_t>(above - frequency_Hz.begin()), frequency_Hz.size() - 1);
+    const double part =
+        std::log(f / frequency_Hz[i - 1]) / std::log(frequency_Hz[i] / frequency_Hz[i - 1]);
+    return density_m_s2_per_sqrt_Hz[i - 1] *
+           std::pow(density_m_s2_per_sqrt_Hz[i] / density_m_s2_per_sqrt_Hz[i - 1], part);
+}
+
+double NoiseSpectrum::rms_m_s2(double low_pass_Hz) const {
+    // Simpson's rule over the logarithm of the frequency.
+    constexpr int kIntervals = 400;
+    double sum = 0.0;
+    for (std::size_t i = 1; i < frequency_Hz.size(); ++i) {
+        const double width = std::log(frequency_Hz[i] / frequency_Hz[i - 1]) / kIntervals;
+        for (int k = 0; k <= kIntervals; ++k) {
+            const double f =
+                k == kIntervals ? frequency_Hz[i] : frequency_Hz[i - 1] * std::exp(width * k);
+            const double weight = k == 0 || k == kIntervals ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+            const double density = at(f);
+            sum += weight * width / 3.0 * f * density * density * passed(f, low_pass_Hz);
+        }
+    }
+    return std::sqrt(sum);
+}
+
+ShapedNoise::ShapedNoise(const NoiseSpectrum& spectrum, double low_pass_Hz, double sampling_Hz) {
+    const bool frequencies = low_pass_Hz > 0.0 && std::isfinite(low_pass_Hz) && sampling_Hz > 0.0 &&
+                             std::isfinite(sampling_Hz);
+    if (!valid(spectrum) || !frequencies) {
+        throw std::invalid_argument("shaped noise: invalid spectrum or frequencies");
+    }
+    std::vector<Complex> root(kCount), taps(kCount);
+    for (std::size_t k = 0; k <= kCount / 2; ++k) {
+        const double f = static_cast<double>(k) / static_cast<double>(kCount) * sampling_Hz;
+        double sum = 0.0;
+        const auto add = [&](double folded) {
+            const double density = spectrum.at(folded);
+            sum += density * density * passed(folded, low_pass_Hz);
+        };
+        add(f);
+        for (double turn = sampling_Hz; turn - f <= spectrum.frequency_Hz.back();
+             turn += sampling_Hz) {
+            add(turn - f);
+            add(turn + f);
+        }
+        root[k] = std::sqrt(sum);
+        root[(kCount - k) % kCount] = root[k];
+    }
+    FourierTransform back(kTaps, Direction::back);
+    back.transform(root, taps);
+    // The filter's centre is at half its length.
+    std::vector<Complex> padded(2 * kCount);
+    double square = 0.0;
+    for (std::size_t j = 0; j < kCount; ++j) {
+        const double hann =
+            0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(j) / kTaps);
+        padded[j] = hann * taps[(j + kCount / 2) % kCount].real();
+        square += std::norm(padded[j]);
+    }
+    if (!(square > 0.0)) {
+        throw std::invalid_argument("shaped noise: the spectrum does not pass the low-pass");
+    }
+    response_.resize(2 * kCount);
+    FourierTransform forward(2 * kTaps);
+    forward.transform(padded, response_);
+    // Variance 1, and the factor of the inverse transform in filter().
+    const double scale = 1.0 / std::sqrt(square) / (2.0 * kTaps);
+    for (Complex& value : response_) {
+        value *= scale;
+    }
+}
+
+void ShapedNoise::filter(std::span<const double> normals, std::span<double> samples) const {
+    FourierTransform forward(2 * kTaps), back(2 * kTaps, Direction::back);
+    std::vector<Complex> block(2 * kCount), spectrum(2 * kCount), tail(kCount);
+    for (std::size_t first = 0; first < normals.size(); first += kCount) {
+        std::ranges::fill(block, 0.0);
+        std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(first), kCount, block.begin());
+        forward.transform(block, spectrum);
+        for (std::size_t k = 0; k < spectrum.size(); ++k) {
+            const Complex a = spectrum[k], b = response_[k];
+            spectrum[k] = {a.real() * b.real() - a.imag() * b.imag(),
+                           a.real() * b.imag() + a.imag() * b.real()};
+        }
+        back.transform(spectrum, block);
+        // The first block only prepares the filter.
+        for (std::size_t i = 0;
+             i < kCount && first >= kCount && first - kCount + i < samples.size(); ++i) {
+            samples[first - kCount + i] = block[i].real() + tail[i].real();
+        }
+        std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(kCount), kCount, tail.begin());
+    }
+}
+
+}  // namespace gearpod::signals
