@@ -100,6 +100,11 @@ TEST_CASE("No two streams of a gearbox have the same purpose") {
     }
     for (int number = 1; number <= 50; ++number) {
         const std::string text = std::to_string(number);
+        add_variants(with_suffix(StreamPurpose::bearing_impulses, text), "bearing " + text);
+        for (const auto noise : {StreamPurpose::sensor_noise, StreamPurpose::sensor_noise_direction,
+                                 StreamPurpose::background_noise}) {
+            add_variants(with_suffix(noise, ".sensor." + text), "noise of sensor " + text);
+        }
         add_variants(with_suffix(StreamPurpose::table_row, text), "table " + text);
         for (int record = 0; record < 50; ++record) {
             const std::string both = std::to_string(number - 1) + "." + std::to_string(record);
