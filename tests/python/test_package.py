@@ -74,6 +74,46 @@ class Package(unittest.TestCase):
         np.testing.assert_array_equal(frame["te_fc"], self.results.feature("te_fc", 1.0))
         self.assertEqual(set(self.results.detection()["noise_level"]), {0.0, 1.0})
 
+    def test_variants_give_the_findings_of_the_report(self):
+        """Alarms of another fault and areas of all sensors, computed again."""
+        bearing = {"fault": "outer", "shaft": "sun", "elements": 9, "diameter_ratio": 0.2,
+                   "amplitude_m_s2": 5, "resonance_Hz": 500, "role": "other_fault"}
+        results = gearpod.run(
+            STUDY, instances=140, progress=False, out=pathlib.Path(self.folder.name, "v.h5"),
+            set={**SMALL, "sensor.bearings": [bearing],
+                 "sensor.additional": [{"name": "side", "angle_deg": 90}]})
+        self.assertEqual(list(results.variants), ["sensor_side", "other_fault"])
+        with self.assertRaisesRegex(KeyError, "available: sensor_side, other_fault"):
+            results.variant("sensor_top", "window_ratio")
+        report = results.report()
+        healthy = results.rows("threshold")
+        for found in report["other_fault"]:
+            level = results.level(found["noise_level"])
+            values = results.variant("other_fault", found["feature"])[healthy, level]
+            detection = next(f for f in report["detection"]["features"]
+                             if f["name"] == found["feature"])
+            threshold = detection["levels"][level]["threshold"]
+            side = 1.0 if results.alarms[found["feature"]] == "high" else -1.0
+            self.assertEqual(found["alarms"], np.sum(side * values > side * threshold))
+        first = next(f for f in report["sensors"] if f["name"] == "first")
+        mean = next(f for f in report["sensors"] if f["name"] == "mean of all")
+        level = results.level(1.0)
+        graded = results.rows("graded")[results.size[results.rows("graded")] > 0]
+        sound = np.setdiff1d(np.arange(len(results)), graded)
+
+        def deviations(values):
+            centre = np.median(values[healthy])
+            return (values - centre) / (1.4826 * np.median(np.abs(values[healthy] - centre)))
+
+        def area(values):
+            above = values[graded][:, None] - values[sound][None, :]
+            return np.mean(above > 0) + 0.5 * np.mean(above == 0)
+
+        sensors = [deviations(results.feature(mean["feature"], 1.0)),
+                   deviations(results.variant("sensor_side", mean["feature"])[:, level])]
+        change = area(np.mean(sensors, axis=0)) - area(results.feature(first["feature"], 1.0))
+        self.assertAlmostEqual(mean["auc"]["difference"], change, places=9)
+
     def test_signals_give_the_features(self):
         row = int(self.results.rows("graded")[-1])
         computed = self.results.signals(row)
