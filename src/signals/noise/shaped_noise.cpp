@@ -107,12 +107,15 @@ ShapedNoise::ShapedNoise(const NoiseSpectrum& spectrum, double low_pass_Hz, doub
     }
 }
 
+// The filter is real: two blocks are filtered together as real and imaginary parts.
 void ShapedNoise::filter(std::span<const double> normals, std::span<double> samples) const {
     FourierTransform forward(2 * kTaps), back(2 * kTaps, Direction::back);
-    std::vector<Complex> block(2 * kCount), spectrum(2 * kCount), tail(kCount);
-    for (std::size_t first = 0; first < normals.size(); first += kCount) {
+    std::vector<Complex> block(2 * kCount), spectrum(2 * kCount);
+    const auto convolve = [&](const double* real, const double* imaginary) {
         std::ranges::fill(block, 0.0);
-        std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(first), kCount, block.begin());
+        for (std::size_t i = 0; i < kCount; ++i) {
+            block[i] = {real[i], imaginary == nullptr ? 0.0 : imaginary[i]};
+        }
         forward.transform(block, spectrum);
         for (std::size_t k = 0; k < spectrum.size(); ++k) {
             const Complex a = spectrum[k], b = response_[k];
@@ -120,12 +123,25 @@ void ShapedNoise::filter(std::span<const double> normals, std::span<double> samp
                            a.real() * b.imag() + a.imag() * b.real()};
         }
         back.transform(spectrum, block);
-        // The first block only prepares the filter.
-        for (std::size_t i = 0;
-             i < kCount && first >= kCount && first - kCount + i < samples.size(); ++i) {
-            samples[first - kCount + i] = block[i].real() + tail[i].real();
+    };
+    std::vector<double> tail(kCount);
+    // The first block only prepares the filter.
+    convolve(normals.data(), nullptr);
+    for (std::size_t i = 0; i < kCount; ++i) {
+        tail[i] = block[kCount + i].real();
+    }
+    for (std::size_t first = 0; first < samples.size(); first += 2 * kCount) {
+        convolve(normals.data() + kCount + first, normals.data() + 2 * kCount + first);
+        const std::size_t rest = samples.size() - first;
+        for (std::size_t i = 0; i < std::min(kCount, rest); ++i) {
+            samples[first + i] = block[i].real() + tail[i];
         }
-        std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(kCount), kCount, tail.begin());
+        for (std::size_t i = kCount; i < std::min(2 * kCount, rest); ++i) {
+            samples[first + i] = block[i - kCount].imag() + block[i].real();
+        }
+        for (std::size_t i = 0; i < kCount; ++i) {
+            tail[i] = block[kCount + i].imag();
+        }
     }
 }
 

@@ -40,15 +40,16 @@ class ShapedNoise {
     // Fills `samples` with noise of variance 1. Engine: a 64-bit uniform random bit generator.
     template <typename Engine>
     void draw(Engine& engine, std::span<double> samples) const {
-        // Whole blocks: the last samples then have the same bits whatever follows them.
-        const std::size_t blocks = 1 + (samples.size() + kTaps - 1) / kTaps;
-        std::vector<double> normals(blocks * kTaps);
+        // Whole pairs of blocks: the last samples then have the same bits whatever follows them.
+        const std::size_t pairs = 1 + samples.size() / (2 * kTaps);
+        std::vector<double> normals(pairs * 2 * kTaps + kTaps);
         draw_normals(engine, std::span(normals));
         filter(normals, samples);
     }
 
   private:
-    // samples[i] = sum over j of filter[j] normals[i + kTaps - j]. `normals` are whole blocks.
+    // samples[i] = sum over j of filter[j] normals[i + kTaps - j]. The normals are one block of
+    // kTaps and whole pairs of such blocks.
     void filter(std::span<const double> normals, std::span<double> samples) const;
 
     std::vector<std::complex<double>> response_;  // of the filter, at 2 kTaps frequencies

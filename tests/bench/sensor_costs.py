@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""What each sensor and each part of the background costs: whole runs on one thread.
+
+    tests/bench/sensor_costs.py [--rounds 5] [--instances 64] [--study studies/planet-crack-ideal.toml]
+                                [--program build/gearpod]
+
+A round runs the study without any of them, then with each, in turn. Prints the median over the
+rounds of the processor time relative to the same round's study without any.
+"""
+import argparse
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+BEARING = ('sensor.bearings=[{fault="inner", shaft="sun", elements=9, diameter_ratio=0.2, '
+           'amplitude_m_s2=2, resonance_Hz=600, role="%s"}]')
+ADDED = {
+    "two tones": ['sensor.tones=[{frequency_Hz=50, amplitude_m_s2=0.1}, '
+                  '{shaft="sun", order=2, amplitude_m_s2=0.1}]'],
+    "an additional sensor": ['sensor.additional=[{name="side", angle_deg=90}]'],
+    "three additional sensors": ['sensor.additional=[{name="a", angle_deg=90}, '
+                                 '{name="b", angle_deg=180}, {name="c", angle_deg=270}]'],
+    "a bearing in the background": [BEARING % "background"],
+    "a bearing as another fault": [BEARING % "other_fault"],
+    "a background by its spectrum": ["sensor.background_Hz=[20, 1000]",
+                                     "sensor.background_density_m_s2_per_sqrt_Hz=[0.01, 0.001]"],
+}
+
+
+def processor_s(command: list[str]) -> float:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--instances", type=int, default=64)
+    parser.add_argument("--study", default="studies/planet-crack-ideal.toml")
+    parser.add_argument("--program", default="build/gearpod")
+    options = parser.parse_args()
+    ratios: dict[str, list[float]] = {name: [] for name in ADDED}
+    alone = []
+    with tempfile.TemporaryDirectory() as folder:
+        command = [options.program, "run", options.study, "--quiet", "--force",
+                   "--out", folder + "/r.h5", "--instances", str(options.instances),
+                   "--set", f"ensemble.threshold_instances={options.instances}",
+                   "--set", "numerics.threads=1"]
+        for _ in range(options.rounds):
+            alone.append(processor_s(command))
+            for name, settings in ADDED.items():
+                added = [text for setting in settings for text in ("--set", setting)]
+                ratios[name].append(processor_s(command + added) / alone[-1])
+    print(f"{options.study}: {2 * options.instances} gearboxes, "
+          f"{statistics.median(alone):.2f} s without any")
+    for name, values in ratios.items():
+        print(f"  {name:<30} x {statistics.median(values):.2f}")
+
+
+if __name__ == "__main__":
+    main()
