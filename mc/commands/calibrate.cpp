@@ -74,12 +74,13 @@ class Command {
         if (!scene->study().sensor.additional.empty()) {
             problems_.push_back({options_.study.path, 0, "sensor.additional",
                                  "calibration has one sensor", "remove them"});
-            return stop();
         }
         if (!scene->study().sensor.bearings.empty()) {
             problems_.push_back({options_.study.path, 0, "sensor.bearings",
                                  "calibration does not simulate faulty bearings",
                                  "use recordings without one, and remove the key"});
+        }
+        if (!problems_.empty()) {
             return stop();
         }
         const std::vector<HealthyRecord> records =

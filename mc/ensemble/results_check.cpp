@@ -70,6 +70,11 @@ std::string study_difference(const Results& frame, const Results& own) {
                           frame.variants.size(), own.variants.size());
     }
     for (std::size_t v = 0; v < own.variants.size() && why.empty(); ++v) {
+        if (frame.variants[v].name != own.variants[v].name) {
+            why = fmt::format("/variants: member {} is {}, but in the study it is {}", v + 1,
+                              frame.variants[v].name, own.variants[v].name);
+            break;
+        }
         why = column_difference("/variants/" + own.variants[v].name, frame.variants[v].features,
                                 own.variants[v].features);
     }

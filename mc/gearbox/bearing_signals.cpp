@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include "machine/cancellation.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
 namespace gearpod::mc {
@@ -38,6 +39,7 @@ void add_bearings(const Scene& scene, const Realization& realization, BearingRol
         if (bearing.role != role) {
             continue;
         }
+        machine::throw_if_cancelled();
         Philox engine = record_stream(
             study, realization.id, with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
         signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearing),

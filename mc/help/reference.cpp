@@ -14,6 +14,9 @@
 
 #include "features/feature.hpp"
 #include "mc/study/distributions/parameters.hpp"
+#include "mc/study/reading/additional_sensors.hpp"
+#include "mc/study/reading/bearings.hpp"
+#include "mc/study/reading/tones.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -114,12 +117,18 @@ class ValueForm {
             json_["default"] = values;
         }
     }
-    void operator()(const TonesAccess&) const { json_["type"] = "tones"; }
-    void operator()(const BearingsAccess&) const { json_["type"] = "bearings"; }
-    void operator()(const SensorsAccess&) const { json_["type"] = "sensors"; }
+    void operator()(const TonesAccess&) const { set_list("tones", tone_fields()); }
+    void operator()(const BearingsAccess&) const { set_list("bearings", bearing_fields()); }
+    void operator()(const SensorsAccess&) const { set_list("sensors", sensor_fields()); }
     void operator()(const PythonAccess&) const { json_["type"] = "python"; }
 
   private:
+    // List of tables with these names.
+    void set_list(const char* type, const std::vector<std::string_view>& fields) const {
+        json_["type"] = type;
+        json_["fields"] = fields;
+    }
+
     // A number outside the key's range stands for "not given".
     template <class Value>
     void add_default(Value value) const {

@@ -8,7 +8,9 @@
 #include "lockstep/tile/excited_integrator.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/scene/stepping.hpp"
+#include "mc/study/bearings.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -115,6 +117,32 @@ void check_excitation_resolved(const Study& study, const Sampler& sampler,
                         "cycles per mesh period)",
                         steps, needed / kStepsPerPeriod),
             fmt::format("use at least {:.0f}, or a slower fluctuation", std::ceil(needed)));
+    }
+}
+
+void check_shaft_orders(const Study& study, const Drivetrain& drivetrain, int samples_per_mesh) {
+    const auto check = [&](const char* key, const char* what, std::size_t number, Member shaft,
+                           double order) {
+        const double most = 0.5 * samples_per_mesh / drivetrain.shaft_turns_per_mesh(shaft);
+        if (order >= most) {
+            throw SceneError(key,
+                             fmt::format("{} {}: {:g} per turn of the {} are not below half the "
+                                         "sampling rate, {:.5g} per turn",
+                                         what, number, order, member_name(shaft), most),
+                             "lower it or raise sampling_Hz");
+        }
+    };
+    for (std::size_t i = 0; i < study.sensor.tones.size(); ++i) {
+        const Tone& tone = study.sensor.tones[i];
+        if (tone.shaft) {
+            check("sensor.tones", "tone", i + 1, *tone.shaft, tone.order);
+        }
+    }
+    for (std::size_t i = 0; i < study.sensor.bearings.size(); ++i) {
+        const Bearing& bearing = study.sensor.bearings[i];
+        if (bearing.shaft) {
+            check("sensor.bearings", "bearing", i + 1, *bearing.shaft, impulses_per_turn(bearing));
+        }
     }
 }
 

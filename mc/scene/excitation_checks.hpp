@@ -12,4 +12,8 @@ namespace gearpod::mc {
 void check_excitation_resolved(const Study& study, const Sampler& sampler,
                                const Drivetrain& drivetrain, const lockstep::IntegrationPlan& plan);
 
+// Throws SceneError if a tone of a shaft, or the impulses of a bearing, are not below half the
+// sampling rate.
+void check_shaft_orders(const Study& study, const Drivetrain& drivetrain, int samples_per_mesh);
+
 }  // namespace gearpod::mc

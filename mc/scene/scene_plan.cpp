@@ -29,6 +29,7 @@ class PlanBuilder {
             drivetrain_.mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s);
         const Sampling sampling = choose_sampling(study_, mesh_frequency_rad_s / (2.0 * pi));
         plan_.te_samples = sampling.te_samples;
+        check_shaft_orders(study_, drivetrain_, sampling.samples);
         begin_plan(sampling.samples);
         SceneGrid chosen = choose_grid(study_, plan_.stepping, sampling.samples,
                                        stiffness_.transitions(), [this] { return pilot(); });

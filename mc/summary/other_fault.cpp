@@ -8,6 +8,7 @@
 
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/wilson.hpp"
+#include "features/feature.hpp"
 #include "mc/study/bearings.hpp"
 
 namespace gearpod::mc {
@@ -46,7 +47,10 @@ std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const Row
     std::vector<OtherFaultAlarms> all;
     for (std::size_t f = 0; f < shape.features; ++f) {
         for (std::size_t n = 0; n < frame.detection[f].levels.size(); ++n) {
-            if (!std::isnan(frame.detection[f].levels[n].threshold)) {
+            const features::Feature* known = features::find_feature(frame.features[f].name);
+            // A bearing does not change the transmission error.
+            const bool from_sensor = known == nullptr || known->from_sensor;
+            if (from_sensor && !std::isnan(frame.detection[f].levels[n].threshold)) {
                 all.push_back({f, n, 0, 0, 0, {}});
             }
         }
@@ -97,6 +101,11 @@ analysis::Section other_fault_section(const Results& frame,
                                       const std::vector<OtherFaultAlarms>& alarms) {
     analysis::Section section{"other_fault", "Alarms raised by another fault", {}};
     if (alarms.empty()) {
+        section.state("other_fault.none",
+                      other_fault_variant(frame) < frame.variants.size()
+                          ? "Whether the other fault raises alarms is unknown: no feature of the "
+                            "acceleration has a threshold."
+                          : "");
         return section;
     }
     section.state("other_fault.how",

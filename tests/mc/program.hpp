@@ -127,7 +127,16 @@ inline void write_bytes(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// All datasets of the gearboxes bit by bit, so that NaN equals NaN.
+// Bits of values, so that NaN equals NaN.
+inline std::vector<std::uint64_t> bits_of_values(const std::vector<double>& values) {
+    std::vector<std::uint64_t> all;
+    for (const double value : values) {
+        all.push_back(std::bit_cast<std::uint64_t>(value));
+    }
+    return all;
+}
+
+// All datasets of the gearboxes bit by bit.
 inline std::vector<std::uint64_t> bits(const mc::Results& results) {
     std::vector<std::uint64_t> all;
     for (const auto& parameter : results.parameters) {

@@ -12,17 +12,24 @@ constexpr std::array kDirections{ChoiceName{"radial", 0}, ChoiceName{"tangential
 
 }  // namespace
 
+std::vector<std::string_view> sensor_fields() {
+    return {"name", "angle_deg", "direction", "gain", "noise"};
+}
+
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject) {
     constexpr Range kAbove0{.low = 0.0, .low_open = true};
     std::vector<AdditionalSensor> sensors;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
         const std::string which = fmt::format("sensor {}", i + 1);
-        const ListElement element(list.elements[i], which,
-                                  {"name", "angle_deg", "direction", "gain", "noise"},
+        const ListElement element(list.elements[i], which, sensor_fields(),
                                   "write { name = \"side\", angle_deg = 90 }", reject);
         AdditionalSensor sensor;
         sensor.name = element.word("name");
+        if (sensor.name == "first") {
+            reject(fmt::format("{}: the name \"first\" is that of the study's own sensor", which),
+                   "use another name");
+        }
         if (std::ranges::find(sensors, sensor.name, &AdditionalSensor::name) != sensors.end() &&
             !sensor.name.empty()) {
             reject(fmt::format("{}: another one has the name \"{}\", too", which, sensor.name),

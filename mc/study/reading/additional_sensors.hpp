@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mc/study/reading/list_element.hpp"
@@ -9,6 +10,8 @@
 
 namespace gearpod::mc {
 
+// Names in a table of the list.
+std::vector<std::string_view> sensor_fields();
 // Problems name the sensor by its position in the list.
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject);

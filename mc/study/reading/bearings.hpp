@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mc/study/reading/list_element.hpp"
@@ -10,6 +11,8 @@
 
 namespace gearpod::mc {
 
+// Names in a table of the list.
+std::vector<std::string_view> bearing_fields();
 // Problems name the bearing by its position in the list.
 std::vector<Bearing> read_bearings(const Value& list, const RejectElement& reject);
 

@@ -6,6 +6,7 @@
 #include "analysis/monitoring/detector.hpp"
 #include "features/feature.hpp"
 #include "mc/input/spelling.hpp"
+#include "mc/study/bearings.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "signals/noise/low_pass_noise.hpp"
@@ -104,6 +105,7 @@ void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member 
 void check_background(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
     constexpr const char* kDensity = "sensor.background_density_m_s2_per_sqrt_Hz";
+    constexpr double kNarrowest = 1000.0, kMostPassed = 10.0;
     if (s.background_Hz.empty() || !draft.all_usable({"sensor.background_Hz", kDensity})) {
         return;
     }
@@ -116,6 +118,19 @@ void check_background(StudyDraft& draft) {
             fmt::format("has {} values, but sensor.background_Hz has {}",
                         s.background_density_m_s2_per_sqrt_Hz.size(), s.background_Hz.size()),
             "give one for each frequency");
+    } else if (draft.all_usable({"sensor.sampling_Hz", "sensor.low_pass_Hz"}) &&
+               s.background_Hz.back() - s.background_Hz.front() < s.sampling_Hz / kNarrowest) {
+        draft.reject("sensor.background_Hz",
+                     fmt::format("spans {:g} Hz, which is less than sampling_Hz / {:g} (the "
+                                 "resolution of the background)",
+                                 s.background_Hz.back() - s.background_Hz.front(), kNarrowest),
+                     "use a tone (sensor.tones)");
+    } else if (draft.usable("sensor.low_pass_Hz") &&
+               s.background_Hz.front() >= kMostPassed * s.low_pass_Hz) {
+        draft.reject("sensor.background_Hz",
+                     fmt::format("begins at {:g} Hz, where low_pass_Hz passes nothing",
+                                 s.background_Hz.front()),
+                     "remove the background");
     }
 }
 
@@ -135,12 +150,25 @@ void check_tones_and_bearings(StudyDraft& draft) {
     for (std::size_t i = 0; i < s.bearings.size() && draft.usable("sensor.bearings"); ++i) {
         if (s.bearings[i].shaft) {
             check_shaft(draft, "sensor.bearings", i + 1, *s.bearings[i].shaft);
+        } else if (draft.usable("sensor.sampling_Hz") && s.sampling_Hz > 0.0 &&
+                   impulses_per_turn(s.bearings[i]) * s.bearings[i].shaft_Hz >=
+                       0.5 * s.sampling_Hz) {
+            draft.reject(
+                "sensor.bearings",
+                fmt::format("bearing {}: {:.4g} impulses per second are not below half of "
+                            "sampling_Hz, {} Hz",
+                            i + 1, impulses_per_turn(s.bearings[i]) * s.bearings[i].shaft_Hz,
+                            0.5 * s.sampling_Hz),
+                "lower shaft_Hz");
         }
     }
     if (!s.additional.empty() && draft.study.ensemble.uses_importance_sampling() &&
         draft.usable("ensemble.threshold_tilt")) {
-        draft.reject("sensor.additional", "importance sampling tilts the noise of one sensor only",
-                     "remove them, or ensemble.threshold_tilt");
+        draft.reject(
+            "sensor.additional",
+            "importance sampling (ensemble.threshold_tilt, or `misses`) tilts the noise of one "
+            "sensor only",
+            "remove them");
     }
     if (!s.bearings.empty() && draft.study.ensemble.threshold_records > 1 &&
         draft.usable("ensemble.threshold_records")) {
@@ -154,6 +182,8 @@ void check_tones_and_bearings(StudyDraft& draft) {
 
 void check_sampling(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
+    check_background(draft);
+    check_tones_and_bearings(draft);
     if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
         s.sampling_Hz <= 0.0) {
         return;
@@ -182,8 +212,6 @@ void check_sampling(StudyDraft& draft) {
                                  s.encoder_sampling_Hz, s.sampling_Hz),
                      "lower encoder_sampling_Hz or raise sampling_Hz");
     }
-    check_background(draft);
-    check_tones_and_bearings(draft);
 }
 
 void check_feature(StudyDraft& draft, const std::string& name) {

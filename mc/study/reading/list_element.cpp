@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "mc/input/spelling.hpp"
+#include "mc/study/distributions/magnitude.hpp"
 
 namespace gearpod::mc {
 
@@ -49,7 +50,9 @@ double ListElement::number(std::string_view name, const Range& range,
         reject(fmt::format("{} must be a number, but is {}", name, value->kind_name()), "");
         return 0.0;
     }
-    if (!std::isfinite(value->number) || !range.contains(value->number)) {
+    if (std::isfinite(value->number) && !computable(value->number)) {
+        reject(fmt::format("{}: {} {}", name, value->number, kNotComputable), "");
+    } else if (!std::isfinite(value->number) || !range.contains(value->number)) {
         reject(
             fmt::format("{} must be {} and finite, but is {}", name, range.text(), value->number),
             "");

@@ -39,11 +39,12 @@ class ListElement {
     std::optional<Member> shaft() const;
     // Rejects the table unless it has exactly one of two names. True if it has the first.
     bool first_of(std::string_view first, std::string_view second) const;
+    // Rejects a statement of the table.
+    void reject(const std::string& what, const std::string& remedy) const;
 
   private:
     // The entry of that name. Without it, the name is rejected where it is required.
     const Value* find(std::string_view name, bool required) const;
-    void reject(const std::string& what, const std::string& remedy) const;
 
     const Value& table_;
     std::string which_, example_;

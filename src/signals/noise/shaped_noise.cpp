@@ -14,6 +14,9 @@ using Complex = std::complex<double>;
 using Direction = FourierTransform::Direction;
 constexpr auto kCount = static_cast<std::size_t>(ShapedNoise::kTaps);
 
+// The low-pass passes 1e-16 of the power there, and nothing above is counted.
+constexpr double kMostPassed = 100.0;
+
 // |H|^2 of the low-pass.
 double passed(double frequency_Hz, double low_pass_Hz) {
     return 1.0 / (1.0 + std::pow(frequency_Hz / low_pass_Hz, 8.0));
@@ -75,8 +78,8 @@ ShapedNoise::ShapedNoise(const NoiseSpectrum& spectrum, double low_pass_Hz, doub
             sum += density * density * passed(folded, low_pass_Hz);
         };
         add(f);
-        for (double turn = sampling_Hz; turn - f <= spectrum.frequency_Hz.back();
-             turn += sampling_Hz) {
+        const double last = std::min(spectrum.frequency_Hz.back(), kMostPassed * low_pass_Hz);
+        for (double turn = sampling_Hz; turn - f <= last; turn += sampling_Hz) {
             add(turn - f);
             add(turn + f);
         }
