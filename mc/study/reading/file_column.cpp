@@ -23,9 +23,8 @@ std::optional<FileColumn> file_column(const Value& value) {
         return std::nullopt;
     }
     const std::string *file = text_at(value, "file"), *column = text_at(value, "column");
-    return file != nullptr && column != nullptr && value.entries.size() == 2
-               ? std::optional(FileColumn{*file, *column})
-               : std::nullopt;
+    return file != nullptr && column != nullptr ? std::optional(FileColumn{*file, *column})
+                                                : std::nullopt;
 }
 
 Value list_of(const FileColumn& source, const Position& position, std::size_t most) {

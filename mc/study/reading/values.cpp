@@ -72,6 +72,11 @@ class ValueReader {
 
     void operator()(const NumbersAccess& access) {
         if (const auto source = file_column(value_)) {
+            for (const Entry& part : value_.entries) {
+                if (part.name != "file" && part.name != "column") {
+                    reject("unknown key " + part.name, "give file and column only");
+                }
+            }
             try {
                 ValueReader(draft_, key_,
                             {std::string(key_.name), list_of(*source, at_), at_})(access);
