@@ -47,7 +47,7 @@ struct GearboxTile {
     lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
-    // Of the first and the additional sensors; empty if the records were kept.
+    // Recorders of the first and the additional sensors; empty if the records were kept.
     std::vector<std::unique_ptr<signals::SensorResponse>> sensor_responses;
     signals::Tones tones;  // interfering tones; may be empty
     // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox.

@@ -19,7 +19,8 @@ struct OtherFaultAlarms {
     analysis::Interval interval;  // Wilson's, of the rate, at the confidence of the results
 };
 
-// Of all features and noise levels that have a threshold; empty without another fault.
+// Alarms of every acceleration feature and noise level with a threshold; empty without another
+// fault.
 std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const RowSource& rows);
 
 // Sentence on the alarms of one feature at one noise level; "" without them.

@@ -119,7 +119,8 @@ class Results:
 
     def variant(self, name: str, feature: str) -> Array:
         """Values of a feature of other signals, gearboxes x noise levels. The variant "sensor_NAME"
-        is an additional sensor; "other_fault" has healthy gearboxes with a faulty bearing; it is NaN for graded ones."""
+        is an additional sensor. "other_fault" has healthy gearboxes with a faulty bearing, and NaN
+        for graded ones."""
         if name not in self.variants:
             raise KeyError(f"no variant {name}; available: {', '.join(self.variants) or 'none'}")
         return self._read(f"variants/{name}", feature, self.features)
