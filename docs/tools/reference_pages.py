@@ -2,9 +2,7 @@
 
 TYPES = {"number": "number", "integer": "integer", "boolean": "true or false",
          "numbers": "list of numbers", "texts": "list of strings",
-         "python": "list of Python files", "tones": "list of { frequency_Hz or shaft and order, amplitude_m_s2 }",
-         "sensors": "list of { name, angle_deg, direction, gain, noise }",
-         "bearings": "list of { fault, shaft or shaft_Hz, elements, ... }"}
+         "python": "list of Python files"}
 SECTION_TITLES = {
     "gearbox": "teeth, bodies, bearings and damping", "operation": "torque, speed and their variation",
     "effects": "effects that are simulated", "fault": "kind, place and shape of the fault",
@@ -71,7 +69,8 @@ def allowed(key):
     """Type, range and unit of a key's value."""
     if key["type"] == "choice":
         return " or ".join(code(f'"{choice}"') for choice in key["choices"])
-    kind = TYPES[key["type"]]
+    kind = (f"list of {{ {', '.join(field['name'] for field in key['fields'])} }}"
+            if key["type"] == "tables" else TYPES[key["type"]])
     if key.get("ascending"):
         kind = "ascending " + kind
     unit = f", in {key['unit']}" if key["unit"] != "1" else ""

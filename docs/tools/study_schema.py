@@ -13,26 +13,6 @@ import sys
 PARAMETER = re.compile(r"(\w+) \((number|integer|list of numbers)([^)]*)\)")
 FILE_COLUMN = {"type": "object", "properties": {"file": {"type": "string"}, "column": {"type": "string"}},
                "required": ["file", "column"], "additionalProperties": False}
-SHAFTS = ["sun", "carrier", "ring", "pinion", "gear"]
-TONE = {"type": "object",
-        "properties": {"frequency_Hz": {"type": "number"}, "amplitude_m_s2": {"type": "number"},
-                       "shaft": {"enum": SHAFTS}, "order": {"type": "number"}},
-        "required": ["amplitude_m_s2"], "additionalProperties": False}
-BEARING = {"type": "object",
-           "properties": {"fault": {"enum": ["outer", "inner", "roller", "cage"]},
-                          "shaft": {"enum": SHAFTS}, "role": {"enum": ["background", "other_fault"]},
-                          "elements": {"type": "integer"},
-                          **{name: {"type": "number"} for name in
-                             ("shaft_Hz", "diameter_ratio", "contact_angle_deg", "amplitude_m_s2",
-                              "resonance_Hz", "damping", "slip", "load_zone_deg")}},
-           "required": ["fault", "elements", "diameter_ratio", "amplitude_m_s2", "resonance_Hz"],
-           "additionalProperties": False}
-SENSOR = {"type": "object",
-          "properties": {"name": {"type": "string", "pattern": "^[a-z0-9-]+$"},
-                         "angle_deg": {"type": "number"},
-                         "direction": {"enum": ["radial", "tangential"]},
-                         "gain": {"type": "number"}, "noise": {"type": "number"}},
-          "required": ["name", "angle_deg"], "additionalProperties": False}
 PYTHON_FEATURE = {"type": "object",
                   "properties": {name: {"type": "string"} for name in
                                  ("file", "sha256", "name", "title", "unit", "alarm", "uses", "doc")},
@@ -52,6 +32,22 @@ def bounded(schema, key):
     return schema
 
 
+def field_schema(field):
+    if "choices" in field:
+        return {"enum": field["choices"]}
+    if field["type"] == "text":
+        return {"type": "string", "pattern": "^[a-z0-9-]+$"}
+    if field["type"] == "numbers":
+        return {"anyOf": [{"type": "array", "items": {"type": "number"}}, FILE_COLUMN]}
+    return {"type": field["type"]}
+
+
+def table_schema(fields):
+    return {"type": "object", "properties": {field["name"]: field_schema(field) for field in fields},
+            "required": [field["name"] for field in fields if field["required"]],
+            "additionalProperties": False}
+
+
 def value_schema(key):
     kind = key["type"]
     if kind in ("number", "integer"):
@@ -62,12 +58,8 @@ def value_schema(key):
         return {"type": "string", "enum": key["choices"]}
     if kind == "texts":
         return {"type": "array", "items": {"type": "string"}}
-    if kind == "tones":
-        return {"type": "array", "items": TONE}
-    if kind == "bearings":
-        return {"type": "array", "items": BEARING}
-    if kind == "sensors":
-        return {"type": "array", "items": SENSOR}
+    if kind == "tables":
+        return {"type": "array", "items": table_schema(key["fields"])}
     if kind == "python":
         return {"type": "array", "items": {"anyOf": [{"type": "string"}, PYTHON_FEATURE]}}
     numbers = {"type": "array", "items": bounded({"type": "number"}, key)}

@@ -64,7 +64,7 @@ class Simulator {
     std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
                                    const signals::Tones& tones) const {
         return signals::synthesize(tile.views, lane, tile.integration.content, scene_.span(),
-                                   path_.first, exponent, 0, scene_.signal_meshes(), tones);
+                                   path_[0][0], exponent, 0, scene_.signal_meshes(), tones);
     }
 
     // Records of a gearbox with each background.

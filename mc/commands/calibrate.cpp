@@ -19,6 +19,7 @@
 #include "mc/input/wrapped_text.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/run/support.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -74,6 +75,11 @@ class Command {
         if (!scene->study().sensor.additional.empty()) {
             problems_.push_back({options_.study.path, 0, "sensor.additional",
                                  "calibration has one sensor", "remove them"});
+        }
+        if (has_housing(scene->study())) {
+            problems_.push_back({options_.study.path, 0, "sensor.housing_modes",
+                                 "calibration does not simulate the housing",
+                                 "remove them, and a measured response (sensor.response_Hz)"});
         }
         if (!scene->study().sensor.bearings.empty()) {
             problems_.push_back({options_.study.path, 0, "sensor.bearings",

@@ -42,6 +42,24 @@ void print_sensors(const Scene& scene) {
     if (!study.sensor.tones.empty()) {
         print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
     }
+    for (const HousingMode& mode : study.sensor.housing_modes) {
+        print_entry("housing mode",
+                    fmt::format("{:g} Hz, damping {:g}, participation {:g}: {:.3g} times the {} at "
+                                "resonance",
+                                mode.frequency_Hz, mode.damping, mode.participation,
+                                mode.participation / (2.0 * mode.damping),
+                                mode.nodal_diameters
+                                    ? fmt::format("load on the ring with {} nodal diameters",
+                                                  *mode.nodal_diameters)
+                                    : "vibration that arrives"));
+    }
+    if (!study.sensor.response_Hz.empty()) {
+        print_entry("housing response",
+                    fmt::format("measured at {} frequencies from {:g} to {:g} Hz; nothing passes "
+                                "outside",
+                                study.sensor.response_Hz.size(), study.sensor.response_Hz.front(),
+                                study.sensor.response_Hz.back()));
+    }
     for (const AdditionalSensor& sensor : study.sensor.additional) {
         print_entry(
             "additional sensor",

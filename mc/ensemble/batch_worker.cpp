@@ -72,7 +72,7 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
-    computed.sensor_responses.clear();  // frees memory: `signals` holds copies
+    computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done

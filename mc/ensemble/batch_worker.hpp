@@ -35,8 +35,8 @@ struct BatchTask {
           path(sensor_paths(scene)),
           cache(scene),
           healthy(healthy_reference(scene, path)) {
-        for (std::size_t s = 0; s < path.additional.size(); ++s) {
-            additional.push_back(healthy_reference(scene, path, s + 1));
+        for (std::size_t s = 1; s < path.size(); ++s) {
+            additional.push_back(healthy_reference(scene, path, s));
         }
     }
 

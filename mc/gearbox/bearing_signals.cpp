@@ -4,7 +4,7 @@
 #include <string>
 
 #include "machine/cancellation.hpp"
-#include "signals/spectra/synchronous_average.hpp"
+#include "mc/gearbox/record_samples.hpp"
 
 namespace gearpod::mc {
 
@@ -31,9 +31,6 @@ void add_bearings(const Scene& scene, const Realization& realization, BearingRol
     if (record.sensor.empty() || !has_bearings(study, role)) {
         return;
     }
-    const auto samples_per_mesh = static_cast<std::size_t>(scene.samples_per_mesh());
-    const double sample_s = dynamics::mesh_period_s(scene.inputs(realization.inputs)) /
-                            static_cast<double>(samples_per_mesh);
     for (std::size_t i = 0; i < study.sensor.bearings.size(); ++i) {
         const Bearing& bearing = study.sensor.bearings[i];
         if (bearing.role != role) {
@@ -43,12 +40,10 @@ void add_bearings(const Scene& scene, const Realization& realization, BearingRol
         Philox engine = record_stream(
             study, realization.id, with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
         signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearing),
-                                       study.sensor.low_pass_Hz, sample_s, engine, record.sensor);
+                                       study.sensor.low_pass_Hz,
+                                       sample_s(scene, realization.inputs), engine, record.sensor);
     }
-    const auto bins = static_cast<std::size_t>(scene.span().planet_teeth) * samples_per_mesh;
-    const int turns = record.turns > 0 ? record.turns : scene.span().ring_teeth;
-    record.folded = signals::fold_of_squares(
-        std::span(record.sensor).first(bins * static_cast<std::size_t>(turns)), bins);
+    fold_again(scene, record);
 }
 
 }  // namespace gearpod::mc

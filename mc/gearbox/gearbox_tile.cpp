@@ -17,6 +17,7 @@
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/housing.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
 #include "signals/windowing/folded_signal.hpp"
@@ -136,7 +137,7 @@ void solve_and_record(const Scene& scene, const SensorPaths& path, int signal_me
             return choose_solution(scene, loads, {}, std::ref(recorder));
         },
         tile);
-    tile.sensor_responses = recorder.take_responses();
+    tile.sensor_recorders = recorder.take_recorders();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
     tile.signals_s += recorder.spent_s();
@@ -147,11 +148,17 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
     add_status(scene, tile);
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
-    if (!tile.sensor_responses.empty()) {
-        for (const auto& response : tile.sensor_responses) {
-            tile.folded.push_back(response->folded());
+    const bool housing = has_housing(scene.study());
+    if (!scene.study().effects.quasi_static()) {
+        tile.tones = draw_tones(scene, tile.realizations);
+    }
+    if (!tile.sensor_recorders.empty()) {
+        for (const auto& sensor : tile.sensor_recorders) {
+            if (!housing) {
+                tile.folded.push_back(sensor.front()->folded());
+            }
         }
-        tile.te_turn = tile.sensor_responses.front()->averaged_te();
+        tile.te_turn = tile.sensor_recorders.front().front()->averaged_te();
         tile.signals_s += lap(start);
         return;
     }
@@ -161,16 +168,13 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
         }
     }
     // A quasi-static gearbox has no inertia and therefore no acceleration.
-    if (!scene.study().effects.quasi_static()) {
-        tile.tones = draw_tones(scene, tile.realizations);
+    if (!scene.study().effects.quasi_static() && !housing) {
         const signals::FoldPlan plan(tile.integration.content, scene.span());
-        const std::vector<double> exponents = path_exponents(tile.realizations);
-        const auto fold = [&](const signals::PathGrid& grid) {
-            signals::fold_squares(tile.views, plan, grid, exponents, tile.tones,
+        const std::vector<double> exponents = path_exponents(tile.realizations, 0);
+        for (const SensorPath& sensor : path) {
+            signals::fold_squares(tile.views, plan, sensor.front(), exponents, tile.tones,
                                   tile.folded.emplace_back());
-        };
-        fold(path.first);
-        std::ranges::for_each(path.additional, fold);
+        }
     }
     signals::average_te(tile.views, tile.integration.content, scene.span(),
                         scene.te_samples_per_mesh(), tile.te_turn);

@@ -39,7 +39,7 @@ struct LaneSignals {
 };
 
 // Results of a tile. `integration.records` owns the data that `views` refers to. If
-// `sensor_responses` recorded the sensor signals, `integration.records` holds only the healthy mesh
+// `sensor_recorders` recorded the sensor signals, `integration.records` holds only the healthy mesh
 // period.
 struct GearboxTile {
     std::vector<Realization> realizations;  // one entry per lane
@@ -47,10 +47,10 @@ struct GearboxTile {
     lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
-    // Recorders of the first and the additional sensors; empty if the records were kept.
-    std::vector<std::unique_ptr<signals::SensorResponse>> sensor_responses;
-    signals::Tones tones;  // interfering tones; may be empty
-    // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox.
+    SensorRecorders sensor_recorders;  // empty if the records were kept
+    signals::Tones tones;              // interfering tones; may be empty
+    // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox and where the housing
+    // responds (has_housing).
     std::vector<machine::AlignedVector> folded;
     machine::AlignedVector te_turn;  // [sample][lane], rad
     // Equally many entries for each requested gearbox, one gearbox after the other. Empty unless a

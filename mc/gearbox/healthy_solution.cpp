@@ -146,8 +146,8 @@ void HealthySolution::change_sensor(const GearboxTile& changed,
     }
     const int phases = scene_.samples_per_mesh();
     const auto sensor =
-        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_.first,
-                            path_exponents(realizations_), span.meshes);
+        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_[0][0],
+                            path_exponents(realizations_, 0), span.meshes);
     for (std::size_t lane = 0; lane < realizations_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {
             continue;

@@ -21,7 +21,8 @@ std::string key_of(std::span<const Realization> lanes) {
     std::string key;
     for (const Realization& lane : lanes) {
         InstanceInputs inputs = lane.inputs;
-        inputs.path_exponent = inputs.gain = inputs.tone_level = inputs.bearing_level = 0.0;
+        inputs.path_exponent = inputs.gain = inputs.tone_level = inputs.bearing_level =
+            inputs.housing_frequency_factor = 0.0;
         inputs.noise_m_s2 = inputs.white_noise_m_s2 = inputs.background_noise_m_s2 =
             inputs.encoder_noise_rad = 0.0;
         key.append(reinterpret_cast<const char*>(&inputs), sizeof inputs);

@@ -1,9 +1,15 @@
 // Extracts the signals of one gearbox of a tile, or of all of them.
+#include <algorithm>
+#include <functional>
+
+#include "machine/cancellation.hpp"
 #include "mc/gearbox/bearing_signals.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/record_samples.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/housing.hpp"
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
@@ -41,9 +47,9 @@ LaneSignals folded_lane(const SensorPaths& path, const GearboxTile& tile, int la
     lane_result.folded = folded_of(tile, 0, lane);
     lane_result.te_turn.resize(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
     signals::copy_lane(tile.te_turn, tile.views.lanes, lane, lane_result.te_turn);
-    lane_result.additional.resize(path.additional.size());
-    for (std::size_t s = 0; s < path.additional.size(); ++s) {
-        lane_result.additional[s].folded = folded_of(tile, s + 1, lane);
+    lane_result.additional.resize(path.size() - 1);
+    for (std::size_t s = 1; s < path.size(); ++s) {
+        lane_result.additional[s - 1].folded = folded_of(tile, s, lane);
     }
     if (!tile.baseline.empty()) {
         lane_result.baselines = tile.baseline.size() / tile.status.size();
@@ -61,8 +67,8 @@ bool cuts_records(const Scene& scene, int meshes) {
 // Transmission error of a lane over the mesh periods of the scene's signals.
 std::vector<double> te_signal(const Scene& scene, const GearboxTile& tile, int lane) {
     const int meshes = scene.signal_meshes();
-    if (!tile.sensor_responses.empty()) {
-        return tile.sensor_responses.front()->te_signal(lane, meshes);
+    if (!tile.sensor_recorders.empty()) {
+        return tile.sensor_recorders.front().front()->te_signal(lane, meshes);
     }
     const auto& content = tile.integration.content;
     const auto lanes = static_cast<std::size_t>(tile.views.lanes);
@@ -78,16 +84,58 @@ std::vector<double> te_signal(const Scene& scene, const GearboxTile& tile, int l
     return te;
 }
 
-}  // namespace
-
-namespace {
-
 // The first sensor's signals for number 0, else those of an additional one.
 LaneSignals& of_sensor(LaneSignals& signals, std::size_t sensor) {
     return sensor == 0 ? signals : signals.additional[sensor - 1];
 }
 
-// Adds what all lanes have in common to a lane with sensor samples.
+// Samples of a lane along one path of a sensor.
+std::vector<double> samples_along(const Scene& scene, const SensorPaths& path,
+                                  const GearboxTile& tile, std::size_t sensor, std::size_t part,
+                                  int lane, int meshes) {
+    if (!tile.sensor_recorders.empty()) {
+        return tile.sensor_recorders[sensor][part]->signal(lane, meshes);
+    }
+    const std::span<const Realization> own(&tile.realizations[static_cast<std::size_t>(lane)], 1);
+    return signals::synthesize(tile.views, lane, tile.integration.content, scene.span(),
+                               path[sensor][part], path_exponents(own, part).front(), 0, meshes,
+                               has_housing(scene.study()) ? signals::Tones{} : tile.tones);
+}
+
+// Adds a sensor's response of the housing and the tones to a lane. The response is computed over
+// all samples of the scene, of which the first `meshes` mesh periods are kept.
+void add_housing_response(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
+                          std::size_t sensor, int lane, int meshes,
+                          std::optional<signals::PeriodicResponse>& response, LaneSignals& own) {
+    const Study& study = scene.study();
+    const InstanceInputs& inputs = tile.realizations[static_cast<std::size_t>(lane)].inputs;
+    const double factor = inputs.housing_frequency_factor;
+    const auto along = [&](std::size_t part) {
+        machine::throw_if_cancelled();
+        return samples_along(scene, path, tile, sensor, part, lane, scene.signal_meshes());
+    };
+    if (!response) {
+        response.emplace(scene.signal_meshes() * scene.samples_per_mesh());
+    }
+    response->add(along(0), 1.0 / sample_s(scene, inputs), housing_response(study, sensor, factor));
+    const std::vector<int> ring = ring_modes(study);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        std::vector<double> load = along(1 + 2 * i);
+        const std::vector<double> along_y = along(2 + 2 * i);
+        std::ranges::transform(load, along_y, load.begin(), std::plus<>());
+        response->add(load, 1.0 / sample_s(scene, inputs),
+                      ring_response(study, sensor, ring[i], factor));
+    }
+    own.sensor = response->take();
+    own.sensor.resize(static_cast<std::size_t>(meshes) *
+                      static_cast<std::size_t>(scene.samples_per_mesh()));
+    if (!tile.tones.empty()) {
+        signals::add_tones(tile.tones, lane, scene.samples_per_mesh(), own.sensor);
+    }
+    fold_again(scene, own);
+}
+
+// Adds the transmission error and the bearings to a lane with sensor samples.
 void complete(const Scene& scene, const GearboxTile& tile, int lane, int meshes,
               LaneSignals& signals) {
     if (cuts_records(scene, meshes)) {
@@ -104,15 +152,14 @@ void complete(const Scene& scene, const GearboxTile& tile, int lane, int meshes,
 LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
                          int lane, int meshes) {
     LaneSignals lane_result = folded_lane(path, tile, lane);
-    for (std::size_t sensor = 0; meshes > 0 && sensor <= path.additional.size(); ++sensor) {
-        const signals::PathGrid& grid = sensor == 0 ? path.first : path.additional[sensor - 1];
-        of_sensor(lane_result, sensor).sensor =
-            !tile.sensor_responses.empty()
-                ? tile.sensor_responses[sensor]->signal(lane, meshes)
-                : signals::synthesize(
-                      tile.views, lane, tile.integration.content, scene.span(), grid,
-                      tile.realizations[static_cast<std::size_t>(lane)].inputs.path_exponent, 0,
-                      meshes, tile.tones);
+    std::optional<signals::PeriodicResponse> response;
+    for (std::size_t sensor = 0; meshes > 0 && sensor < path.size(); ++sensor) {
+        LaneSignals& own = of_sensor(lane_result, sensor);
+        if (has_housing(scene.study())) {
+            add_housing_response(scene, path, tile, sensor, lane, meshes, response, own);
+        } else {
+            own.sensor = samples_along(scene, path, tile, sensor, 0, lane, meshes);
+        }
     }
     complete(scene, tile, lane, meshes, lane_result);
     return lane_result;
@@ -124,14 +171,22 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths&
     for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
         all.push_back(folded_lane(path, tile, static_cast<int>(lane)));
     }
-    for (std::size_t sensor = 0; meshes > 0 && sensor <= path.additional.size(); ++sensor) {
-        const signals::PathGrid& grid = sensor == 0 ? path.first : path.additional[sensor - 1];
-        auto samples = !tile.sensor_responses.empty()
-                           ? tile.sensor_responses[sensor]->signals(all.size(), meshes)
-                           : signals::synthesize(
-                                 tile.views, tile.integration.content, scene.span(), grid,
-                                 path_exponents(std::span(tile.realizations).first(all.size())), 0,
-                                 meshes, tile.tones);
+    std::optional<signals::PeriodicResponse> response;
+    for (std::size_t sensor = 0; meshes > 0 && sensor < path.size(); ++sensor) {
+        if (has_housing(scene.study())) {
+            for (std::size_t lane = 0; lane < all.size(); ++lane) {
+                add_housing_response(scene, path, tile, sensor, static_cast<int>(lane), meshes,
+                                     response, of_sensor(all[lane], sensor));
+            }
+            continue;
+        }
+        auto samples =
+            !tile.sensor_recorders.empty()
+                ? tile.sensor_recorders[sensor].front()->signals(all.size(), meshes)
+                : signals::synthesize(
+                      tile.views, tile.integration.content, scene.span(), path[sensor].front(),
+                      path_exponents(std::span(tile.realizations).first(all.size()), 0), 0, meshes,
+                      tile.tones);
         for (std::size_t lane = 0; lane < all.size(); ++lane) {
             of_sensor(all[lane], sensor).sensor = std::move(samples[lane]);
         }

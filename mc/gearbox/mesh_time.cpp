@@ -19,6 +19,7 @@
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/housing.hpp"
 #include "mc/study/noise.hpp"
 
 namespace gearpod::mc {
@@ -166,7 +167,7 @@ bool records_during_integration(const Scene& scene) {
 
 int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
     const bool cut = has_record_length(scene.study()) && !scene.study().effects.quasi_static();
-    return needs_samples(needs) || cut ? scene.signal_meshes()
+    return needs_samples(needs) || cut || has_housing(scene.study()) ? scene.signal_meshes()
            : noise_by_density(scene.study()) || !scene.study().sensor.bearings.empty()
                ? scene.span_meshes()
                : 0;

@@ -6,6 +6,7 @@
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/record_samples.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/noise.hpp"
@@ -27,14 +28,6 @@ class Stopwatch {
     double& sum_;
     const WallClock::time_point start_ = WallClock::now();
 };
-
-}  // namespace
-
-namespace {
-
-double sample_s(const Scene& scene, const InstanceInputs& inputs) {
-    return dynamics::mesh_period_s(scene.inputs(inputs)) / scene.samples_per_mesh();
-}
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signals/spectra/synchronous_average.hpp"
+#include "mc/gearbox/record_samples.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -12,19 +12,6 @@ namespace {
 void subtract(std::span<const double> b, double factor, std::vector<double>& a) {
     std::transform(a.begin(), a.end(), b.begin(), a.begin(),
                    [&](double x, double y) { return x - factor * y; });
-}
-
-// The part of a signal that is folded: the record's turns. The signal may continue after it.
-std::span<const double> folding(const Scene& scene, const LaneSignals& record,
-                                std::span<const double> samples) {
-    const int turns = record.turns > 0 ? record.turns : scene.span().ring_teeth;
-    return samples.first(static_cast<std::size_t>(turns * scene.span().planet_teeth) *
-                         static_cast<std::size_t>(scene.samples_per_mesh()));
-}
-
-std::size_t turn_samples(const Scene& scene) {
-    return static_cast<std::size_t>(scene.span().planet_teeth) *
-           static_cast<std::size_t>(scene.samples_per_mesh());
 }
 
 }  // namespace
@@ -40,8 +27,7 @@ LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record,
         subtract(baseline->te_turn, share, change.te_turn);
         subtract(baseline->sensor, share, change.sensor);
     }
-    change.folded =
-        signals::fold_of_squares(folding(scene, change, change.sensor), turn_samples(scene));
+    fold_again(scene, change);
     return change;
 }
 
@@ -56,8 +42,8 @@ RealizationNoise noise_of_change(const Scene& scene, const LaneSignals& change,
         subtract(one.noise->samples, share * one.rms, noise.samples);
         subtract(one.noise->encoder, share, noise.encoder);
     }
-    noise.sensor = signals::noise_variates_of_samples(folding(scene, change, change.sensor),
-                                                      folding(scene, change, noise.samples),
+    noise.sensor = signals::noise_variates_of_samples(folded_part(scene, change, change.sensor),
+                                                      folded_part(scene, change, noise.samples),
                                                       turn_samples(scene));
     return noise;
 }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "mc/gearbox/record_samples.hpp"
 #include "mc/scene/drivetrain.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/assumptions.hpp"
@@ -109,7 +110,7 @@ LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const Rec
     if (!signals.sensor.empty()) {
         const auto phases = static_cast<std::size_t>(scene.samples_per_mesh());
         record.sensor = part(signals.sensor, first * phases, meshes * phases);
-        record.folded = signals::fold_of_squares(record.sensor, teeth * phases);
+        fold_again(scene, record);
     }
     if (!samples) {
         record.sensor.clear();

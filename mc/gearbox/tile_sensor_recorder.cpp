@@ -5,6 +5,7 @@
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 
@@ -19,10 +20,10 @@ void apply_gain(std::span<const Realization> realizations, machine::AlignedVecto
     }
 }
 
-std::vector<double> path_exponents(std::span<const Realization> realizations) {
+std::vector<double> path_exponents(std::span<const Realization> realizations, std::size_t path) {
     std::vector<double> exponents;
     for (const Realization& one : realizations) {
-        exponents.push_back(one.inputs.path_exponent);
+        exponents.push_back(path == 0 ? one.inputs.path_exponent : 0.0);
     }
     return exponents;
 }
@@ -33,18 +34,21 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
       has_gain_(has_gain(realizations)),
       signal_meshes_(scene.signal_meshes()),
       recorded_meshes_(scene.recorded_meshes()) {
-    const signals::Tones tones = draw_tones(scene, realizations);
-    const std::vector<double> exponents = path_exponents(realizations);
-    const auto add = [&](const signals::PathGrid& grid) {
-        responses_.push_back(std::make_unique<signals::SensorResponse>(
-            grid, scene.span(),
-            signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents, &tones,
-                                          scene.te_samples_per_mesh(), signal_meshes_,
-                                          kept_meshes < 0 ? signal_meshes_ : kept_meshes,
-                                          has_record_length(scene.study())}));
-    };
-    add(path.first);
-    std::ranges::for_each(path.additional, add);
+    // Tones do not pass the housing and are added to its response.
+    const signals::Tones tones =
+        has_housing(scene.study()) ? signals::Tones{} : draw_tones(scene, realizations);
+    for (const SensorPath& sensor : path) {
+        auto& recorders = recorders_.emplace_back();
+        for (std::size_t p = 0; p < sensor.size(); ++p) {
+            const std::vector<double> exponents = path_exponents(realizations, p);
+            recorders.push_back(std::make_unique<signals::SensorResponse>(
+                sensor[p], scene.span(),
+                signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents,
+                                              &tones, scene.te_samples_per_mesh(), signal_meshes_,
+                                              kept_meshes < 0 ? signal_meshes_ : kept_meshes,
+                                              has_record_length(scene.study())}));
+        }
+    }
 }
 
 void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
@@ -56,8 +60,10 @@ void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
         acceleration = amplified_acceleration_.data();
     }
     for (int at = k; at < signal_meshes_; at += recorded_meshes_) {
-        for (const auto& response : responses_) {
-            response->record_mesh(at, acceleration, record.te.data());
+        for (const auto& sensor : recorders_) {
+            for (const auto& path : sensor) {
+                path->record_mesh(at, acceleration, record.te.data());
+            }
         }
     }
     spent_s_ += seconds_since(start);

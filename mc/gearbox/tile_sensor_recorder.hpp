@@ -2,7 +2,6 @@
 // the gain of the sensor.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,7 +17,8 @@ bool has_gain(std::span<const Realization> realizations);
 // Multiplies the recorded acceleration of each lane by the sensor gain of that lane's gearbox.
 void apply_gain(std::span<const Realization> realizations, machine::AlignedVector& acceleration);
 
-std::vector<double> path_exponents(std::span<const Realization> realizations);
+// Path exponents of gearboxes along one path of a sensor; 0 for the ring's modes.
+std::vector<double> path_exponents(std::span<const Realization> realizations, std::size_t path);
 
 class TileSensorRecorder {
   public:
@@ -31,17 +31,14 @@ class TileSensorRecorder {
     // periods are recorded than the signal has, the signal repeats them.
     void operator()(int k, const lockstep::MeshRecord& record);
 
-    // Responses of the first and the additional sensors.
-    std::vector<std::unique_ptr<signals::SensorResponse>> take_responses() {
-        return std::move(responses_);
-    }
+    SensorRecorders take_recorders() { return std::move(recorders_); }
     double spent_s() const { return spent_s_; }
 
   private:
     const std::span<const Realization> realizations_;
     const bool has_gain_;
     const int signal_meshes_, recorded_meshes_;
-    std::vector<std::unique_ptr<signals::SensorResponse>> responses_;
+    SensorRecorders recorders_;
     machine::AlignedVector amplified_acceleration_;
     double spent_s_ = 0.0;
 };

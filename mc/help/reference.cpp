@@ -14,9 +14,6 @@
 
 #include "features/feature.hpp"
 #include "mc/study/distributions/parameters.hpp"
-#include "mc/study/reading/additional_sensors.hpp"
-#include "mc/study/reading/bearings.hpp"
-#include "mc/study/reading/tones.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -117,17 +114,22 @@ class ValueForm {
             json_["default"] = values;
         }
     }
-    void operator()(const TonesAccess&) const { set_list("tones", tone_fields()); }
-    void operator()(const BearingsAccess&) const { set_list("bearings", bearing_fields()); }
-    void operator()(const SensorsAccess&) const { set_list("sensors", sensor_fields()); }
+    void operator()(const TablesAccess& access) const {
+        json_["type"] = "tables";
+        for (const TableField& field : access.fields) {
+            OrderedJson one{{"name", std::string(field.name)},
+                            {"type", kFieldKinds[static_cast<std::size_t>(field.kind)]},
+                            {"required", field.required}};
+            for (const ChoiceName& choice : field.choices) {
+                one["choices"].push_back(std::string(choice.text));
+            }
+            json_["fields"].push_back(std::move(one));
+        }
+    }
     void operator()(const PythonAccess&) const { json_["type"] = "python"; }
 
   private:
-    // List of tables with these names.
-    void set_list(const char* type, const std::vector<std::string_view>& fields) const {
-        json_["type"] = type;
-        json_["fields"] = fields;
-    }
+    static constexpr const char* kFieldKinds[] = {"number", "integer", "text", "numbers"};
 
     // A number outside the key's range stands for "not given".
     template <class Value>

@@ -9,6 +9,7 @@
 #include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -97,6 +98,11 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     }
     if (!study.sensor.additional.empty()) {
         reject("sensor.additional", "lives have the first sensor only", "remove them");
+    }
+    if (has_housing(study)) {
+        reject("sensor.housing_modes",
+               "records are superpositions of parts that reach the sensor along a stiff path",
+               "remove them, and a measured response (sensor.response_Hz)");
     }
     if (short_records) {
         try {

@@ -171,7 +171,7 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
             features_s += thread_processor_s() - features_start;
             record.sensor.back() =
                 signals::synthesize(tile.views, lane, tile.integration.content, scene.span(),
-                                    path_.first, realization.inputs.path_exponent, 0, meshes);
+                                    path_[0][0], realization.inputs.path_exponent, 0, meshes);
             record.te.back() = te_without_mean(scene, tile, lane, meshes);
         }
     }

@@ -156,6 +156,7 @@ InstanceInputs instance_inputs(const InputValues& values) {
     inputs.gain = values.of(study.sensor.gain);
     inputs.tone_level = values.of(study.sensor.tone_level);
     inputs.bearing_level = values.of(study.sensor.bearing_level);
+    inputs.housing_frequency_factor = values.of(study.sensor.housing_frequency_factor);
     const SensorNoise noise = sensor_noise(
         study, {values.of(study.sensor.noise_density_m_s2_per_sqrt_Hz),
                 values.of(study.sensor.noise_m_s2), values.of(study.sensor.background_level)});

@@ -50,9 +50,10 @@ struct InstanceInputs {
     double speed_rad_s;  // of speed_member()
     FluctuationInstance fluctuations;
     double path_exponent;
-    double gain;                   // sensor's factor on the gearbox's vibration
-    double tone_level;             // factor on the amplitudes of its tones
-    double bearing_level;          // factor on the amplitudes of its bearings
+    double gain;           // sensor's factor on the gearbox's vibration
+    double tone_level;     // factor on the amplitudes of its tones
+    double bearing_level;  // factor on the amplitudes of its bearings
+    double housing_frequency_factor;
     double noise_m_s2;             // rms of all accelerometer noise
     double white_noise_m_s2;       // rms of the part that the low-pass does not filter
     double background_noise_m_s2;  // rms of the part that is the machine's background

@@ -42,6 +42,18 @@ struct Bearing {
     bool operator==(const Bearing&) const = default;
 };
 
+// Natural mode of the housing between the gearbox and the sensors
+// (signals/path/housing_response.hpp).
+struct HousingMode {
+    double frequency_Hz = 0.0, damping = 0.0;
+    double participation = 0.0;  // at the first sensor
+    // Mode of the ring with this number of nodal diameters, which the planets excite as moving
+    // loads; without it, the vibration that reaches the sensor excites the mode.
+    std::optional<int> nodal_diameters = {};
+
+    bool operator==(const HousingMode&) const = default;
+};
+
 // Further accelerometer on the ring of a planetary gearbox, compared with the first one.
 struct AdditionalSensor {
     std::string name;
@@ -49,6 +61,9 @@ struct AdditionalSensor {
     bool tangential = false;  // direction: tangential, or else radial
     double gain = 1.0;        // factors on those of the first one
     double noise = 1.0;
+    // Participation of each of the housing's modes, and measured response at Sensor::response_Hz;
+    // empty: as at the first sensor.
+    std::vector<double> participation, response_gain, response_phase_deg;
 
     bool operator==(const AdditionalSensor&) const = default;
 };
@@ -59,6 +74,10 @@ struct Sensor {
     Member position = Member::pinion;  // fixed-shaft: bearing on which the sensor is mounted
     double path_exponent = 0.1;
     std::vector<AdditionalSensor> additional;
+    std::vector<HousingMode> housing_modes;
+    double housing_frequency_factor = 1.0;  // on the natural frequencies of the housing
+    // Measured frequency response of the housing to the first sensor; may be empty.
+    std::vector<double> response_Hz, response_gain, response_phase_rad;
     double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
     std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered

@@ -22,6 +22,13 @@ ADDED = {
     "an additional sensor": ['sensor.additional=[{name="side", angle_deg=90}]'],
     "three additional sensors": ['sensor.additional=[{name="a", angle_deg=90}, '
                                  '{name="b", angle_deg=180}, {name="c", angle_deg=270}]'],
+    "two modes of the housing": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
+                                 "participation=1}, {frequency_Hz=520, damping=0.02, participation=1}]"],
+    "and a mode of the ring": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
+                               "participation=1}, {frequency_Hz=520, damping=0.02, participation=1, "
+                               "nodal_diameters=2}]"],
+    "a measured response": ["sensor.response_Hz=[1, 1000]", "sensor.response_gain=[1, 2]",
+                            "sensor.response_phase_deg=[0, 90]"],
     "a bearing in the background": [BEARING % "background"],
     "a bearing as another fault": [BEARING % "other_fault"],
     "a background by its spectrum": ["sensor.background_Hz=[20, 1000]",

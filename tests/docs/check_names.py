@@ -27,7 +27,7 @@ class Known:
         self.sections = reference["sections"]
         self.keys = {f"{key['section']}.{key['name']}" for key in reference["keys"]}
         self.names = {key["name"] for key in reference["keys"]}
-        self.names |= {field for key in reference["keys"] for field in key.get("fields", ())}
+        self.names |= {field["name"] for key in reference["keys"] for field in key.get("fields", ())}
         self.options = OWN_OPTIONS | {
             name for command in reference["commands"] for option in command["options"]
             for name in option["name"].split(",")}

@@ -27,7 +27,7 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
     const auto tile = run_one(scene, false, number);
     REQUIRE(tile.integration.status[0] == lockstep::LaneStatus::ok);
     return signals::synthesize(tile.views, 0, tile.integration.content, scene.span(),
-                               mc::sensor_paths(scene).first,
+                               mc::sensor_paths(scene)[0][0],
                                tile.realizations[0].inputs.path_exponent, 0, meshes);
 }
 

@@ -163,9 +163,26 @@ template <auto... Named>
 void set_list(Study& s, TypeOf<Named...> value) {
     stored<Named...>(s) = std::move(value);
 }
-// List of strings, of tones, of bearings, of sensors or of features in Python.
+// List of strings or of features in Python.
 template <auto Member>
 constexpr Access<TypeOf<Member>, TypeOf<Member>> list{get_list<Member>, set_list<Member>};
+// List of tables. Read(list, reject) returns the elements, Text(element) a table.
+template <auto Member, auto Read>
+void read_tables(Study& s, const Value& elements, const RejectElement& reject) {
+    stored<Member>(s) = Read(elements, reject);
+}
+template <auto Member, auto Text>
+std::vector<std::string> table_texts(const Study& s) {
+    std::vector<std::string> texts;
+    for (const auto& element : stored<Member>(s)) {
+        texts.push_back(Text(element));
+    }
+    return texts;
+}
+template <auto Member, auto Read, auto Text>
+TablesAccess tables(std::string_view elements, std::span<const TableField> fields) {
+    return {elements, fields, read_tables<Member, Read>, table_texts<Member, Text>};
+}
 template <auto... Named>
 constexpr NumbersAccess numbers{get_list<Named...>, set_list<Named...>, false};
 template <auto Member>

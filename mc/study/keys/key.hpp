@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "mc/input/document.hpp"
 #include "mc/study/distributions/range.hpp"
 #include "mc/study/study.hpp"
 
@@ -54,13 +55,28 @@ struct NumbersAccess {
     bool ascending = false;  // true: each value must exceed the previous one
 };
 using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
-using TonesAccess = Access<std::vector<Tone>, std::vector<Tone>>;
-using BearingsAccess = Access<std::vector<Bearing>, std::vector<Bearing>>;
-using SensorsAccess = Access<std::vector<AdditionalSensor>, std::vector<AdditionalSensor>>;
+// Called with a problem and a remedy.
+using RejectElement = std::function<void(std::string what, std::string remedy)>;
+// Field of a table such as { frequency_Hz = 50, amplitude_m_s2 = 0.1 }.
+struct TableField {
+    enum class Kind { number, integer, text, numbers };
+    std::string_view name;
+    Kind kind = Kind::number;
+    bool required = false;
+    std::span<const ChoiceName> choices = {};  // of a text; empty: any lower-case word
+};
+// List of tables.
+struct TablesAccess {
+    std::string_view elements;  // "tones"
+    std::span<const TableField> fields;
+    // Stores the list. Problems name an element by its position.
+    void (*read)(Study&, const Value& list, const RejectElement& reject);
+    // The elements as tables that read back to the same values.
+    std::vector<std::string> (*texts)(const Study&);
+};
 using PythonAccess = Access<std::vector<PythonFeature>, std::vector<PythonFeature>>;
-using AnyAccess =
-    std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess, NumbersAccess,
-                 TextsAccess, TonesAccess, BearingsAccess, SensorsAccess, PythonAccess>;
+using AnyAccess = std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess,
+                               NumbersAccess, TextsAccess, TablesAccess, PythonAccess>;
 
 // Requirement of a key (required, optional or forbidden) and the reason. It depends on the keys
 // `governors`; "" for none.

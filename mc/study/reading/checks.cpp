@@ -6,10 +6,8 @@
 #include "analysis/monitoring/detector.hpp"
 #include "features/feature.hpp"
 #include "mc/input/spelling.hpp"
-#include "mc/study/bearings.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
-#include "signals/noise/low_pass_noise.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
 
 namespace gearpod::mc {
@@ -81,136 +79,6 @@ void check_fixed_shaft_motion(StudyDraft& draft) {
                      "has rotations only (a fixed-shaft gearbox's gears move on their bearings, "
                      "too)",
                      "use motion = \"translational-torsional\" or \"quasi-static\"");
-    }
-}
-
-// Rejects a shaft that the gearbox does not have, or that stands still.
-void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member shaft) {
-    const Study& study = draft.study;
-    const bool pair = study.gearbox.kind == GearboxKind::fixed_shaft,
-               of_pair = shaft == Member::pinion || shaft == Member::gear;
-    const std::string_view name = member_name(shaft);
-    if (draft.usable("gearbox.kind") && pair != of_pair) {
-        draft.reject(
-            key,
-            fmt::format("number {}: this kind of gearbox has no {} (gearbox.kind)", number, name),
-            pair ? "use \"pinion\" or \"gear\"" : "use \"sun\", \"ring\" or \"carrier\"");
-    } else if (!pair && draft.usable("operation.fixed") && shaft == study.operation.fixed) {
-        draft.reject(key,
-                     fmt::format("number {}: the {} stands still (operation.fixed)", number, name),
-                     "use another shaft");
-    }
-}
-
-void check_background(StudyDraft& draft) {
-    const Sensor& s = draft.study.sensor;
-    constexpr const char* kDensity = "sensor.background_density_m_s2_per_sqrt_Hz";
-    constexpr double kNarrowest = 1000.0, kMostPassed = 10.0;
-    if (s.background_Hz.empty() || !draft.all_usable({"sensor.background_Hz", kDensity})) {
-        return;
-    }
-    if (s.background_Hz.size() < 2) {
-        draft.reject("sensor.background_Hz", "has one frequency, but a spectrum needs two",
-                     "give the lowest and the highest");
-    } else if (s.background_density_m_s2_per_sqrt_Hz.size() != s.background_Hz.size()) {
-        draft.reject(
-            kDensity,
-            fmt::format("has {} values, but sensor.background_Hz has {}",
-                        s.background_density_m_s2_per_sqrt_Hz.size(), s.background_Hz.size()),
-            "give one for each frequency");
-    } else if (draft.all_usable({"sensor.sampling_Hz", "sensor.low_pass_Hz"}) &&
-               s.background_Hz.back() - s.background_Hz.front() < s.sampling_Hz / kNarrowest) {
-        draft.reject("sensor.background_Hz",
-                     fmt::format("spans {:g} Hz, which is less than sampling_Hz / {:g} (the "
-                                 "resolution of the background)",
-                                 s.background_Hz.back() - s.background_Hz.front(), kNarrowest),
-                     "use a tone (sensor.tones)");
-    } else if (draft.usable("sensor.low_pass_Hz") &&
-               s.background_Hz.front() >= kMostPassed * s.low_pass_Hz) {
-        draft.reject("sensor.background_Hz",
-                     fmt::format("begins at {:g} Hz, where low_pass_Hz passes nothing",
-                                 s.background_Hz.front()),
-                     "remove the background");
-    }
-}
-
-void check_tones_and_bearings(StudyDraft& draft) {
-    const Sensor& s = draft.study.sensor;
-    for (std::size_t i = 0; i < s.tones.size() && draft.usable("sensor.tones"); ++i) {
-        if (s.tones[i].shaft) {
-            check_shaft(draft, "sensor.tones", i + 1, *s.tones[i].shaft);
-        } else if (draft.usable("sensor.sampling_Hz") &&
-                   s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
-            draft.reject("sensor.tones",
-                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
-                                     i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
-                         "lower its frequency or raise sampling_Hz");
-        }
-    }
-    for (std::size_t i = 0; i < s.bearings.size() && draft.usable("sensor.bearings"); ++i) {
-        if (s.bearings[i].shaft) {
-            check_shaft(draft, "sensor.bearings", i + 1, *s.bearings[i].shaft);
-        } else if (draft.usable("sensor.sampling_Hz") && s.sampling_Hz > 0.0 &&
-                   impulses_per_turn(s.bearings[i]) * s.bearings[i].shaft_Hz >=
-                       0.5 * s.sampling_Hz) {
-            draft.reject(
-                "sensor.bearings",
-                fmt::format("bearing {}: {:.4g} impulses per second are not below half of "
-                            "sampling_Hz, {} Hz",
-                            i + 1, impulses_per_turn(s.bearings[i]) * s.bearings[i].shaft_Hz,
-                            0.5 * s.sampling_Hz),
-                "lower shaft_Hz");
-        }
-    }
-    if (!s.additional.empty() && draft.study.ensemble.uses_importance_sampling() &&
-        draft.usable("ensemble.threshold_tilt")) {
-        draft.reject(
-            "sensor.additional",
-            "importance sampling (ensemble.threshold_tilt, or `misses`) tilts the noise of one "
-            "sensor only",
-            "remove them");
-    }
-    if (!s.bearings.empty() && draft.study.ensemble.threshold_records > 1 &&
-        draft.usable("ensemble.threshold_records")) {
-        draft.reject("ensemble.threshold_records",
-                     fmt::format("is {}, but all records of a gearbox would have the same impulses "
-                                 "(sensor.bearings)",
-                                 draft.study.ensemble.threshold_records),
-                     "use 1, or remove the bearings");
-    }
-}
-
-void check_sampling(StudyDraft& draft) {
-    const Sensor& s = draft.study.sensor;
-    check_background(draft);
-    check_tones_and_bearings(draft);
-    if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
-        s.sampling_Hz <= 0.0) {
-        return;
-    }
-    if (draft.all_usable({"sensor.low_pass_Hz"}) && s.low_pass_Hz >= 0.5 * s.sampling_Hz) {
-        draft.reject(
-            "sensor.low_pass_Hz",
-            fmt::format(
-                "{} Hz is not below half of sampling_Hz, {} Hz (higher frequencies would alias)",
-                s.low_pass_Hz, 0.5 * s.sampling_Hz),
-            "lower low_pass_Hz or raise sampling_Hz");
-    }
-    const double finest_Hz = s.low_pass_Hz / signals::LowPassNoise::kLeast;
-    if (s.noise_density_m_s2_per_sqrt_Hz && draft.all_usable({"sensor.low_pass_Hz"}) &&
-        s.sampling_Hz > finest_Hz) {
-        draft.reject("sensor.sampling_Hz",
-                     fmt::format("{} Hz is above {:g} Hz (after a low-pass of {} Hz, noise samples "
-                                 "are then too strongly correlated to be generated)",
-                                 s.sampling_Hz, finest_Hz, s.low_pass_Hz),
-                     "lower it, or give sensor.noise_m_s2 instead of the density");
-    }
-    if (draft.all_usable({"sensor.encoder_sampling_Hz"}) && s.encoder_sampling_Hz > s.sampling_Hz) {
-        draft.reject("sensor.encoder_sampling_Hz",
-                     fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders are read at some "
-                                 "of the sensor's samples)",
-                                 s.encoder_sampling_Hz, s.sampling_Hz),
-                     "lower encoder_sampling_Hz or raise sampling_Hz");
     }
 }
 

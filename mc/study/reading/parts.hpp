@@ -35,6 +35,9 @@ bool teeth_usable(const StudyDraft& draft);
 // tooth_error_checks.cpp: checks planets that differ, tooth deviations and transmission errors.
 void check_tooth_errors(StudyDraft& draft);
 
+// sensor_checks.cpp: checks the sensors, their noise and the housing.
+void check_sampling(StudyDraft& draft);
+
 // checks.cpp: remaining checks that involve several keys.
 void check_consistency(StudyDraft& draft);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "features/feature.hpp"
-#include "mc/study/reading/list_element.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

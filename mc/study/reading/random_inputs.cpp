@@ -5,7 +5,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/distributions/magnitude.hpp"
-#include "mc/study/reading/file_column.hpp"
+#include "mc/study/elements/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/unknown_keys.hpp"
 #include "mc/study/schema/schema.hpp"

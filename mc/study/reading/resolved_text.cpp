@@ -5,10 +5,7 @@
 #include <cmath>
 
 #include "features/feature.hpp"
-#include "mc/study/reading/additional_sensors.hpp"
-#include "mc/study/reading/bearings.hpp"
 #include "mc/study/reading/python_list.hpp"
-#include "mc/study/reading/tones.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -88,29 +85,14 @@ class ValueText {
         return in_brackets(texts);
     }
 
-    std::string operator()(const TonesAccess& access) const {
-        std::vector<std::string> texts;
-        for (const Tone& tone : access.get(study_)) {
-            texts.push_back(tone_table(tone));
+    // One line per table if tables have many fields.
+    std::string operator()(const TablesAccess& access) const {
+        constexpr std::size_t kMostFields = 4;
+        const std::vector<std::string> texts = access.texts(study_);
+        if (texts.empty() || access.fields.size() <= kMostFields) {
+            return in_brackets(texts);
         }
-        return in_brackets(texts);
-    }
-
-    std::string operator()(const SensorsAccess& access) const {
-        std::string text;
-        for (const AdditionalSensor& sensor : access.get(study_)) {
-            text += fmt::format("    {},\n", sensor_table(sensor));
-        }
-        return text.empty() ? "" : fmt::format("[\n{}]", text);
-    }
-
-    // One line per bearing.
-    std::string operator()(const BearingsAccess& access) const {
-        std::string text;
-        for (const Bearing& bearing : access.get(study_)) {
-            text += fmt::format("    {},\n", bearing_table(bearing));
-        }
-        return text.empty() ? "" : fmt::format("[\n{}]", text);
+        return fmt::format("[\n    {},\n]", fmt::join(texts, ",\n    "));
     }
 
     // One line per feature, so that differences of studies show the feature.

@@ -5,12 +5,9 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/distributions/magnitude.hpp"
-#include "mc/study/reading/additional_sensors.hpp"
-#include "mc/study/reading/bearings.hpp"
-#include "mc/study/reading/file_column.hpp"
+#include "mc/study/elements/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/python_list.hpp"
-#include "mc/study/reading/tones.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -125,21 +122,9 @@ class ValueReader {
         access.set(draft_.study, texts);
     }
 
-    void operator()(const TonesAccess& access) {
-        if (value_.elements.empty() ? is_list("tones") : nonempty_list("tones")) {
-            access.set(draft_.study, read_tones(value_, rejection()));
-        }
-    }
-
-    void operator()(const BearingsAccess& access) {
-        if (value_.elements.empty() ? is_list("bearings") : nonempty_list("bearings")) {
-            access.set(draft_.study, read_bearings(value_, rejection()));
-        }
-    }
-
-    void operator()(const SensorsAccess& access) {
-        if (value_.elements.empty() ? is_list("sensors") : nonempty_list("sensors")) {
-            access.set(draft_.study, read_additional_sensors(value_, rejection()));
+    void operator()(const TablesAccess& access) {
+        if (value_.elements.empty() ? is_list(access.elements) : nonempty_list(access.elements)) {
+            access.read(draft_.study, value_, rejection());
         }
     }
 

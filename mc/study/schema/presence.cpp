@@ -317,30 +317,6 @@ Presence acceleration_detail(const Study& s) {
                : kOptional;
 }
 
-Presence with_tones(const Study& s) {
-    return s.sensor.tones.empty()
-               ? Presence{Need::forbidden, "no tones are given: sensor.tones", {"sensor.tones"}}
-               : acceleration_detail(s);
-}
-
-Presence background_needs(const Study& s) {
-    constexpr std::string_view kGiven = "sensor.background_Hz";
-    return s.sensor.background_Hz.empty()
-               ? Presence{Need::forbidden, "no background is given: sensor.background_Hz", {kGiven}}
-               : Presence{Need::required, "sensor.background_Hz is given", {kGiven}};
-}
-
-Presence with_background(const Study& s) {
-    return s.sensor.background_Hz.empty() ? background_needs(s) : acceleration_detail(s);
-}
-
-Presence with_bearings(const Study& s) {
-    return s.sensor.bearings.empty() ? Presence{Need::forbidden,
-                                                "no bearings are given: sensor.bearings",
-                                                {"sensor.bearings"}}
-                                     : acceleration_detail(s);
-}
-
 Presence white_records(const Study& s) {
     constexpr std::string_view kRecords = "ensemble.threshold_records";
     if (s.ensemble.threshold_records == 1) {

@@ -65,6 +65,11 @@ Presence with_tones(const Study&);  // only with sensor.tones
 // background_needs: required with sensor.background_Hz; with_background: only with it.
 Presence background_needs(const Study&);
 Presence with_background(const Study&);
+// without_response: not with a measured response; with_housing_modes: only with modes;
+// response_needs: required with sensor.response_Hz.
+Presence without_response(const Study&);
+Presence with_housing_modes(const Study&);
+Presence response_needs(const Study&);
 Presence with_bearings(const Study&);  // only with sensor.bearings
 Presence torque_sine(const Study&);    // only with operation.torque_fluctuation
 Presence torque_noise(const Study&);   // only with operation.torque_noise, and then required

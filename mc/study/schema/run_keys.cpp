@@ -1,6 +1,10 @@
 // Keys of [sensor], [features], [detection], [monitoring], [life], [numerics] and [ensemble].
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
+#include "mc/study/elements/additional_sensors.hpp"
+#include "mc/study/elements/bearings.hpp"
+#include "mc/study/elements/housing_modes.hpp"
+#include "mc/study/elements/tones.hpp"
 #include "mc/study/keys/access.hpp"
 #include "mc/study/keys/units.hpp"
 #include "mc/study/schema/presence.hpp"
@@ -55,7 +59,12 @@ const Key kRunKeys[] = {
     {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kFrequency, acceleration, kSampling, "cut-off frequency of the anti-alias low-pass"},
     {"sensor", "position", choice<&Sensor::position>(kPositions), kNone, kAny, fixed_shaft<acceleration_detail>, kShared, "bearing on which the sensor is mounted"},
     {"sensor", "path_exponent", number<&Sensor::path_exponent>, kNone, from_to(-1, 1), planetary<acceleration_detail>, kRandom, "exponent of the transmission path"},
-    {"sensor", "additional", list<&Sensor::additional>, kNone, kAny, planetary<acceleration_detail>, kShared, "further accelerometers on the ring, by angle_deg from the first one, direction (radial or tangential), gain and noise relative to it: features and detection of each, and of all together"},
+    {"sensor", "additional", tables<&Sensor::additional, read_additional_sensors, sensor_table>("sensors", kSensorFields), kNone, kAny, planetary<acceleration_detail>, kShared, "further accelerometers on the ring, by angle_deg from the first one, direction (radial or tangential), gain and noise relative to it: features and detection of each, and of all together. participation of the housing's modes, or response_gain and response_phase_deg, if they differ from those of the first one"},
+    {"sensor", "housing_modes", tables<&Sensor::housing_modes, read_housing_modes, housing_table>("modes", kHousingFields), kNone, kAny, without_response, kShared, "natural modes of the housing between the gearbox and the sensors, excited by the vibration that reaches the sensor, or with nodal_diameters by the planets that move along an elastic ring: docs/guide/sensors.md"},
+    {"sensor", "housing_frequency_factor", number<&Sensor::housing_frequency_factor>, kNone, from_to(0.1, 10), with_housing_modes, kRandom, "factor on the natural frequencies of the housing: how this machine differs from the nominal one"},
+    {"sensor", "response_Hz", ascending<&Sensor::response_Hz>, kHz, kNotNegative, acceleration_detail, kShared, "frequencies of a measured frequency response of the housing, or a column of a file"},
+    {"sensor", "response_gain", numbers<&Sensor::response_gain>, kNone, kNotNegative, response_needs, kShared, "gain of that response: acceleration at the sensor over that at the ring. Complex values in between are interpolated linearly, and nothing passes outside of the given frequencies"},
+    {"sensor", "response_phase_deg", numbers<&Sensor::response_phase_rad>, kDeg, kAny, response_needs, kShared, "phase of that response"},
     {"sensor", "gain", number<&Sensor::gain>, kNone, kPositive, acceleration_detail, kRandom, "factor on the gearbox's vibration before tones and noise are added: effect of housing and mounting"},
     {"sensor", "noise_m_s2", number<&Sensor::noise_m_s2>, kMPerS2, kNotNegative, acceleration_detail, kRandom, "rms noise of the accelerometer: white up to half the sampling rate, not low-pass filtered; adds in quadrature to the noise by density and to the quantisation"},
     {"sensor", "noise_density_m_s2_per_sqrt_Hz", number<&Sensor::noise_density_m_s2_per_sqrt_Hz>, kMPerS2RootHz, kNotNegative, acceleration_detail, kRandom, "noise of the accelerometer by its one-sided density, as in data sheets (1 ug/sqrt(Hz) is 9.81e-6): white before the low-pass, which filters it like the signal"},
@@ -63,9 +72,9 @@ const Key kRunKeys[] = {
     {"sensor", "background_density_m_s2_per_sqrt_Hz", numbers<&Sensor::background_density_m_s2_per_sqrt_Hz>, kMPerS2RootHz, kPositive, background_needs, kShared, "one-sided density of the machine's broadband background at these frequencies, before the low-pass: straight lines in between on logarithmic axes, none outside. Adds in quadrature to the other noise and is multiplied by noise_levels"},
     {"sensor", "background_level", number<&Sensor::background_level>, kNone, kNotNegative, with_background, kRandom, "factor on that density: how loud the rest of this machine is"},
     {"sensor", "quantisation_m_s2", number<&Sensor::quantisation_m_s2>, kMPerS2, kNotNegative, acceleration_detail, kShared, "step of the analogue-to-digital converter: adds white noise of step/sqrt(12) rms in quadrature. Its full range over 2^bits; 0: no rounding"},
-    {"sensor", "tones", list<&Sensor::tones>, kNone, kAny, acceleration_detail, kShared, "interfering tones from the rest of the machine, each of a frequency or of an order of a shaft of the gearbox (cycles per turn)"},
+    {"sensor", "tones", tables<&Sensor::tones, read_tones, tone_table>("tones", kToneFields), kNone, kAny, acceleration_detail, kShared, "interfering tones from the rest of the machine, each of a frequency or of an order of a shaft of the gearbox (cycles per turn)"},
     {"sensor", "tone_level", number<&Sensor::tone_level>, kNone, kNotNegative, with_tones, kRandom, "factor on the amplitudes of all tones: how loud the rest of this machine is"},
-    {"sensor", "bearings", list<&Sensor::bearings>, kNone, kAny, acceleration_detail, kShared, "rolling bearings with a local fault, whose impulses the sensor picks up: docs/guide/sensors.md"},
+    {"sensor", "bearings", tables<&Sensor::bearings, read_bearings, bearing_table>("bearings", kBearingFields), kNone, kAny, acceleration_detail, kShared, "rolling bearings with a local fault, whose impulses the sensor picks up: docs/guide/sensors.md"},
     {"sensor", "bearing_level", number<&Sensor::bearing_level>, kNone, kNotNegative, with_bearings, kRandom, "factor on the amplitudes of all bearings: how severe their faults are"},
     {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
     {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},

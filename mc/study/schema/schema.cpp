@@ -60,15 +60,12 @@ struct KindText {
         return list.ascending ? "ascending list of numbers" : "list of numbers";
     }
     std::string operator()(const TextsAccess&) const { return "list of strings"; }
-    std::string operator()(const TonesAccess&) const {
-        return "list of { frequency_Hz or shaft and order, amplitude_m_s2 }";
-    }
-    std::string operator()(const BearingsAccess&) const {
-        return "list of { fault, shaft or shaft_Hz, elements, diameter_ratio, amplitude_m_s2, "
-               "resonance_Hz, ... }";
-    }
-    std::string operator()(const SensorsAccess&) const {
-        return "list of { name, angle_deg, direction, gain, noise }";
+    std::string operator()(const TablesAccess& list) const {
+        std::vector<std::string_view> names;
+        for (const TableField& field : list.fields) {
+            names.push_back(field.name);
+        }
+        return fmt::format("list of {{ {} }}", fmt::join(names, ", "));
     }
     std::string operator()(const PythonAccess&) const { return "list of Python files"; }
     std::string operator()(const ChoiceAccess& choice) const {

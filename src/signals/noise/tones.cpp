@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "signals/noise/tone_sample.hpp"
+
 namespace gearpod::signals {
 namespace {
 
@@ -77,6 +79,28 @@ ToneTable::ToneTable(const Tones& tones, int lanes, int first_mesh, int meshes, 
     for (std::size_t i = 0; i < phase_sine_.size(); ++i) {
         phase_sine_[i] *= tones.amplitude_m_s2[i % values];
         phase_cosine_[i] *= tones.amplitude_m_s2[i % values];
+    }
+}
+
+void add_tones(const Tones& tones, int lane, int phases, std::span<double> samples) {
+    const std::size_t lanes = tones.mesh_period_s.size(), own = static_cast<std::size_t>(lane);
+    Tones one;
+    one.mesh_period_s = {tones.mesh_period_s[own]};
+    for (std::size_t i = own; i < tones.frequency_Hz.size(); i += lanes) {
+        one.frequency_Hz.push_back(tones.frequency_Hz[i]);
+        one.amplitude_m_s2.push_back(tones.amplitude_m_s2[i]);
+        one.phase_rad.push_back(tones.phase_rad[i]);
+    }
+    const std::size_t per_mesh = static_cast<std::size_t>(phases),
+                      meshes = samples.size() / per_mesh;
+    const ToneTable table(one, 1, 0, static_cast<int>(meshes), phases);
+    const auto count = static_cast<std::size_t>(table.tones());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        for (std::size_t t = 0; t < count; ++t) {
+            const std::size_t mesh = t * meshes + i / per_mesh, phase = i % per_mesh * count + t;
+            samples[i] = plus_tone(samples[i], table.mesh_sine()[mesh], table.mesh_cosine()[mesh],
+                                   table.phase_sine()[phase], table.phase_cosine()[phase]);
+        }
     }
 }
 

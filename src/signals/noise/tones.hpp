@@ -12,6 +12,8 @@
 // fused multiply-adds per tone; a gearbox without tones has no extra cost.
 #pragma once
 
+#include <span>
+
 #include "machine/lanes.hpp"
 #include "signals/tile_signals.hpp"
 
@@ -45,5 +47,8 @@ class ToneTable {
     int tones_;
     machine::AlignedVector mesh_sine_, mesh_cosine_, phase_sine_, phase_cosine_;
 };
+
+// Adds the tones of one lane to its samples [k * P + p] of whole mesh periods, P = phases.
+void add_tones(const Tones& tones, int lane, int phases, std::span<double> samples);
 
 }  // namespace gearpod::signals

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace gearpod::signals {
 
@@ -27,8 +28,7 @@ gears::PlanetPlaces equally_spaced(int planets) {
 PathGrid::PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout)
     : PathGrid(window, equally_spaced(planets), phases, layout) {}
 
-PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
-                   const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor)
+PathGrid::PathGrid(const gears::PlanetPlaces& planets, int phases, const SpanLayout& layout)
     : planets_(static_cast<int>(planets.place.size())),
       phases_(phases),
       positions_(layout.carrier_meshes) {
@@ -36,50 +36,93 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
         throw std::invalid_argument(
             "path grid: planets, phases and meshes per carrier turn must be positive");
     }
-    // Carrier, planet and sensor angles are whole steps of a turn, so that the wrap is exact.
-    const bool mirrored = sense == CarrierSense::negative;
-    const long parts = sensor.angle_deg == 0.0 ? 1 : kSensorAngles;
-    const long sensor_part =
-        std::lround(sensor.angle_deg / 360.0 * kSensorAngles) * (mirrored ? -1 : 1);
-    const long places = planets.places * parts;
-    const long mesh = places * phases_;
-    const long turn = mesh * positions_;
-    const double step = 2.0 * std::numbers::pi / static_cast<double>(turn);
-    const bool turns = positions_ > 1;
-    const long sensor_angle = wrapped(turn / kSensorAngles * sensor_part, turn);
-    const auto position = [&](int n) {
-        const long place = planets.place[static_cast<std::size_t>(n)] * parts;
-        const long angle = turn / places * (mirrored ? (places - place) % places : place);
-        return wrapped(angle - sensor_angle, turn);
-    };
+}
+
+PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
+                   const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor)
+    : PathGrid(planets, phases, layout) {
+    const Turn turn = turn_of(planets, sense, sensor);
     // Planets a whole number of samples apart share their angles and window values.
-    std::vector<double> known(static_cast<std::size_t>(turn / places), kUnknown);
-    const auto weight = [&](long planet) {
-        const double angle = step * static_cast<double>(planet);
-        if (planet % places != 0) {
-            return window.weight(angle);
+    std::vector<double> known(static_cast<std::size_t>(turn.steps / turn.places), kUnknown);
+    const auto weight = [&](int, long planet) {
+        const double angle = turn.step_rad * static_cast<double>(planet);
+        if (planet % turn.places != 0) {
+            return sensor.gain * window.weight(angle);
         }
-        double& value = known[static_cast<std::size_t>(planet / places)];
+        double& value = known[static_cast<std::size_t>(planet / turn.places)];
         if (std::isnan(value)) {
             value = window.weight(angle);
         }
-        return value;
+        return sensor.gain * value;
     };
+    tabulate(planets, sense, turn, weight, [&](double angle) {
+        const double sine = sense == CarrierSense::negative ? -std::sin(angle) : std::sin(angle),
+                     cosine = std::cos(angle);
+        return sensor.tangential ? std::pair(cosine, -sine) : std::pair(sine, cosine);
+    });
+}
+
+PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int phases,
+                   const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor)
+    : PathGrid(planets, phases, layout) {
+    const Turn turn = turn_of(planets, sense, sensor);
+    const bool along_x = load.axis == RingLoad::Axis::x;
+    const int n = load.nodal_diameters;
+    const double share = n > 0 ? 1.0 / n : 0.0;
+    const auto weight = [&](int planet, long position) {
+        const double mirrored = turn.step_rad * static_cast<double>(position) - std::numbers::pi;
+        const double angle = n * (sense == CarrierSense::negative ? -mirrored : mirrored);
+        const double sine = std::sin(angle), cosine = std::cos(angle);
+        const double radial = sensor.tangential ? share * sine : cosine,
+                     tangential = sensor.tangential ? share * share * cosine : -share * sine;
+        const double psi = gears::planet_angle(planets, planet);
+        return sensor.gain * (along_x ? radial * std::cos(psi) - tangential * std::sin(psi)
+                                      : radial * std::sin(psi) + tangential * std::cos(psi));
+    };
+    tabulate(planets, sense, turn, weight,
+             [&](double) { return along_x ? std::pair(1.0, 0.0) : std::pair(0.0, 1.0); });
+}
+
+PathGrid::Turn PathGrid::turn_of(const gears::PlanetPlaces& planets, CarrierSense sense,
+                                 const SensorPlace& sensor) const {
+    // Carrier, planet and sensor angles are whole steps of a turn, so that the wrap is exact.
+    const long parts = sensor.angle_deg == 0.0 ? 1 : kSensorAngles;
+    const long sensor_part = std::lround(sensor.angle_deg / 360.0 * kSensorAngles) *
+                             (sense == CarrierSense::negative ? -1 : 1);
+    Turn turn;
+    turn.parts = parts;
+    turn.places = planets.places * parts;
+    turn.steps = turn.places * phases_ * positions_;
+    turn.step_rad = 2.0 * std::numbers::pi / static_cast<double>(turn.steps);
+    turn.sensor = wrapped(turn.steps / kSensorAngles * sensor_part, turn.steps);
+    return turn;
+}
+
+template <class Weight, class Direction>
+void PathGrid::tabulate(const gears::PlanetPlaces& planets, CarrierSense sense, const Turn& turn,
+                        Weight weight, Direction direction) {
+    const long places = turn.places, mesh = places * phases_;
+    const auto position = [&](int n) {
+        const long place = planets.place[static_cast<std::size_t>(n)] * turn.parts;
+        const bool mirrored = sense == CarrierSense::negative;
+        const long angle = turn.steps / places * (mirrored ? (places - place) % places : place);
+        return wrapped(angle - turn.sensor, turn.steps);
+    };
+    const bool turns = positions_ > 1;
     for (int p = 0; p < phases_; ++p) {
         for (int c = 0; c < positions_; ++c) {
             const long carrier = turns ? (static_cast<long>(c) * phases_ + p) * places : 0;
-            const double angle = step * static_cast<double>(wrapped(carrier - sensor_angle, turn));
-            const double sine = mirrored ? -std::sin(angle) : std::sin(angle),
-                         cosine = std::cos(angle);
-            sine_.push_back(sensor.tangential ? cosine : sine);
-            cosine_.push_back(sensor.tangential ? -sine : cosine);
+            const auto [sine, cosine] = direction(
+                turn.step_rad * static_cast<double>(wrapped(carrier - turn.sensor, turn.steps)));
+            sine_.push_back(sine);
+            cosine_.push_back(cosine);
             for (int n = 0; n < planets_; ++n) {
-                const long planet = (carrier + position(n)) % turn;
-                window_.push_back(sensor.gain * weight(planet));
+                window_.push_back(weight(n, (carrier + position(n)) % turn.steps));
             }
         }
         for (int n = 0; n < planets_; ++n) {
-            const long at_zero = ((turns ? static_cast<long>(p) * places : 0) + position(n)) % turn;
+            const long at_zero =
+                ((turns ? static_cast<long>(p) * places : 0) + position(n)) % turn.steps;
             const long half = positions_ / 2;
             const double odd = positions_ % 2 == 1 ? 0.5 : 0.0;
             fraction_.push_back(static_cast<double>(at_zero % mesh) / static_cast<double>(mesh) -

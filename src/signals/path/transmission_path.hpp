@@ -35,6 +35,21 @@ struct SensorPlace {
     double gain = 1.0;
 };
 
+// One axis of the load that planets put on an elastic ring with a mode of n nodal diameters. With
+// planet n's acceleration as the load at the angle d from the sensor, radial a_r and tangential
+// a_t, an inextensional mode (W. Soedel, Vibrations of Shells and Plates) has the modal loads
+//
+//     radial sensor       sum of  a_r cos(n d) - a_t sin(n d) / n
+//     tangential sensor   sum of (a_r sin(n d) + a_t cos(n d) / n) / n.
+//
+// Each sum is split into those of the accelerations along the carrier frame's x and y axes. A mode
+// without nodal diameters has radial load only.
+struct RingLoad {
+    enum class Axis { x, y };
+    int nodal_diameters = 0;
+    Axis axis = Axis::x;
+};
+
 // Part of the path that all gearboxes of a study share, tabulated at every sample of a carrier
 // turn. At mesh c = 0..M_c - 1 and phase p/P, theta = 2 pi (c + p/P) / M_c, or its negative where
 // the carrier turns in the negative sense. For a stationary carrier theta = 0 at all phases.
@@ -57,6 +72,9 @@ class PathGrid {
     PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
              const SpanLayout& layout, CarrierSense sense = CarrierSense::positive,
              const SensorPlace& sensor = {});
+    // Path to an elastic ring, whose weights take the place of the window.
+    PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int phases,
+             const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor);
     // Path of equally spaced planets.
     PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout);
 
@@ -75,6 +93,24 @@ class PathGrid {
     const int* centre() const { return centre_.data(); }
 
   private:
+    PathGrid(const gears::PlanetPlaces& planets, int phases, const SpanLayout& layout);
+
+    // A turn in whole steps, which planets, samples and the sensor's angle are multiples of.
+    struct Turn {
+        long parts = 0;   // per position of planets
+        long places = 0;  // per mesh period and phase
+        long steps = 0;
+        long sensor = 0;  // step at the sensor
+        double step_rad = 0.0;
+    };
+    Turn turn_of(const gears::PlanetPlaces& planets, CarrierSense sense,
+                 const SensorPlace& sensor) const;
+    // Fills the tables. weight(n, step): of planet n at x_n = step. direction(angle): sine and
+    // cosine at a carrier angle.
+    template <class Weight, class Direction>
+    void tabulate(const gears::PlanetPlaces& planets, CarrierSense sense, const Turn& turn,
+                  Weight weight, Direction direction);
+
     int planets_;
     int phases_;
     int positions_;

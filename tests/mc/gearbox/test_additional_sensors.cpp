@@ -1,37 +1,27 @@
 // Checks additional sensors of a run: signals, features, baselines and records of given length.
 #include <cmath>
 #include <random>
-#include <sstream>
 
 #include "analysis/statistics/distributions.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/summary/sensors.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/gearbox/small_runs.hpp"
 
 namespace test_additional_sensors {
 
 using namespace gearpod;
 using test::Folder;
+using test::kSmall;
 using test::program;
 
 namespace {
-
-const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
 std::string sensors(const std::string& list) {
     return " --set 'sensor.additional=[" + list + "]' ";
 }
 
 mc::Results run(const Folder& folder, const std::string& name, const std::string& options) {
-    const std::string path = folder.file(name);
-    const auto outcome =
-        program("run " + kSmall +
-                " --set ensemble.threshold_instances=20 --set ensemble.instances=20"
-                " --set fault.reduction=0.4 --set sensor.noise_levels=[0,1] --out " +
-                path + options);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return mc::read_results(path);
+    return test::run_small(folder, name, "--set sensor.noise_levels=[0,1] " + options);
 }
 
 // Values of a feature at one of the two noise levels.
@@ -133,33 +123,13 @@ TEST_CASE("Exported samples of an additional sensor have the features of the run
     REQUIRE(measured.code == 0);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
         INFO(name);
-        std::istringstream lines(measured.output);
-        double value = 0.0;
-        for (std::string line; std::getline(lines, line);) {
-            std::istringstream words(line);
-            std::string first;
-            double number = 0.0;
-            if (words >> first >> number && first == name) {
-                value = number;
-            }
-        }
         CHECK(at_level(named(results.variants[0].features, name), 1)[25] ==
-              Approx(value).epsilon(1e-5));
+              Approx(test::printed_value(measured, name)).epsilon(1e-5));
     }
 }
 
 TEST_CASE("Rows of additional sensors keep their bits over threads, parts and merging") {
-    const Folder folder;
-    const std::string side = sensors("{name=\"side\", angle_deg=77}");
-    const auto whole = test::bits(run(folder, "whole.h5", side));
-    CHECK(test::bits(run(folder, "threads.h5", side + "--set numerics.threads=3")) == whole);
-    run(folder, "1.h5", side + "--part 1/2");
-    run(folder, "2.h5", side + "--part 2/2");
-    const auto merged = program("merge --out " + folder.file("merged.h5") + " " +
-                                folder.file("1.h5") + " " + folder.file("2.h5"));
-    INFO(merged.output);
-    REQUIRE(merged.code == 0);
-    CHECK(test::bits(folder.file("merged.h5")) == whole);
+    test::check_equal_bits_over_parts(sensors("{name=\"side\", angle_deg=77}"));
 }
 
 // Two sensors with independent normal noise: a fault that shifts each by d standard deviations

@@ -8,17 +8,17 @@
 #include "mc/results/row_source.hpp"
 #include "mc/study/bearings.hpp"
 #include "mc/summary/other_fault.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/gearbox/small_runs.hpp"
 
 namespace test_bearings {
 
 using namespace gearpod;
 using test::Folder;
+using test::kSmall;
+using test::printed_value;
 using test::program;
 
 namespace {
-
-const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
 std::string inner_ring(const std::string& role) {
     return "--set 'sensor.bearings=[{fault=\"inner\", shaft=\"sun\", elements=9, "
@@ -43,20 +43,6 @@ std::vector<double> healthy(const mc::Results& results, const mc::FeatureResult&
     const auto rows = std::ranges::count(results.group, static_cast<int>(mc::Group::threshold)) *
                       static_cast<std::ptrdiff_t>(results.noise_levels.size());
     return {feature.values.begin(), feature.values.begin() + rows};
-}
-
-// Value of a feature in printed output.
-double value_of(const test::Outcome& outcome, const std::string& name) {
-    std::istringstream lines(outcome.output);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string first;
-        double number = 0.0;
-        if (words >> first >> number && first == name) {
-            return number;
-        }
-    }
-    return 0.0;
 }
 
 // Values of a column of a CSV file.
@@ -117,8 +103,8 @@ TEST_CASE("A bearing in the background is added to the sensor's signal") {
                                   " --sensor sensor_noise_1 --study " + kSmall);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "spectral_kurtosis"}) {
         INFO(name << "\n" << with.output << measured.output);
-        CHECK(value_of(with, name) != 0.0);
-        CHECK(value_of(with, name) == Approx(value_of(measured, name)).epsilon(1e-5));
+        CHECK(printed_value(with, name) != 0.0);
+        CHECK(printed_value(with, name) == Approx(printed_value(measured, name)).epsilon(1e-5));
     }
     simulate("quiet.csv", inner_ring("background") + "--set sensor.bearing_level=0");
     CHECK(test::bytes_of(folder.file("without.csv")) == test::bytes_of(folder.file("quiet.csv")));
@@ -186,17 +172,7 @@ TEST_CASE("Alarms of another fault are counted at the thresholds of the healthy 
 }
 
 TEST_CASE("Rows with another fault keep their bits over threads, parts and merging") {
-    const Folder folder;
-    const std::string fault = inner_ring("other_fault");
-    const auto whole = test::bits(run(folder, "whole.h5", fault));
-    CHECK(test::bits(run(folder, "threads.h5", fault + "--set numerics.threads=3")) == whole);
-    run(folder, "1.h5", fault + "--part 1/2");
-    run(folder, "2.h5", fault + "--part 2/2");
-    const auto merged = program("merge --out " + folder.file("merged.h5") + " " +
-                                folder.file("1.h5") + " " + folder.file("2.h5"));
-    INFO(merged.output);
-    REQUIRE(merged.code == 0);
-    CHECK(test::bits(folder.file("merged.h5")) == whole);
+    test::check_equal_bits_over_parts(inner_ring("other_fault"));
 }
 
 TEST_CASE("The signal of the other fault is exported on its own") {

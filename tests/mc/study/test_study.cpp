@@ -248,6 +248,7 @@ TEST_CASE("The resolved text contains every key that may be given") {
         "centre_distance _relief_um _crowning_um normal_module "
         "ring_to_sun_phase bore _rim_mm _web_mm outer error crack_law "
         "noise_density uncertain_inputs tones bearings additional background_Hz interval_h record_ "
+        "housing_modes response_Hz "
         "false_alarms_per_ interpolation_tolerance torque_fluctuation "
         "torque_noise until pin_ _factors python index_um quality");
     const std::vector<std::string> without_default{std::istream_iterator<std::string>(words), {}};

@@ -1,4 +1,4 @@
-#include "mc/study/reading/file_column.hpp"
+#include "mc/study/elements/file_column.hpp"
 
 #include <fmt/format.h>
 

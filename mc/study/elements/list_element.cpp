@@ -1,24 +1,28 @@
-#include "mc/study/reading/list_element.hpp"
+#include "mc/study/elements/list_element.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 
+#include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/elements/file_column.hpp"
 
 namespace gearpod::mc {
 
-ListElement::ListElement(const Value& table, std::string which, std::vector<std::string_view> names,
+ListElement::ListElement(const Value& table, std::string which, std::span<const TableField> fields,
                          std::string example, const RejectElement& reject)
     : table_(table), which_(std::move(which)), example_(std::move(example)), reject_(reject) {
     if (table.kind != Value::Kind::table) {
         spelled_ = false;
         reject_(fmt::format("{} must be a table, but is {}", which_, table.kind_name()), example_);
     }
+    std::vector<std::string_view> names;
+    std::ranges::transform(fields, std::back_inserter(names), &TableField::name);
     for (const Entry& entry : table.entries) {
         if (std::ranges::find(names, entry.name) == names.end()) {
             spelled_ = false;
@@ -46,18 +50,50 @@ double ListElement::number(std::string_view name, const Range& range,
     if (value == nullptr) {
         return otherwise.value_or(0.0);
     }
-    if (value->kind != Value::Kind::number && value->kind != Value::Kind::integer) {
-        reject(fmt::format("{} must be a number, but is {}", name, value->kind_name()), "");
-        return 0.0;
-    }
-    if (std::isfinite(value->number) && !computable(value->number)) {
-        reject(fmt::format("{}: {} {}", name, value->number, kNotComputable), "");
-    } else if (!std::isfinite(value->number) || !range.contains(value->number)) {
-        reject(
-            fmt::format("{} must be {} and finite, but is {}", name, range.text(), value->number),
-            "");
-    }
+    check_number(name, range, *value);
     return value->number;
+}
+
+void ListElement::check_number(std::string_view name, const Range& range,
+                               const Value& value) const {
+    if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
+        reject(fmt::format("{} must be a number, but is {}", name, value.kind_name()), "");
+    } else if (std::isfinite(value.number) && !computable(value.number)) {
+        reject(fmt::format("{}: {} {}", name, value.number, kNotComputable), "");
+    } else if (!std::isfinite(value.number) || !range.contains(value.number)) {
+        reject(fmt::format("{} must be {} and finite, but is {}", name, range.text(), value.number),
+               "");
+    }
+}
+
+std::vector<double> ListElement::numbers(std::string_view name, const Range& range) const {
+    const Value* value = find(name, false);
+    if (value == nullptr) {
+        return {};
+    }
+    Value column;
+    if (const auto source = file_column(*value)) {
+        try {
+            column = list_of(*source, value->position);
+        } catch (const SignalError& error) {
+            reject(fmt::format("{}: {}", name, error.what()),
+                   "name a CSV file and one of its columns");
+            return {};
+        }
+        value = &column;
+    }
+    if (value->kind != Value::Kind::array || value->elements.empty()) {
+        reject(fmt::format("{} must be a list of numbers, but is {}", name,
+                           value->kind == Value::Kind::array ? "empty" : value->kind_name()),
+               "write numbers in [brackets], or { file = \"F.csv\", column = \"NAME\" }");
+        return {};
+    }
+    std::vector<double> all;
+    for (const Value& element : value->elements) {
+        check_number(name, range, element);
+        all.push_back(element.number);
+    }
+    return all;
 }
 
 int ListElement::integer(std::string_view name, const Range& range) const {
@@ -115,11 +151,6 @@ std::string ListElement::word(std::string_view name) const {
 }
 
 std::optional<Member> ListElement::shaft() const {
-    static constexpr std::array kShafts{ChoiceName{"sun", static_cast<int>(Member::sun)},
-                                        ChoiceName{"carrier", static_cast<int>(Member::carrier)},
-                                        ChoiceName{"ring", static_cast<int>(Member::ring)},
-                                        ChoiceName{"pinion", static_cast<int>(Member::pinion)},
-                                        ChoiceName{"gear", static_cast<int>(Member::gear)}};
     const std::optional<int> found = choice("shaft", kShafts, true);
     return found ? std::optional(static_cast<Member>(*found)) : std::nullopt;
 }

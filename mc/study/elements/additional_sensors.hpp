@@ -2,16 +2,23 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "mc/study/reading/list_element.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Names in a table of the list.
-std::vector<std::string_view> sensor_fields();
+inline constexpr ChoiceName kDirections[] = {{"radial", 0}, {"tangential", 1}};
+inline constexpr TableField kSensorFields[] = {
+    {"name", TableField::Kind::text, true},
+    {.name = "angle_deg", .required = true},
+    {"direction", TableField::Kind::text, false, kDirections},
+    {"gain"},
+    {"noise"},
+    {"participation", TableField::Kind::numbers},
+    {"response_gain", TableField::Kind::numbers},
+    {"response_phase_deg", TableField::Kind::numbers}};
 // Problems name the sensor by its position in the list.
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject);

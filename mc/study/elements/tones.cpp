@@ -1,4 +1,4 @@
-#include "mc/study/reading/tones.hpp"
+#include "mc/study/elements/tones.hpp"
 
 #include <fmt/format.h>
 
@@ -6,15 +6,11 @@
 
 namespace gearpod::mc {
 
-std::vector<std::string_view> tone_fields() {
-    return {"frequency_Hz", "amplitude_m_s2", "shaft", "order"};
-}
-
 std::vector<Tone> read_tones(const Value& list, const RejectElement& reject) {
     constexpr Range kAbove0{.low = 0.0, .low_open = true};
     std::vector<Tone> tones;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
-        const ListElement element(list.elements[i], fmt::format("tone {}", i + 1), tone_fields(),
+        const ListElement element(list.elements[i], fmt::format("tone {}", i + 1), kToneFields,
                                   "write { frequency_Hz = 50, amplitude_m_s2 = 0.1 }", reject);
         Tone tone;
         if (element.has("shaft") || element.has("order")) {

@@ -1,7 +1,6 @@
 // Inline table in a list of a study file, such as { frequency_Hz = 50, amplitude_m_s2 = 0.1 }.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,14 +13,18 @@
 
 namespace gearpod::mc {
 
-// Called with a problem and a remedy.
-using RejectElement = std::function<void(std::string what, std::string remedy)>;
+// Shafts that may have a bearing in the housing.
+inline constexpr ChoiceName kShafts[] = {{"sun", static_cast<int>(Member::sun)},
+                                         {"carrier", static_cast<int>(Member::carrier)},
+                                         {"ring", static_cast<int>(Member::ring)},
+                                         {"pinion", static_cast<int>(Member::pinion)},
+                                         {"gear", static_cast<int>(Member::gear)}};
 
 // Reads the values of one table. Whatever is wrong is rejected, and the value is then 0 or empty.
 class ListElement {
   public:
     // `which` names the table in messages ("tone 2"). Unknown names are rejected.
-    ListElement(const Value& table, std::string which, std::vector<std::string_view> names,
+    ListElement(const Value& table, std::string which, std::span<const TableField> fields,
                 std::string example, const RejectElement& reject);
 
     bool has(std::string_view name) const { return table_.find(name) != nullptr; }
@@ -29,13 +32,14 @@ class ListElement {
     double number(std::string_view name, const Range& range,
                   std::optional<double> otherwise = {}) const;
     int integer(std::string_view name, const Range& range) const;
+    // List of numbers in a range, or a column of a file; empty if it is missing.
+    std::vector<double> numbers(std::string_view name, const Range& range) const;
     // Value of one of the choices; empty if it is missing, which is rejected where it is required.
     std::optional<int> choice(std::string_view name, std::span<const ChoiceName> choices,
                               bool required) const;
     // Required text of lower-case letters, digits and dashes; "" if it is rejected.
     std::string word(std::string_view name) const;
-    // Member named by "shaft", which is required: one whose shaft may have a bearing in the
-    // housing.
+    // Member named by "shaft", which is required: one of kShafts.
     std::optional<Member> shaft() const;
     // Rejects the table unless it has exactly one of two names. True if it has the first.
     bool first_of(std::string_view first, std::string_view second) const;
@@ -43,6 +47,8 @@ class ListElement {
     void reject(const std::string& what, const std::string& remedy) const;
 
   private:
+    // Rejects a value that is no finite number in the range.
+    void check_number(std::string_view name, const Range& range, const Value& value) const;
     // The entry of that name. Without it, the name is rejected where it is required.
     const Value* find(std::string_view name, bool required) const;
 

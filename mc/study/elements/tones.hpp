@@ -3,16 +3,17 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "mc/study/reading/list_element.hpp"
+#include "mc/study/elements/list_element.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Names in a table of the list.
-std::vector<std::string_view> tone_fields();
+inline constexpr TableField kToneFields[] = {{"frequency_Hz"},
+                                             {.name = "amplitude_m_s2", .required = true},
+                                             {"shaft", TableField::Kind::text, false, kShafts},
+                                             {"order"}};
 // Problems name the tone by its position in the list.
 std::vector<Tone> read_tones(const Value& list, const RejectElement& reject);
 

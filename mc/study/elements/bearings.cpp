@@ -1,8 +1,6 @@
-#include "mc/study/reading/bearings.hpp"
+#include "mc/study/elements/bearings.hpp"
 
 #include <fmt/format.h>
-
-#include <array>
 
 #include "mc/study/bearings.hpp"
 #include "mc/study/gears.hpp"
@@ -13,16 +11,10 @@ namespace {
 
 constexpr Range kAbove0{.low = 0.0, .low_open = true};
 
-constexpr std::array kFaults{ChoiceName{"outer", static_cast<int>(BearingFault::outer)},
-                             ChoiceName{"inner", static_cast<int>(BearingFault::inner)},
-                             ChoiceName{"roller", static_cast<int>(BearingFault::roller)},
-                             ChoiceName{"cage", static_cast<int>(BearingFault::cage)}};
-constexpr std::array kRoles{ChoiceName{"background", static_cast<int>(BearingRole::background)},
-                            ChoiceName{"other_fault", static_cast<int>(BearingRole::other_fault)}};
-
 Bearing read_bearing(const ListElement& element) {
     Bearing bearing;
-    bearing.fault = static_cast<BearingFault>(element.choice("fault", kFaults, true).value_or(0));
+    bearing.fault =
+        static_cast<BearingFault>(element.choice("fault", kBearingFaults, true).value_or(0));
     if (element.first_of("shaft", "shaft_Hz")) {
         bearing.shaft = element.shaft();
     } else if (element.has("shaft_Hz")) {
@@ -40,24 +32,18 @@ Bearing read_bearing(const ListElement& element) {
         element.reject("load_zone_deg has no effect: the load of this part is constant",
                        "remove it, or use fault = \"inner\" or \"roller\"");
     }
-    bearing.role = static_cast<BearingRole>(element.choice("role", kRoles, false).value_or(0));
+    bearing.role =
+        static_cast<BearingRole>(element.choice("role", kBearingRoles, false).value_or(0));
     return bearing;
 }
 
 }  // namespace
 
-std::vector<std::string_view> bearing_fields() {
-    return {"fault",          "shaft",          "shaft_Hz",
-            "elements",       "diameter_ratio", "contact_angle_deg",
-            "amplitude_m_s2", "resonance_Hz",   "damping",
-            "slip",           "load_zone_deg",  "role"};
-}
-
 std::vector<Bearing> read_bearings(const Value& list, const RejectElement& reject) {
     std::vector<Bearing> bearings;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
         bearings.push_back(read_bearing(ListElement(
-            list.elements[i], fmt::format("bearing {}", i + 1), bearing_fields(),
+            list.elements[i], fmt::format("bearing {}", i + 1), kBearingFields,
             "write { fault = \"outer\", shaft = \"sun\", elements = 9, diameter_ratio = 0.2, "
             "amplitude_m_s2 = 3, resonance_Hz = 2500 }",
             reject)));
@@ -69,7 +55,7 @@ std::string bearing_table(const Bearing& bearing) {
     return fmt::format(
         "{{ fault = \"{}\", {}, elements = {}, diameter_ratio = {}, contact_angle_deg = {}, "
         "amplitude_m_s2 = {}, resonance_Hz = {}, damping = {}, slip = {}, {}role = \"{}\" }}",
-        kFaults[static_cast<std::size_t>(bearing.fault)].text,
+        kBearingFaults[static_cast<std::size_t>(bearing.fault)].text,
         bearing.shaft ? fmt::format("shaft = \"{}\"", member_name(*bearing.shaft))
                       : fmt::format("shaft_Hz = {}", bearing.shaft_Hz),
         bearing.elements, bearing.diameter_ratio, bearing.contact_angle_deg, bearing.amplitude_m_s2,
@@ -77,7 +63,7 @@ std::string bearing_table(const Bearing& bearing) {
         load_turns_per_turn(bearing) > 0.0
             ? fmt::format("load_zone_deg = {}, ", bearing.load_zone_deg)
             : "",
-        kRoles[static_cast<std::size_t>(bearing.role)].text);
+        kBearingRoles[static_cast<std::size_t>(bearing.role)].text);
 }
 
 }  // namespace gearpod::mc

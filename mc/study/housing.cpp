@@ -1,0 +1,68 @@
+#include "mc/study/housing.hpp"
+
+#include <numbers>
+#include <set>
+
+namespace gearpod::mc {
+namespace {
+
+// Modes with these nodal diameters, or without any statement of them, at a sensor.
+std::vector<signals::NaturalMode> modes_at(const Study& study, std::size_t sensor,
+                                           std::optional<int> nodal_diameters, double factor) {
+    const Sensor& s = study.sensor;
+    std::vector<signals::NaturalMode> modes;
+    for (std::size_t k = 0; k < s.housing_modes.size(); ++k) {
+        const HousingMode& mode = s.housing_modes[k];
+        if (mode.nodal_diameters == nodal_diameters) {
+            const bool own = sensor > 0 && !s.additional[sensor - 1].participation.empty();
+            modes.push_back({factor * mode.frequency_Hz, mode.damping,
+                             own ? s.additional[sensor - 1].participation[k] : mode.participation});
+        }
+    }
+    return modes;
+}
+
+}  // namespace
+
+bool has_housing(const Study& study) {
+    return !study.sensor.housing_modes.empty() || !study.sensor.response_Hz.empty();
+}
+
+std::vector<int> ring_modes(const Study& study) {
+    std::set<int> numbers;
+    for (const HousingMode& mode : study.sensor.housing_modes) {
+        if (mode.nodal_diameters) {
+            numbers.insert(*mode.nodal_diameters);
+        }
+    }
+    return {numbers.begin(), numbers.end()};
+}
+
+signals::HousingResponse housing_response(const Study& study, std::size_t sensor,
+                                          double frequency_factor) {
+    const Sensor& s = study.sensor;
+    signals::HousingResponse response;
+    response.modes = modes_at(study, sensor, std::nullopt, frequency_factor);
+    if (s.response_Hz.empty()) {
+        return response;
+    }
+    signals::MeasuredResponse measured{s.response_Hz, s.response_gain, s.response_phase_rad};
+    if (sensor > 0 && !s.additional[sensor - 1].response_gain.empty()) {
+        const AdditionalSensor& own = s.additional[sensor - 1];
+        measured.gain = own.response_gain;
+        for (std::size_t i = 0; i < own.response_phase_deg.size(); ++i) {
+            measured.phase_rad[i] = own.response_phase_deg[i] * std::numbers::pi / 180.0;
+        }
+    }
+    response.measured = std::move(measured);
+    return response;
+}
+
+signals::HousingResponse ring_response(const Study& study, std::size_t sensor, int nodal_diameters,
+                                       double frequency_factor) {
+    return {.stiff_path = false,
+            .modes = modes_at(study, sensor, nodal_diameters, frequency_factor),
+            .measured = {}};
+}
+
+}  // namespace gearpod::mc

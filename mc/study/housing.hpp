@@ -1,0 +1,25 @@
+// Response of a study's housing to a sensor: natural modes, or a measured frequency response.
+#pragma once
+
+#include <vector>
+
+#include "mc/study/study.hpp"
+#include "signals/path/housing_response.hpp"
+
+namespace gearpod::mc {
+
+// True if the housing changes the vibration on its way to the sensors.
+bool has_housing(const Study& study);
+
+// Numbers of nodal diameters of the ring's modes, each once, ascending.
+std::vector<int> ring_modes(const Study& study);
+
+// Response to the first sensor for number 0, else to an additional one, with this factor on the
+// natural frequencies: to the vibration that reaches the sensor, or to the load of the planets on
+// the ring's modes with these nodal diameters.
+signals::HousingResponse housing_response(const Study& study, std::size_t sensor,
+                                          double frequency_factor);
+signals::HousingResponse ring_response(const Study& study, std::size_t sensor, int nodal_diameters,
+                                       double frequency_factor);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include "mc/study/bearings.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "signals/noise/low_pass_noise.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Rejects a shaft that the gearbox does not have, or that stands still.
+void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member shaft) {
+    const Study& study = draft.study;
+    const bool pair = study.gearbox.kind == GearboxKind::fixed_shaft,
+               of_pair = shaft == Member::pinion || shaft == Member::gear;
+    const std::string_view name = member_name(shaft);
+    if (draft.usable("gearbox.kind") && pair != of_pair) {
+        draft.reject(
+            key,
+            fmt::format("number {}: this kind of gearbox has no {} (gearbox.kind)", number, name),
+            pair ? "use \"pinion\" or \"gear\"" : "use \"sun\", \"ring\" or \"carrier\"");
+    } else if (!pair && draft.usable("operation.fixed") && shaft == study.operation.fixed) {
+        draft.reject(key,
+                     fmt::format("number {}: the {} stands still (operation.fixed)", number, name),
+                     "use another shaft");
+    }
+}
+
+// Checks that a list has one value for each of another key's values.
+void check_count(StudyDraft& draft, const char* key, const std::string& what, std::size_t count,
+                 std::size_t of, const char* other) {
+    if (count != of && draft.all_usable({key, other})) {
+        draft.reject(key, fmt::format("{}has {} values, but {} has {}", what, count, other, of),
+                     "give one for each");
+    }
+}
+
+void check_background(StudyDraft& draft) {
+    const Sensor& s = draft.study.sensor;
+    constexpr const char* kDensity = "sensor.background_density_m_s2_per_sqrt_Hz";
+    constexpr double kNarrowest = 1000.0, kMostPassed = 10.0;
+    if (s.background_Hz.empty() || !draft.all_usable({"sensor.background_Hz", kDensity})) {
+        return;
+    }
+    if (s.background_Hz.size() < 2) {
+        draft.reject("sensor.background_Hz", "has one frequency, but a spectrum needs two",
+                     "give the lowest and the highest");
+    } else if (s.background_density_m_s2_per_sqrt_Hz.size() != s.background_Hz.size()) {
+        check_count(draft, kDensity, "", s.background_density_m_s2_per_sqrt_Hz.size(),
+                    s.background_Hz.size(), "sensor.background_Hz");
+    } else if (draft.all_usable({"sensor.sampling_Hz", "sensor.low_pass_Hz"}) &&
+               s.background_Hz.back() - s.background_Hz.front() < s.sampling_Hz / kNarrowest) {
+        draft.reject("sensor.background_Hz",
+                     fmt::format("spans {:g} Hz, which is less than sampling_Hz / {:g} (the "
+                                 "resolution of the background)",
+                                 s.background_Hz.back() - s.background_Hz.front(), kNarrowest),
+                     "use a tone (sensor.tones)");
+    } else if (draft.usable("sensor.low_pass_Hz") &&
+               s.background_Hz.front() >= kMostPassed * s.low_pass_Hz) {
+        draft.reject("sensor.background_Hz",
+                     fmt::format("begins at {:g} Hz, where low_pass_Hz passes nothing",
+                                 s.background_Hz.front()),
+                     "remove the background");
+    }
+}
+
+void check_tones_and_bearings(StudyDraft& draft) {
+    const Sensor& s = draft.study.sensor;
+    for (std::size_t i = 0; i < s.tones.size() && draft.usable("sensor.tones"); ++i) {
+        if (s.tones[i].shaft) {
+            check_shaft(draft, "sensor.tones", i + 1, *s.tones[i].shaft);
+        } else if (draft.usable("sensor.sampling_Hz") &&
+                   s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
+            draft.reject("sensor.tones",
+                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
+                                     i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
+                         "lower its frequency or raise sampling_Hz");
+        }
+    }
+    for (std::size_t i = 0; i < s.bearings.size() && draft.usable("sensor.bearings"); ++i) {
+        if (s.bearings[i].shaft) {
+            check_shaft(draft, "sensor.bearings", i + 1, *s.bearings[i].shaft);
+        } else if (draft.usable("sensor.sampling_Hz") && s.sampling_Hz > 0.0 &&
+                   impulses_per_turn(s.bearings[i]) * s.bearings[i].shaft_Hz >=
+                       0.5 * s.sampling_Hz) {
+            draft.reject(
+                "sensor.bearings",
+                fmt::format("bearing {}: {:.4g} impulses per second are not below half of "
+                            "sampling_Hz, {} Hz",
+                            i + 1, impulses_per_turn(s.bearings[i]) * s.bearings[i].shaft_Hz,
+                            0.5 * s.sampling_Hz),
+                "lower shaft_Hz");
+        }
+    }
+    if (!s.additional.empty() && draft.study.ensemble.uses_importance_sampling() &&
+        draft.usable("ensemble.threshold_tilt")) {
+        draft.reject(
+            "sensor.additional",
+            "importance sampling (ensemble.threshold_tilt, or `misses`) tilts the noise of one "
+            "sensor only",
+            "remove them");
+    }
+    if (!s.bearings.empty() && draft.study.ensemble.threshold_records > 1 &&
+        draft.usable("ensemble.threshold_records")) {
+        draft.reject("ensemble.threshold_records",
+                     fmt::format("is {}, but all records of a gearbox would have the same impulses "
+                                 "(sensor.bearings)",
+                                 draft.study.ensemble.threshold_records),
+                     "use 1, or remove the bearings");
+    }
+}
+
+void check_housing(StudyDraft& draft) {
+    constexpr const char *kModes = "sensor.housing_modes", *kFrequencies = "sensor.response_Hz",
+                         *kAdditional = "sensor.additional";
+    const Sensor& s = draft.study.sensor;
+    for (std::size_t i = 0; i < s.housing_modes.size() && draft.usable(kModes); ++i) {
+        if (s.housing_modes[i].nodal_diameters && draft.usable("gearbox.kind") &&
+            draft.study.gearbox.kind == GearboxKind::fixed_shaft) {
+            draft.reject(kModes,
+                         fmt::format("mode {}: nodal_diameters are those of a ring, which this "
+                                     "kind of gearbox does not have (gearbox.kind)",
+                                     i + 1),
+                         "remove them");
+        }
+    }
+    if (!s.response_Hz.empty()) {
+        check_count(draft, "sensor.response_gain", "", s.response_gain.size(), s.response_Hz.size(),
+                    kFrequencies);
+        check_count(draft, "sensor.response_phase_deg", "", s.response_phase_rad.size(),
+                    s.response_Hz.size(), kFrequencies);
+    }
+    for (std::size_t i = 0; i < s.additional.size(); ++i) {
+        const AdditionalSensor& one = s.additional[i];
+        const auto check = [&](const char* field, std::size_t count, std::size_t of,
+                               const char* other) {
+            check_count(draft, kAdditional, fmt::format("sensor {}: {} ", i + 1, field), count, of,
+                        other);
+        };
+        if (!one.participation.empty()) {
+            check("participation", one.participation.size(), s.housing_modes.size(), kModes);
+        }
+        if (!one.response_gain.empty() || !one.response_phase_deg.empty()) {
+            check("response_gain", one.response_gain.size(), s.response_Hz.size(), kFrequencies);
+            check("response_phase_deg", one.response_phase_deg.size(), s.response_Hz.size(),
+                  kFrequencies);
+        }
+    }
+}
+
+}  // namespace
+
+void check_sampling(StudyDraft& draft) {
+    const Sensor& s = draft.study.sensor;
+    check_background(draft);
+    check_housing(draft);
+    check_tones_and_bearings(draft);
+    if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
+        s.sampling_Hz <= 0.0) {
+        return;
+    }
+    if (draft.all_usable({"sensor.low_pass_Hz"}) && s.low_pass_Hz >= 0.5 * s.sampling_Hz) {
+        draft.reject(
+            "sensor.low_pass_Hz",
+            fmt::format(
+                "{} Hz is not below half of sampling_Hz, {} Hz (higher frequencies would alias)",
+                s.low_pass_Hz, 0.5 * s.sampling_Hz),
+            "lower low_pass_Hz or raise sampling_Hz");
+    }
+    const double finest_Hz = s.low_pass_Hz / signals::LowPassNoise::kLeast;
+    if (s.noise_density_m_s2_per_sqrt_Hz && draft.all_usable({"sensor.low_pass_Hz"}) &&
+        s.sampling_Hz > finest_Hz) {
+        draft.reject("sensor.sampling_Hz",
+                     fmt::format("{} Hz is above {:g} Hz (after a low-pass of {} Hz, noise samples "
+                                 "are then too strongly correlated to be generated)",
+                                 s.sampling_Hz, finest_Hz, s.low_pass_Hz),
+                     "lower it, or give sensor.noise_m_s2 instead of the density");
+    }
+    if (draft.all_usable({"sensor.encoder_sampling_Hz"}) && s.encoder_sampling_Hz > s.sampling_Hz) {
+        draft.reject("sensor.encoder_sampling_Hz",
+                     fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders are read at some "
+                                 "of the sensor's samples)",
+                                 s.encoder_sampling_Hz, s.sampling_Hz),
+                     "lower encoder_sampling_Hz or raise sampling_Hz");
+    }
+}
+
+}  // namespace gearpod::mc

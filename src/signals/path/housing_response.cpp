@@ -1,0 +1,101 @@
+#include "signals/path/housing_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace gearpod::signals {
+
+using Complex = std::complex<double>;
+
+Complex HousingResponse::at(double f_Hz) const {
+    if (measured) {
+        return measured->at(f_Hz);
+    }
+    double real = stiff_path ? 1.0 : 0.0, imaginary = 0.0;
+    for (const NaturalMode& mode : modes) {
+        const double r = f_Hz / mode.frequency_Hz;
+        const double a = 1.0 - r * r, b = 2.0 * mode.damping * r;
+        const double share = mode.participation * r * r / (a * a + b * b);
+        real += share * a;
+        imaginary -= share * b;
+    }
+    return {real, imaginary};
+}
+
+Complex MeasuredResponse::at(double f_Hz) const {
+    if (!(f_Hz >= frequency_Hz.front() && f_Hz <= frequency_Hz.back())) {
+        return 0.0;
+    }
+    const auto above = std::ranges::upper_bound(frequency_Hz, f_Hz);
+    const auto i =
+        std::min(static_cast<std::size_t>(above - frequency_Hz.begin()), frequency_Hz.size() - 1);
+    const auto value = [&](std::size_t k) { return std::polar(gain[k], phase_rad[k]); };
+    if (i == 0) {
+        return value(0);  // a single frequency
+    }
+    const double part = (f_Hz - frequency_Hz[i - 1]) / (frequency_Hz[i] - frequency_Hz[i - 1]);
+    return (1.0 - part) * value(i - 1) + part * value(i);
+}
+
+namespace {
+
+int half_of(int samples) {
+    return samples % 2 == 0 ? samples / 2 : samples;
+}
+
+Complex product(Complex a, Complex b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+}  // namespace
+
+PeriodicResponse::PeriodicResponse(int samples)
+    : samples_(static_cast<std::size_t>(samples)),
+      forward_(half_of(samples)),
+      back_(half_of(samples), FourierTransform::Direction::back),
+      values_(static_cast<std::size_t>(half_of(samples))),
+      spectrum_(values_.size()),
+      sum_(values_.size() + 1) {
+    for (std::size_t k = 0; k <= half(); ++k) {
+        turn_.push_back(std::polar(
+            1.0, -std::numbers::pi * static_cast<double>(k) / static_cast<double>(half())));
+    }
+}
+
+void PeriodicResponse::add(std::span<const double> signal, double sampling_Hz,
+                           const HousingResponse& response) {
+    if (signal.size() != samples_) {
+        throw std::invalid_argument("periodic response: the signal has another length");
+    }
+    for (std::size_t i = 0; i < half(); ++i) {
+        values_[i] = {signal[2 * i % samples_], signal[(2 * i + 1) % samples_]};
+    }
+    forward_.transform(values_, spectrum_);
+    const double step_Hz = sampling_Hz / static_cast<double>(2 * half());
+    for (std::size_t k = 0; k <= half(); ++k) {
+        const Complex a = spectrum_[k % half()], b = std::conj(spectrum_[(half() - k) % half()]);
+        const Complex odd = product(turn_[k], Complex(0.0, -0.5) * (a - b));
+        const Complex y =
+            product(0.5 * (a + b) + odd, response.at(step_Hz * static_cast<double>(k)));
+        sum_[k] += k == 0 || k == half() ? Complex(y.real()) : y;
+    }
+}
+
+std::vector<double> PeriodicResponse::take() {
+    for (std::size_t k = 0; k < half(); ++k) {
+        const Complex a = sum_[k], b = std::conj(sum_[half() - k]);
+        spectrum_[k] = a + b + Complex(0.0, 1.0) * product(std::conj(turn_[k]), a - b);
+    }
+    back_.transform(spectrum_, values_);
+    std::vector<double> out(samples_);
+    const double scale = 0.5 / static_cast<double>(half());
+    for (std::size_t i = 0; i < samples_; ++i) {
+        out[i] = scale * (i % 2 == 0 ? values_[i / 2].real() : values_[i / 2].imag());
+    }
+    std::ranges::fill(sum_, 0.0);
+    return out;
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,70 @@
+// Response of the housing: what a sensor measures per unit of the acceleration that reaches it
+// along a stiff path.
+//
+// Natural modes of the housing add to that acceleration as for a structure whose base is moved (R.
+// W. Clough and J. Penzien, Dynamics of Structures):
+//
+//     H(f) = 1 + sum over the modes of phi r^2 / (1 - r^2 + 2 i zeta r),    r = f / f_k,
+//
+// with natural frequency f_k, damping ratio zeta and participation phi at the sensor. Slow
+// vibration is unchanged. At its natural frequency a mode adds phi / (2 zeta). One mode with phi =
+// 1 is a sensor on a resonant mounting. A measured frequency response is an alternative to modes.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "signals/spectra/fourier_transform.hpp"
+
+namespace gearpod::signals {
+
+struct NaturalMode {
+    double frequency_Hz = 0.0, damping = 0.0, participation = 0.0;
+};
+
+// Measured H: complex values between the given frequencies are interpolated linearly, and H is 0
+// outside of them.
+struct MeasuredResponse {
+    std::vector<double> frequency_Hz;  // ascending, not negative
+    std::vector<double> gain, phase_rad;
+
+    std::complex<double> at(double f_Hz) const;
+};
+
+struct HousingResponse {
+    bool stiff_path = true;  // the 1 in H
+    std::vector<NaturalMode> modes;
+    std::optional<MeasuredResponse> measured;  // in place of all else
+
+    // H at f Hz.
+    std::complex<double> at(double f_Hz) const;
+};
+
+// Steady response to periodic signals of a given number of samples, exact at their harmonics.
+// Harmonics above half the sampling rate, which the sensor's low-pass leaves small, respond at the
+// frequency to which sampling folds them. Holds scratch memory: use one object per thread.
+//
+// The samples are transformed as complex numbers, two in one (J. W. Cooley, P. A. W. Lewis and P.
+// D. Welch, J. Sound Vib. 12 (1970), 315-337). An odd number of samples is taken twice.
+class PeriodicResponse {
+  public:
+    explicit PeriodicResponse(int samples);
+
+    // Adds the response to a signal of this sampling rate. Throws std::invalid_argument if it has
+    // another length.
+    void add(std::span<const double> signal, double sampling_Hz, const HousingResponse& response);
+    // Returns the sum of the responses since the last call.
+    std::vector<double> take();
+
+  private:
+    std::size_t half() const { return values_.size(); }
+
+    std::size_t samples_;
+    FourierTransform forward_, back_;
+    std::vector<std::complex<double>> values_, spectrum_;  // half as many as samples
+    std::vector<std::complex<double>> turn_, sum_;         // from 0 to half the sampling rate
+};
+
+}  // namespace gearpod::signals

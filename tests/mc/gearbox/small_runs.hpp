@@ -1,0 +1,57 @@
+// Runs of a small study, and what several tests of its sensors compare.
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+
+inline const std::string kSmall =
+    std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
+
+// Results of `run` on that study with 20 healthy and 20 faulty gearboxes.
+inline mc::Results run_small(const Folder& folder, const std::string& name,
+                             const std::string& options) {
+    const std::string path = folder.file(name);
+    const auto outcome =
+        program("run " + kSmall +
+                " --set ensemble.threshold_instances=20 --set ensemble.instances=20"
+                " --set fault.reduction=0.4 --out " +
+                path + " " + options);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return mc::read_results(path);
+}
+
+// Value of a feature in printed output; 0 if it is not there.
+inline double printed_value(const Outcome& outcome, const std::string& name) {
+    std::istringstream lines(outcome.output);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string first;
+        double number = 0.0;
+        if (words >> first >> number && first == name) {
+            return number;
+        }
+    }
+    return 0.0;
+}
+
+// Checks that a run with these options has the same bits with other threads, and merged from parts.
+inline void check_equal_bits_over_parts(const std::string& options) {
+    const Folder folder;
+    const auto whole = bits(run_small(folder, "whole.h5", options));
+    CHECK(bits(run_small(folder, "threads.h5", options + " --set numerics.threads=3")) == whole);
+    run_small(folder, "1.h5", options + " --part 1/2");
+    run_small(folder, "2.h5", options + " --part 2/2");
+    const auto merged = program("merge --out " + folder.file("merged.h5") + " " +
+                                folder.file("1.h5") + " " + folder.file("2.h5"));
+    INFO(merged.output);
+    REQUIRE(merged.code == 0);
+    CHECK(bits(folder.file("merged.h5")) == whole);
+}
+
+}  // namespace gearpod::test
