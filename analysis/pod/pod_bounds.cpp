@@ -162,8 +162,10 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         const Eigen::Vector2d direction(1.0, u);
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
         // The step is limited where the likelihood is flat: the bound lies before the end of the
-        // range.
-        const double first_step = se > 0.0 ? std::min(0.5, 1.2 * profile.limit() * se) : 0.5;
+        // range. At a confidence of 1/2 the limit is 0.
+        constexpr double kShortest = 1e-6, kLongest = 0.5;
+        const double first_step =
+            se > 0.0 ? std::clamp(1.2 * profile.limit() * se, kShortest, kLongest) : kLongest;
         for (const double sign : {-1.0, 1.0}) {
             double& bound = sign < 0.0 ? point.lower : point.upper;
             const int side = sign < 0.0 ? -1 : 1;

@@ -52,6 +52,20 @@ TEST_CASE("pod reads hits and misses with units, and states the kind of bound") 
     CHECK_THAT(text.output, Catch::Contains("(mm)"));
 }
 
+TEST_CASE("pod ends at a confidence of one half, where bounds are the estimates") {
+    const std::string table = kTables + "inspections_hits.csv";
+    for (const std::string scale : {"", " --size-scale linear", " --specimen specimen"}) {
+        INFO(scale);
+        const Outcome outcome = shell("ulimit -t 60; " + std::string(GEARPOD_PROGRAM) + " pod " +
+                                      table + scale + " --confidence 0.5 --json -");
+        REQUIRE(outcome.code == 0);
+        const auto a90 = nlohmann::json::parse(outcome.output)["hit_miss"]["a90"];
+        const double size = a90["estimate"]["size"].get<double>();
+        CHECK(a90["upper"]["size"].get<double>() >= size * (1.0 - 1e-6));
+        CHECK(a90["lower"]["size"].get<double>() <= size * (1.0 + 1e-6));
+    }
+}
+
 TEST_CASE("pod takes several columns as repeats, a byte order mark and decimal commas") {
     const Folder folder;
     const auto plain = pod_of(kTables +
