@@ -63,7 +63,7 @@ def value_schema(key):
     if kind == "python":
         return {"type": "array", "items": {"anyOf": [{"type": "string"}, PYTHON_FEATURE]}}
     numbers = {"type": "array", "items": bounded({"type": "number"}, key)}
-    return numbers if key["ascending"] else {"anyOf": [numbers, FILE_COLUMN]}
+    return {"anyOf": [numbers, FILE_COLUMN]}
 
 
 def key_schema(key):

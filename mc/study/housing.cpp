@@ -46,13 +46,13 @@ signals::HousingResponse housing_response(const Study& study, std::size_t sensor
     if (s.response_Hz.empty()) {
         return response;
     }
-    signals::MeasuredResponse measured{s.response_Hz, s.response_gain, s.response_phase_rad};
-    if (sensor > 0 && !s.additional[sensor - 1].response_gain.empty()) {
-        const AdditionalSensor& own = s.additional[sensor - 1];
-        measured.gain = own.response_gain;
-        for (std::size_t i = 0; i < own.response_phase_deg.size(); ++i) {
-            measured.phase_rad[i] = own.response_phase_deg[i] * std::numbers::pi / 180.0;
-        }
+    const bool own = sensor > 0 && !s.additional[sensor - 1].response_gain.empty();
+    signals::MeasuredResponse measured{s.response_Hz, {}};
+    for (std::size_t i = 0; i < s.response_Hz.size(); ++i) {
+        measured.value.push_back(own ? std::polar(s.additional[sensor - 1].response_gain[i],
+                                                  s.additional[sensor - 1].response_phase_deg[i] *
+                                                      std::numbers::pi / 180.0)
+                                     : std::polar(s.response_gain[i], s.response_phase_rad[i]));
     }
     response.measured = std::move(measured);
     return response;

@@ -31,12 +31,11 @@ Complex MeasuredResponse::at(double f_Hz) const {
     const auto above = std::ranges::upper_bound(frequency_Hz, f_Hz);
     const auto i =
         std::min(static_cast<std::size_t>(above - frequency_Hz.begin()), frequency_Hz.size() - 1);
-    const auto value = [&](std::size_t k) { return std::polar(gain[k], phase_rad[k]); };
     if (i == 0) {
-        return value(0);  // a single frequency
+        return value[0];  // a single frequency
     }
     const double part = (f_Hz - frequency_Hz[i - 1]) / (frequency_Hz[i] - frequency_Hz[i - 1]);
-    return (1.0 - part) * value(i - 1) + part * value(i);
+    return (1.0 - part) * value[i - 1] + part * value[i];
 }
 
 namespace {

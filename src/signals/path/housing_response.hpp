@@ -28,7 +28,7 @@ struct NaturalMode {
 // outside of them.
 struct MeasuredResponse {
     std::vector<double> frequency_Hz;  // ascending, not negative
-    std::vector<double> gain, phase_rad;
+    std::vector<std::complex<double>> value;
 
     std::complex<double> at(double f_Hz) const;
 };

@@ -70,7 +70,7 @@ TEST_CASE("An impulse reproduces a measured response at its frequencies and in b
     constexpr int kSamples = 1200;
     constexpr double kSampling_Hz = 1200.0;
     HousingResponse response;
-    response.measured = {{50.0, 100.0, 300.0}, {0.5, 4.0, 1.0}, {0.0, -kPi / 2.0, kPi}};
+    response.measured = {{50.0, 100.0, 300.0}, {0.5, {0.0, -4.0}, -1.0}};
     std::vector<double> impulse(kSamples, 0.0);
     impulse[0] = 1.0;
     const auto out = response_to(impulse, kSampling_Hz, response);
@@ -98,8 +98,7 @@ TEST_CASE("A response of gain 1 and linear phase delays a signal") {
     response.measured = MeasuredResponse{};
     for (int k = 0; k < kSamples; ++k) {
         response.measured->frequency_Hz.push_back(k);
-        response.measured->gain.push_back(1.0);
-        response.measured->phase_rad.push_back(-2.0 * kPi * k * kDelay / kSamples);
+        response.measured->value.push_back(std::polar(1.0, -2.0 * kPi * k * kDelay / kSamples));
     }
     std::vector<double> signal(kSamples);
     for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -119,11 +118,11 @@ constexpr double kMeshSampling_Hz = 4000.0;
 
 // Planets in the sense of the carrier's turn, of which `loaded` has an acceleration of amplitude 1
 // at kOrder cycles per mesh period, at the angle `direction` from the radial direction.
-struct MovingLoad {
+struct TravellingLoad {
     std::vector<double> accel, te = std::vector<double>(kPhases);
     TileSignals tile{1, kPlanets, kPhases, {}, {}};
 
-    MovingLoad(int loaded, double direction) : accel(kPhases * 2 * kPlanets, 0.0) {
+    TravellingLoad(int loaded, double direction) : accel(kPhases * 2 * kPlanets, 0.0) {
         const double psi = 2.0 * kPi * loaded / kPlanets;
         for (int p = 0; p < kPhases; ++p) {
             const double value = std::cos(2.0 * kPi * kOrder * p / kPhases);
@@ -164,7 +163,7 @@ TEST_CASE("A load that moves along an elastic ring has the response of the analy
                     for (const bool tangential_sensor : {false, true}) {
                         const double beta = 40.0 * kPi / 180.0,
                                      way = sense == CarrierSense::positive ? 1.0 : -1.0;
-                        const MovingLoad load(planet, tangential_load ? kPi / 2.0 : 0.0);
+                        const TravellingLoad load(planet, tangential_load ? kPi / 2.0 : 0.0);
                         const auto out = load.response(
                             n, {.angle_deg = 40.0, .tangential = tangential_sensor, .gain = 2.0},
                             sense, ring);
