@@ -137,6 +137,10 @@ int run_program(int argc, char** argv) {
     add_study(*modes_app, modes.study);
     require_file_name(modes_app->add_option("--json", modes.json,
                                             "write JSON to a file, or - for standard output"));
+    require_file_name(
+        modes_app->add_option("--html", modes.html, "write a page with the Campbell diagram"));
+    require_file_name(modes_app->add_option(
+        "--figures", modes.figures, "write the figures of the page to a folder, as SVG and PNG"));
     add_force(*modes_app, modes.force);
     modes_app->callback([&] { code = modes_command(modes); });
 

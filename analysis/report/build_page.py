@@ -50,12 +50,13 @@ def page_html(data, figures=None):
     from blocks import Page
     from lives import lives_page
     from pages import (accuracy_page, comparison_page, inspection_page, lives_sweep_page,
-                       sweep_page)
+                       modes_page, sweep_page)
 
     page = Page(figures)
     command, make = {"accuracy": ("accuracy", accuracy_page.parts),
                      "inspection": ("pod", inspection_page.parts),
                      "comparison": ("compare", comparison_page.parts),
+                     "modes": ("modes", modes_page.parts),
                      "sweep": ("sweep", sweep_page.parts),
                      "lives-sweep": ("sweep", lives_sweep_page.parts),
                      "lives": ("lives", lives_page.parts)}.get(

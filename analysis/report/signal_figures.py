@@ -1,7 +1,7 @@
 """Figures of the signals of the two example gearboxes, and of the mesh stiffness."""
 
 from blocks import note, paragraph, table
-from charts import INK, NOISY, colour, dash, legend_above, panel, shade, to_svg
+from charts import INK, NOISY, colour, dash, legend_above, marker, panel, shade, to_svg
 from words import input_name, noise, number, quantity
 
 
@@ -177,6 +177,64 @@ def tooth_rms(report, page):
            "are counted from the first window.")
     return page.figure("RMS of each tooth's signal", charts, how,
                        table("RMS of each tooth's signal", head, rows))
+
+
+def _by_sensor(gearbox):
+    """Names of the sensors, and spectrum and RMS per tooth of each."""
+    return [("first", gearbox), *((one["name"], one) for one in gearbox["additional_sensors"])]
+
+
+def sensors(report, page):
+    """Order spectrum and RMS per tooth of every sensor; empty if there is only one."""
+    gearboxes = [g for g in report.data["examples"]["gearboxes"] if g.get("additional_sensors")]
+    level = report.data["examples"]["noise_level"]
+    charts, rows = [], []
+    for g in gearboxes:
+        figure, axes = panel(2.7)
+        largest = max(max(one["spectrum"]["whole"]["clean"]["amplitude"], default=0)
+                      for _, one in _by_sensor(g)) or 1
+        about = []
+        for i, (name, one) in enumerate(_by_sensor(g)):
+            lines = one["spectrum"]["whole"]["clean"]
+            orders = [f * g["mesh_period_s"] for f in lines["frequency_Hz"]]
+            axes.plot(orders, [max(v, 1e-7 * largest) for v in lines["amplitude"]],
+                      color=colour(i), linewidth=0.8, label=name)
+            top = max(range(len(orders)), key=lambda k: lines["amplitude"][k])
+            about.append(f"{name} {number(lines['amplitude'][top])} m/s² at {number(orders[top], 5)}")
+            values = one["tooth_rms"]["noisy"]
+            worst = max(range(len(values)), key=lambda k: values[k])
+            rows.append([_name(report, g), name, number(lines["amplitude"][top]),
+                         number(orders[top], 5), str(worst + 1),
+                         number(values[worst] / (_median(values) or 1), 4)])
+        axes.set_yscale("log")
+        axes.set_ylim(1e-4 * largest, 2 * largest)
+        axes.set_xlim(0, orders[-1])
+        axes.set_xlabel("Mesh orders")
+        axes.set_ylabel("Amplitude, m/s²")
+        axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
+        legend_above(axes)
+        charts.append(to_svg(figure, f"Order spectrum of every sensor, {_name(report, g)}",
+                             "Largest lines without noise, in mesh orders: " + "; ".join(about),
+                             page.names))
+    for g in gearboxes:
+        figure, axes = panel(2.7)
+        for i, (name, one) in enumerate(_by_sensor(g)):
+            values = one["tooth_rms"]["noisy"]
+            axes.plot(range(1, len(values) + 1), [v / (_median(values) or 1) for v in values],
+                      color=colour(i), marker=marker(i), markersize=3.4, linewidth=1, label=name)
+        axes.set_xlabel("Tooth of the monitored gear")
+        axes.set_ylabel("RMS over median")
+        axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
+        legend_above(axes)
+        charts.append(to_svg(figure, f"RMS of each tooth at every sensor, {_name(report, g)}",
+                             f"With {noise(level)}, over the median tooth", page.names))
+    how = (f"The same gearboxes at every sensor: order spectrum without noise, and RMS of each "
+           f"tooth with {noise(level)}. Between the mesh orders lie the sidebands of carrier and "
+           "planets.")
+    return page.figure("Sensors", charts, how, table(
+        "Largest line and worst tooth at every sensor",
+        ["gearbox", "sensor", "largest line, m/s²", "at mesh order", "worst tooth",
+         "RMS over median"], rows)) if gearboxes else ""
 
 
 def _median(values):

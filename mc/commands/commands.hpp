@@ -132,6 +132,7 @@ int stiffness_command(const StiffnessOptions& options);
 struct ModesOptions {
     StudyOptions study;
     std::string json;
+    std::string html, figures;  // page and folder of its figures; "": none
     bool force = false;  // replaces outputs of another kind
 };
 int modes_command(const ModesOptions& options);

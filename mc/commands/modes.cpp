@@ -2,41 +2,65 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <vector>
 
 #include "mc/commands/commands.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/library/natural_frequencies.hpp"
+#include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 // Relative difference below which frequencies are printed as one mode with a multiplicity.
 constexpr double kSameMode = 1e-6;
+// Campbell diagram: highest speed over the nominal one, number of speeds, mesh harmonics.
+constexpr double kHighestSpeed = 1.5;
+constexpr int kSpeeds = 61, kHarmonics = 5;
 
-}  // namespace
+double rpm(double rad_s) {
+    return rad_s * 30.0 / std::numbers::pi;
+}
 
-int modes_command(const ModesOptions& options) {
-    const bool writable = can_write({"--json", options.json}, {{"the study", options.study.path}},
-                                    {json_output(), options.force});
-    const auto study = load_study(options.study);
-    if (!study || !writable) {
-        return kBadInput;
-    }
-    std::vector<double> frequencies;
-    try {
-        frequencies = natural_frequencies_Hz(*study);
-    } catch (const SceneError& error) {
-        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
-        return kBadInput;
-    }
+struct Modes {
+    std::vector<double> frequencies_Hz;
+    std::vector<SpeedFrequencies> speeds;
+    std::vector<CriticalSpeed> critical;
+};
 
-    if (!options.json.empty()) {
-        const nlohmann::json json{{"frequencies_Hz", frequencies}};
-        return write_text_to(options.json, json_text(json, 2) + "\n") ? kDone : kBadInput;
+nlohmann::json json_of(const Study& study, const Modes& modes) {
+    nlohmann::json json{{"kind", "modes"},
+                        {"title", study.title},
+                        {"frequencies_Hz", modes.frequencies_Hz},
+                        {"campbell", nullptr}};
+    if (modes.speeds.empty()) {
+        return json;
     }
+    nlohmann::json campbell{{"member", member_name(speed_member(study))},
+                            {"nominal_rpm", rpm(modes.speeds.back().speed_rad_s) / kHighestSpeed},
+                            {"harmonics", kHarmonics},
+                            {"speeds", nlohmann::json::array()},
+                            {"critical_speeds", nlohmann::json::array()}};
+    for (const SpeedFrequencies& at : modes.speeds) {
+        campbell["speeds"].push_back({{"rpm", rpm(at.speed_rad_s)},
+                                      {"mesh_Hz", at.mesh_Hz},
+                                      {"frequencies_Hz", at.frequencies_Hz}});
+    }
+    for (const CriticalSpeed& one : modes.critical) {
+        campbell["critical_speeds"].push_back({{"rpm", rpm(one.speed_rad_s)},
+                                               {"harmonic", one.harmonic},
+                                               {"frequency_Hz", one.frequency_Hz},
+                                               {"modes", one.modes}});
+    }
+    json["campbell"] = std::move(campbell);
+    return json;
+}
+
+void print_frequencies(const std::vector<double>& frequencies) {
     fmt::print("natural frequencies at mean mesh stiffness, {} degrees of freedom\n",
                frequencies.size());
     fmt::print("{:>12}  {}\n", "Hz", "multiplicity");
@@ -48,6 +72,67 @@ int modes_command(const ModesOptions& options) {
         }
         fmt::print("{:>12.1f}  {}\n", frequencies[i], end - i);
         i = end;
+    }
+}
+
+void print_critical_speeds(const Study& study, const Modes& modes) {
+    if (modes.speeds.empty()) {
+        return;
+    }
+    const double nominal_rpm = rpm(modes.speeds.back().speed_rad_s) / kHighestSpeed;
+    fmt::print(
+        "\nspeeds of the {} at which mesh harmonics 1 to {} meet a natural frequency, up to "
+        "{:g} times\nthe nominal {:.5g} rpm{}\n",
+        member_name(speed_member(study)), kHarmonics, kHighestSpeed, nominal_rpm,
+        modes.critical.empty() ? ": none" : "");
+    if (!modes.critical.empty()) {
+        fmt::print("{:>12}  {:>10}  {:>8}  {:>10}  {}\n", "rpm", "of nominal", "harmonic", "Hz",
+                   "multiplicity");
+    }
+    for (const CriticalSpeed& one : modes.critical) {
+        fmt::print("{:>12.5g}  {:>10.3f}  {:>8}  {:>10.1f}  {}\n", rpm(one.speed_rad_s),
+                   rpm(one.speed_rad_s) / nominal_rpm, one.harmonic, one.frequency_Hz, one.modes);
+    }
+}
+
+}  // namespace
+
+int modes_command(const ModesOptions& options) {
+    std::vector<FileRole> others{{"the study", options.study.path}};
+    const bool json_good =
+        can_write({"--json", options.json}, others, {json_output(), options.force});
+    others.push_back({"--json", options.json});
+    const bool writable =
+        can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
+    const auto study = load_study(options.study);
+    if (!study || !writable) {
+        return kBadInput;
+    }
+    Modes modes;
+    try {
+        modes.frequencies_Hz = natural_frequencies_Hz(*study);
+        modes.speeds = frequencies_over_speed(*study, kHighestSpeed, kSpeeds);
+    } catch (const SceneError& error) {
+        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+        return kBadInput;
+    }
+    modes.critical = critical_speeds(modes.speeds, kHarmonics);
+    const nlohmann::json json = json_of(*study, modes);
+    if (!options.html.empty() || !options.figures.empty()) {
+        write_report_page(json.dump(), options.html, options.figures);
+    }
+    if (!options.json.empty()) {
+        if (!write_text_to(options.json, json_text(json, 2) + "\n")) {
+            return kBadInput;
+        }
+        if (options.json == "-") {
+            return kDone;
+        }
+    }
+    print_frequencies(modes.frequencies_Hz);
+    print_critical_speeds(*study, modes);
+    if (!options.html.empty()) {
+        fmt::print("\npage: {}\n", options.html);
     }
     return kDone;
 }

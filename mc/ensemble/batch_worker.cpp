@@ -104,9 +104,7 @@ std::vector<double> BatchWorker::variants_of(const Realization& record,
     };
     for (std::size_t s = 0; s < additional_.size(); ++s) {
         SensorSignals own = signals_of_sensor(signals, s, study.sensor.additional[s].noise);
-        own.record.baseline = own.baseline.data();
-        own.record.baselines = own.baseline.size();
-        add(additional_[s].compute(own.record, at_sensor(study, record, s + 1)));
+        add(additional_[s].compute(own.linked(), at_sensor(study, record, s + 1)));
     }
     if (has_bearings(study, BearingRole::other_fault)) {
         if (record.id.group == Group::threshold) {

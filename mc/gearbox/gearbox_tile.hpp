@@ -122,6 +122,13 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths&
 struct SensorSignals {
     LaneSignals record;
     std::vector<LaneSignals> baseline;
+
+    // Lets the record refer to its baselines, which must not move afterwards.
+    const LaneSignals& linked() {
+        record.baseline = baseline.data();
+        record.baselines = baseline.size();
+        return record;
+    }
 };
 // `noise`: factor on the noise of the first sensor. The record does not refer to its baselines.
 SensorSignals signals_of_sensor(const LaneSignals& all, std::size_t sensor, double noise);

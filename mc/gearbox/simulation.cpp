@@ -105,9 +105,7 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
         const Realization own = at_sensor(scene.study(), realization, s + 1);
         SensorSignals signals = signals_of_sensor(
             lane_signals(scene, path, tile, 0, own_features.meshes()), s, additional[s].noise);
-        signals.record.baseline = signals.baseline.data();
-        signals.record.baselines = signals.baseline.size();
-        own_features.compute(signals.record, own);
+        own_features.compute(signals.linked(), own);
         add_sensor(scene, own, signals_of_sensor(all, s, additional[s].noise).record, own_features,
                    kSensorVariant + additional[s].name, rows, out);
     }

@@ -1,12 +1,18 @@
 #include "mc/library/natural_frequencies.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <variant>
 
 #include "dynamics/gearbox_matrices.hpp"
+#include "dynamics/rotating_modes.hpp"
 #include "mc/numerics/choice.hpp"
 #include "mc/scene/body.hpp"
+#include "mc/scene/drivetrain.hpp"
 #include "mc/scene/meshes.hpp"
 #include "mc/scene/scene.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -39,14 +45,81 @@ bool has_masses(const Study& study) {
 
 }  // namespace
 
-std::vector<double> natural_frequencies_Hz(const Study& study) {
+namespace {
+
+void check_masses(const Study& study) {
     if (!has_masses(study)) {
         throw SceneError("gearbox", "masses or inertias are missing, but modes need them",
                          "add them to [gearbox]");
     }
+}
+
+}  // namespace
+
+std::vector<double> natural_frequencies_Hz(const Study& study) {
+    check_masses(study);
     const auto inputs = body_inputs(study, nominal_inputs(study));
     return dynamics::natural_frequencies_Hz(
         dynamics::assemble(layout_at_rest(study), inputs, mean_pairs(study)));
+}
+
+std::vector<SpeedFrequencies> frequencies_over_speed(const Study& study, double highest,
+                                                     int points) {
+    check_masses(study);
+    std::vector<SpeedFrequencies> speeds;
+    if (!has_gears(study)) {
+        return speeds;
+    }
+    const auto drivetrain = make_drivetrain(study);
+    const dynamics::GearboxLayout layout = gearbox_layout(study);
+    const std::vector<double> pairs = mean_pairs(study);
+    const InstanceInputs nominal = nominal_inputs(study);
+    for (int i = 0; i < points; ++i) {
+        InstanceInputs inputs = nominal;
+        inputs.speed_rad_s *= highest * i / (points - 1);
+        SpeedFrequencies& at = speeds.emplace_back();
+        at.speed_rad_s = inputs.speed_rad_s;
+        at.mesh_Hz = std::abs(drivetrain->mesh_frequency_rad_s(inputs.speed_rad_s)) /
+                     (2.0 * std::numbers::pi);
+        at.frequencies_Hz = dynamics::rotating_frequencies_Hz(
+            dynamics::assemble(layout, gearbox_inputs(study, *drivetrain, inputs), pairs));
+    }
+    return speeds;
+}
+
+std::vector<CriticalSpeed> critical_speeds(const std::vector<SpeedFrequencies>& speeds,
+                                           int harmonics) {
+    constexpr double kSame = 1e-6;
+    std::vector<CriticalSpeed> all;
+    for (int harmonic = 1; harmonic <= harmonics; ++harmonic) {
+        const auto above = [&](const SpeedFrequencies& at, std::size_t mode) {
+            return harmonic * at.mesh_Hz - at.frequencies_Hz[mode];
+        };
+        for (std::size_t i = 1; i < speeds.size(); ++i) {
+            const SpeedFrequencies &a = speeds[i - 1], &b = speeds[i];
+            for (std::size_t mode = 0; mode < a.frequencies_Hz.size(); ++mode) {
+                const double before = above(a, mode), after = above(b, mode);
+                if (!(before < 0.0) || after < 0.0) {
+                    continue;
+                }
+                const double share = before / (before - after);
+                const CriticalSpeed one{
+                    std::lerp(a.speed_rad_s, b.speed_rad_s, share),
+                    std::lerp(a.frequencies_Hz[mode], b.frequencies_Hz[mode], share), harmonic, 1};
+                if (!all.empty() && all.back().harmonic == harmonic &&
+                    std::abs(all.back().frequency_Hz - one.frequency_Hz) <=
+                        kSame * one.frequency_Hz) {
+                    ++all.back().modes;
+                } else {
+                    all.push_back(one);
+                }
+            }
+        }
+    }
+    std::ranges::sort(all, [](const CriticalSpeed& a, const CriticalSpeed& b) {
+        return std::abs(a.speed_rad_s) < std::abs(b.speed_rad_s);
+    });
+    return all;
 }
 
 }  // namespace gearpod::mc

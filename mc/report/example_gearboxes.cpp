@@ -14,6 +14,7 @@
 #include "mc/numerics/study_scene.hpp"
 #include "mc/report/thinning.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/scene/stiffness_curves.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "signals/noise/sensor_noise.hpp"
@@ -219,7 +220,10 @@ class Examples {
                                         {"value", std::isfinite(value) ? Json(value) : Json()}});
         }
         if (!gearbox_signals.folded.empty()) {
-            add_sensor(tile, period_s, levels[level_].tooth_rms, json);
+            const Signals signals = record_of(tile.realizations[0], features_, whole_signals(tile));
+            add_sensor(signals, json);
+            json.update(sensor_json(signals, features_, levels[level_].tooth_rms, period_s));
+            json["additional_sensors"] = additional_sensors(tile, period_s);
         }
         return json;
     }
@@ -227,38 +231,81 @@ class Examples {
     double noise_level() const { return frame_.noise_levels[level_]; }
 
   private:
-    void add_sensor(const GearboxTile& tile, double period_s, const std::vector<double>& noisy_rms,
-                    Json& json) {
-        const Realization& realization = tile.realizations[0];
-        signals::SpanLayout layout = scene_.span();
-        const int samples = scene_.samples_per_mesh();
-        const bool cut = features_.record().turns > 0;
-        const LaneSignals record =
-            drawn_record(scene_,
-                         lane_signals(scene_, path_, tile, 0,
-                                      cut ? scene_.signal_meshes() : scene_.span_meshes()),
-                         realization);
-        layout.ring_teeth = cut ? record.turns : layout.ring_teeth;
-        const std::vector<double>& clean = record.sensor;
-        auto noisy = clean;
-        add_noise(
-            sample_noise(scene_, realization, clean, features_.noise().sensor, layout.ring_teeth),
-            noise_level() * realization.inputs.noise_m_s2, noisy);
-        // A turn from tooth 0 on.
-        const int before = record.first_mesh % layout.planet_teeth;
-        const std::size_t first = static_cast<std::size_t>(
-                              before > 0 ? (layout.planet_teeth - before) * samples : 0),
-                          turn = static_cast<std::size_t>(layout.planet_teeth * samples);
-        json["sensor"] = {{"clean", time_json({clean.data() + first, turn}, samples)},
-                          {"noisy", time_json({noisy.data() + first, turn}, samples)}};
-        json["spectrum"] =
-            spectrum_json(clean, noisy, static_cast<std::size_t>(layout.meshes()), period_s);
+    // Samples of a record, without and with noise at the page's level.
+    struct Signals {
+        LaneSignals record;
+        std::vector<double> noisy;
+        signals::SpanLayout layout;
+    };
+
+    // Signals of all sensors from which records are taken.
+    LaneSignals whole_signals(const GearboxTile& tile) const {
+        return lane_signals(
+            scene_, path_, tile, 0,
+            has_record_length(scene_.study()) ? scene_.signal_meshes() : scene_.span_meshes());
+    }
+
+    Signals record_of(const Realization& realization, const RealizationFeatures& features,
+                      LaneSignals whole) const {
+        Signals signals{drawn_record(scene_, std::move(whole), realization), {}, scene_.span()};
+        if (signals.record.turns > 0) {
+            signals.layout.ring_teeth = signals.record.turns;
+        }
+        signals.noisy = signals.record.sensor;
+        add_noise(sample_noise(scene_, realization, signals.record.sensor, features.noise().sensor,
+                               signals.layout.ring_teeth),
+                  noise_level() * realization.inputs.noise_m_s2, signals.noisy);
+        return signals;
+    }
+
+    // A turn from tooth 0 on.
+    void add_sensor(const Signals& signals, Json& json) const {
+        const int samples = scene_.samples_per_mesh(), teeth = signals.layout.planet_teeth;
+        const int before = signals.record.first_mesh % teeth;
+        const std::size_t first =
+                              static_cast<std::size_t>(before > 0 ? (teeth - before) * samples : 0),
+                          turn = static_cast<std::size_t>(teeth * samples);
+        json["sensor"] = {
+            {"clean", time_json({signals.record.sensor.data() + first, turn}, samples)},
+            {"noisy", time_json({signals.noisy.data() + first, turn}, samples)}};
+    }
+
+    // Spectrum and RMS of each tooth of a sensor's record, whose features were computed last.
+    Json sensor_json(const Signals& signals, const RealizationFeatures& features,
+                     const std::vector<double>& noisy_rms, double period_s) const {
         std::vector<double> clean_rms(noisy_rms.size());
-        signals::Windowing windowing(layout, samples, scene_.study().features.tukey_taper);
-        windowing.load(features_.record().folded);
+        signals::Windowing windowing(signals.layout, scene_.samples_per_mesh(),
+                                     scene_.study().features.tukey_taper);
+        windowing.load(features.record().folded);
         windowing.search(0.0, clean_rms);
-        rotate_to_first_tooth(features_.record(), 1, clean_rms);
-        json["tooth_rms"] = {{"clean", clean_rms}, {"noisy", noisy_rms}};
+        rotate_to_first_tooth(features.record(), 1, clean_rms);
+        return {{"spectrum",
+                 spectrum_json(signals.record.sensor, signals.noisy,
+                               static_cast<std::size_t>(signals.layout.meshes()), period_s)},
+                {"tooth_rms", {{"clean", clean_rms}, {"noisy", noisy_rms}}}};
+    }
+
+    Json additional_sensors(const GearboxTile& tile, double period_s) const {
+        Json all = Json::array();
+        const std::vector<AdditionalSensor>& sensors = scene_.study().sensor.additional;
+        for (std::size_t s = 0; s < sensors.size(); ++s) {
+            const HealthyReference healthy = healthy_reference(scene_, path_, s + 1);
+            RealizationFeatures features(scene_, &healthy, false);
+            const Realization own = at_sensor(scene_.study(), tile.realizations[0], s + 1);
+            const auto signals_over = [&](const LaneSignals& lane) {
+                return signals_of_sensor(lane, s, sensors[s].noise);
+            };
+            SensorSignals record =
+                signals_over(lane_signals(scene_, path_, tile, 0, features.meshes()));
+            std::vector<LevelSignals> levels;
+            features.compute(record.linked(), own, &levels);
+            Json json =
+                sensor_json(record_of(own, features, signals_over(whole_signals(tile)).record),
+                            features, levels[level_].tooth_rms, period_s);
+            json["name"] = sensors[s].name;
+            all.push_back(std::move(json));
+        }
+        return all;
     }
 
     const Scene& scene_;

@@ -13,7 +13,11 @@ struct GearSet {
     mc::PlanetaryDatasheet data;
     // Number of tooth pairs of a gear pair in contact.
     int tooth_pairs = 2;
+    // Reason why a crack through half of the root is not detected; "" if it is.
+    std::string missed = {};
 };
+
+inline const std::string kUnloaded = "its teeth are nearly unloaded";
 
 inline mc::PlanetaryDatasheet teeth(int sun, int planet, int ring, int planets, double module_mm) {
     mc::PlanetaryDatasheet data;
@@ -95,24 +99,29 @@ inline std::vector<GearSet> test_rigs() {
     mc::PlanetaryDatasheet measured = with_input(teeth(62, 17, 96, 3, 14), "sun", 100, 152.9);
     measured.planet_shift = 0.2;
     measured.ring_shift = -0.5;
-    return {// Liang (2016), table 4.1; the power of 429 N m.
-            {"Liang's rig", with_input(teeth(19, 31, 81, 4, 3.175), "sun", 2.097, 46.68)},
-            // Source: Seoul National University, tooth numbers of its annotated data set; the rest
-            // chosen (studies/snu-rig.toml).
-            {"SNU rig", with_input(working(wide(teeth(31, 31, 95, 3, 1), 0, 20), 0.27, 31.5), "sun",
-                                   1.02, 975.5)},
-            // Source: Yang (2022), tables 1 and 2; test rig.
-            {"Yang's gearbox", with_input(wide(teeth(28, 34, 96, 4, 2), 0, 18), "sun", 6.28, 1500)},
-            {"Yang's rig", with_input(wide(teeth(32, 40, 112, 3, 2), 0, 18), "sun", 2.51, 600)},
-            // Source: Park (2016).
-            {"Park's wind turbine", with_input(teeth(16, 26, 68, 3, 14), "carrier", 565, 30)},
-            // Source: SpectraQuest's Drivetrain Diagnostics Simulator; module and load chosen.
-            {"SpectraQuest DDS", with_input(wide(teeth(28, 36, 100, 4, 1), 0, 20), "sun", 2, 1800)},
-            // Inputs of earlier bug reports.
-            {"20/28/76", with_input(wide(teeth(20, 28, 76, 3, 2), 0, 20), "sun", 0.9, 288)},
-            {"23/29/81", with_input(teeth(23, 29, 81, 3, 3), "sun", 12.6, 200)},
-            {"24/20/64", with_input(teeth(24, 20, 64, 4, 3), "sun", 16.8, 200)},
-            {"62/17/96, shifts of planet and ring", measured}};
+    return {
+        // Liang (2016), table 4.1; the power of 429 N m.
+        {"Liang's rig", with_input(teeth(19, 31, 81, 4, 3.175), "sun", 2.097, 46.68), 2,
+         "stiff roller bearings leave some of its four planets unloaded"},
+        // Source: Seoul National University, tooth numbers of its annotated data set; the rest
+        // chosen (studies/snu-rig.toml).
+        {"SNU rig",
+         with_input(working(wide(teeth(31, 31, 95, 3, 1), 0, 20), 0.27, 31.5), "sun", 1.02, 975.5),
+         2, kUnloaded},
+        // Source: Yang (2022), tables 1 and 2; test rig.
+        {"Yang's gearbox", with_input(wide(teeth(28, 34, 96, 4, 2), 0, 18), "sun", 6.28, 1500), 2,
+         kUnloaded},
+        {"Yang's rig", with_input(wide(teeth(32, 40, 112, 3, 2), 0, 18), "sun", 2.51, 600)},
+        // Source: Park (2016).
+        {"Park's wind turbine", with_input(teeth(16, 26, 68, 3, 14), "carrier", 565, 30)},
+        // Source: SpectraQuest's Drivetrain Diagnostics Simulator; module and load chosen.
+        {"SpectraQuest DDS", with_input(wide(teeth(28, 36, 100, 4, 1), 0, 20), "sun", 2, 1800), 2,
+         kUnloaded},
+        // Inputs of earlier bug reports.
+        {"20/28/76", with_input(wide(teeth(20, 28, 76, 3, 2), 0, 20), "sun", 0.9, 288)},
+        {"23/29/81", with_input(teeth(23, 29, 81, 3, 3), "sun", 12.6, 200)},
+        {"24/20/64", with_input(teeth(24, 20, 64, 4, 3), "sun", 16.8, 200)},
+        {"62/17/96, shifts of planet and ring", measured, 2, kUnloaded}};
 }
 
 inline std::vector<GearSet> gear_sets() {
