@@ -57,7 +57,7 @@ PythonFeatures::PythonFeatures(const Scene& scene,
         for (const PythonFeature& one : scene.study().features.python) {
             if (one.feature == feature) {
                 used_.push_back(one);
-                PythonWorker::of_thread().require(one.file, one.sha256);  // starts Python early
+                PythonWorker::of_thread().require(one.file, one.hashes);  // starts Python early
             }
         }
     }
@@ -101,7 +101,7 @@ std::vector<double> PythonFeatures::compute(const std::string& work) {
     PythonWorker& worker = PythonWorker::of_thread();
     nlohmann::json functions = nlohmann::json::array();
     for (const PythonFeature& one : used_) {
-        worker.require(one.file, one.sha256);
+        worker.require(one.file, one.hashes);
         functions.push_back({one.file, std::string(one.feature->name)});
     }
     nlohmann::json reply;

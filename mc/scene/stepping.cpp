@@ -12,6 +12,7 @@
 #include "mc/scene/body.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene_error.hpp"
+#include "signals/spectra/smooth_length.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -20,22 +21,6 @@ using std::numbers::pi;
 
 constexpr int kMostSamples = 20'000;  // per mesh period; a span of thousands of them fits in memory
 constexpr int kFewestSamples = 4;
-
-// Smallest number >= least whose only prime factors are 2, 3 and 5, so that Fourier transforms of a
-// whole planet turn stay fast.
-int round_up_to_smooth(int least) {
-    for (int n = std::max(least, 1);; ++n) {
-        int rest = n;
-        for (const int prime : {2, 3, 5}) {
-            while (rest % prime == 0) {
-                rest /= prime;
-            }
-        }
-        if (rest == 1) {
-            return n;
-        }
-    }
-}
 
 // Smallest number of samples per mesh period for a rate given by `key`.
 int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) {
@@ -222,7 +207,8 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     const char* const key = sensor ? "sensor.sampling_Hz" : "sensor.encoder_sampling_Hz";
     const double rate = sensor ? study.sensor.sampling_Hz : study.sensor.encoder_sampling_Hz;
     Sampling result;
-    result.samples = round_up_to_smooth(samples_at_least(rate, mesh_frequency_Hz, key));
+    // Fourier transforms of a whole planet turn stay fast.
+    result.samples = signals::smooth_length(samples_at_least(rate, mesh_frequency_Hz, key));
     if (result.samples < kFewestSamples) {
         throw SceneError(
             key,

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "mc/files/python/python_hashes.hpp"
+
 namespace gearpod::features {
 struct Feature;
 }
@@ -10,8 +12,8 @@ struct Feature;
 namespace gearpod::mc {
 
 struct PythonFeature {
-    std::string file;                            // absolute path
-    std::string sha256;                          // of the file's content
+    std::string file;  // absolute path
+    PythonHashes hashes;
     const features::Feature* feature = nullptr;  // external
 
     bool operator==(const PythonFeature&) const = default;

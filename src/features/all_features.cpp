@@ -16,6 +16,7 @@
 #include "features/fm0.hpp"
 #include "features/fm4.hpp"
 #include "features/frms.hpp"
+#include "features/kurtogram_peak.hpp"
 #include "features/m6a.hpp"
 #include "features/m8a.hpp"
 #include "features/med_kurtosis.hpp"
@@ -31,7 +32,9 @@
 #include "features/te_fm0.hpp"
 #include "features/te_kurtosis.hpp"
 #include "features/te_rms.hpp"
+#include "features/te_speed_fault_order.hpp"
 #include "features/te_speed_kurtosis.hpp"
+#include "features/te_speed_window_ratio.hpp"
 #include "features/turn_kurtosis.hpp"
 #include "features/whitened_window_ratio.hpp"
 #include "features/window_crest.hpp"
@@ -183,8 +186,8 @@ constexpr std::array kFeatures{
         "kurtosis of an autoregressive model's prediction error; Wang and Wong (2002)"),
     feature<envelope_order>("envelope_order", "lines of the planet turn in the envelope spectrum",
                             "1", AlarmSide::high,
-                            "sum of the lines over their background, in the band with the largest "
-                            "kurtosis; Antoni (2007)"),
+                            "sum of the lines over their background, in the kurtogram's band "
+                            "with the largest kurtosis; Antoni (2007)"),
     feature<cyclic_coherence>("cyclic_coherence", "cyclic coherence at the planet turn", "1",
                               AlarmSide::high,
                               "mean squared cyclic spectral coherence at one cycle per planet "
@@ -205,6 +208,18 @@ constexpr std::array kFeatures{
     feature<te_speed_kurtosis>("te_speed_kurtosis", "kurtosis of the speed error", "1",
                                AlarmSide::high,
                                "kurtosis of the derivative of the averaged transmission error"),
+    feature<te_speed_fault_order>(
+        "te_speed_fault_order", "lines of the fault order in the speed error", "1", AlarmSide::high,
+        "sum of the first five lines of the planet turn over the strongest mesh line, in the "
+        "derivative of the averaged transmission error"),
+    feature<te_speed_window_ratio>(
+        "te_speed_window_ratio", "speed error in the worst mesh period over that in the median one",
+        "1", AlarmSide::high,
+        "largest over median rms of the speed error in windows of a mesh period"),
+    feature<kurtogram_peak>("kurtogram_peak", "largest kurtosis in a band of the vibration", "1",
+                            AlarmSide::high,
+                            "largest kurtosis of the complex envelope over the bands of the "
+                            "kurtogram; Antoni (2007)"),
 };
 
 // Features computed from the change since the baseline record: its energy, its location on the

@@ -1,6 +1,6 @@
 // Lines of the planet turn in the squared-envelope spectrum of the sensor samples over the record,
-// in the frequency band with the largest kurtosis (signals/demodulation/impulsive_band.hpp). Antoni
-// (2007); R. B. Randall and J. Antoni, Mech. Syst. Signal Process. 25 (2011) 485-520.
+// in the band of kurtogram_peak.hpp. Antoni (2007); R. B. Randall and J. Antoni, Mech. Syst. Signal
+// Process. 25 (2011) 485-520.
 //
 // A faulty planet tooth modulates the vibration once per planet turn. With E the magnitudes of the
 // Fourier transform of the squared envelope, the feature is
@@ -17,9 +17,9 @@
 #include <limits>
 #include <vector>
 
+#include "features/kurtogram_peak.hpp"
 #include "features/signals.hpp"
 #include "features/statistics/median.hpp"
-#include "signals/demodulation/impulsive_band.hpp"
 
 namespace gearpod::features {
 
@@ -32,12 +32,12 @@ inline double envelope_order(const SensorSamples& sensor, const SensorTurn& aver
     if (turns < kFewestTurns) {
         return kNoRatio;
     }
-    const std::vector<double> envelope =
-        signals::most_impulsive_envelope(sensor.samples, average.turn.size() / teeth);
-    if (envelope.empty()) {
+    const signals::Kurtogram kurtogram = kurtogram_of(sensor, average);
+    if (kurtogram.peak() == nullptr) {
         return kNoRatio;
     }
-    const std::vector<double> spectrum = signals::envelope_spectrum(envelope);
+    const std::vector<double> spectrum =
+        signals::envelope_spectrum(kurtogram.squared_envelope(*kurtogram.peak()));
     double lines = 0.0, background = 0.0;
     for (std::size_t h = 1; h <= kMostHarmonics && 2 * h < teeth; ++h) {
         const std::size_t line = h * turns;

@@ -8,8 +8,8 @@
 #include "features/cyclic_coherence.hpp"
 #include "features/envelope_order.hpp"
 #include "features/feature.hpp"
+#include "features/kurtogram_peak.hpp"
 #include "features/separated_fm4.hpp"
-#include "features/te_speed_kurtosis.hpp"
 
 namespace test_cyclic_features {
 
@@ -33,6 +33,7 @@ struct Record {
         }
     }
     double envelope() const { return envelope_order({samples}, average()); }
+    double kurtosis() const { return kurtogram_peak({samples}, average()); }
     double coherence() const { return cyclic_coherence({samples}, average()); }
     SensorTurn average() const {
         SensorTurn sensor;
@@ -52,21 +53,20 @@ TEST_CASE("Stationary noise has envelope lines as high as their background") {
 }
 
 TEST_CASE("Modulated noise has the envelope lines of its modulation over the noise's background") {
-    // With four samples per mesh period there is one band, a mesh order wide. The squared
-    // modulation has the lines m and m^2/4 at orders 1 and 2. The noise of M independent values has
-    // an RMS of <g^4>^(1/2) M^(-1/2) per line, and its median is ln(2)^(1/2) of this. Other lines
-    // are noise.
+    // With two samples per mesh period there is one band, a mesh order wide. The squared modulation
+    // has the lines m and m^2/4 at orders 1 and 2. The noise of M independent values has an RMS of
+    // <g^4>^(1/2) M^(-1/2) per line, and its median is ln(2)^(1/2) of this. Other lines are noise.
     constexpr double kDepth = 0.6;
     const double power = kDepth * kDepth;
     const double fourth = 1.0 + 3.0 * power + 0.375 * power * power;
     const double median = std::sqrt(std::numbers::ln2 * fourth / (kTeeth * kTurns));
     const double expected = (kDepth + 0.25 * power) / (5.0 * median) + 0.6 * 1.065;
-    CHECK(Record(4, kDepth, 1.0).envelope() == Approx(expected).epsilon(0.1));
+    CHECK(Record(2, kDepth, 1.0).envelope() == Approx(expected).epsilon(0.1));
 }
 
 TEST_CASE("Impulses once per turn raise the envelope lines, in the band of their resonance") {
     Record record(16, 0.0, 1.0);
-    const double healthy = record.envelope();
+    const double healthy = record.envelope(), kurtosis = record.kurtosis();
     for (std::size_t i = 100; i + 60 < record.samples.size(); i += record.turn.size()) {
         for (std::size_t j = 0; j < 60; ++j) {
             const auto k = static_cast<double>(j);
@@ -74,6 +74,7 @@ TEST_CASE("Impulses once per turn raise the envelope lines, in the band of their
         }
     }
     CHECK(record.envelope() > 5.0 * healthy);
+    CHECK(record.kurtosis() > 5.0 * kurtosis);
 }
 
 TEST_CASE("The cyclic coherence of modulated white noise follows from the modulation") {
@@ -87,6 +88,18 @@ TEST_CASE("The cyclic coherence of modulated white noise follows from the modula
     CHECK(Record(16, 0.8, 31.0 / 81.0).coherence() < 0.01);
 }
 
+TEST_CASE(
+    "The kurtogram of noise peaks at 0, that of modulated noise at the modulation's kurtosis") {
+    // The largest of 24 bands of 2480 orders and more scatters by some 2 / sqrt(2480) = 0.04.
+    CHECK(Record(16, 0.0, 1.0).kurtosis() == Approx(0.08).margin(0.08));
+    // With g = 1 + m cos, <|b|^4> = 2 <g^4> P^2 and <|b|^2> = <g^2> P.
+    constexpr double kDepth = 0.8, kPower = kDepth * kDepth;
+    const double expected =
+        2.0 * (1.0 + 3.0 * kPower + 0.375 * kPower * kPower) / std::pow(1.0 + 0.5 * kPower, 2) -
+        2.0;
+    CHECK(Record(2, kDepth, 1.0).kurtosis() == Approx(expected).margin(0.25));
+}
+
 TEST_CASE("Cyclic features need three turns and a signal") {
     Record record(8, 0.5, 1.0);
     const std::span<const double> samples = record.samples;
@@ -95,6 +108,7 @@ TEST_CASE("Cyclic features need three turns and a signal") {
     CHECK(std::isnan(cyclic_coherence(two, record.average())));
     record.samples.assign(record.samples.size(), 0.0);
     CHECK(std::isnan(record.envelope()));
+    CHECK(std::isnan(record.kurtosis()));
     CHECK(std::isnan(record.coherence()));
     // The same turn over and over: there is no background.
     for (std::size_t i = 0; i < record.samples.size(); ++i) {
@@ -103,7 +117,8 @@ TEST_CASE("Cyclic features need three turns and a signal") {
         record.samples[i] = (1.0 + std::cos(angle)) * std::cos(40.0 * angle);
     }
     CHECK(std::isnan(record.envelope()));
-    for (const char* name : {"envelope_order", "cyclic_coherence", "whitened_window_ratio"}) {
+    for (const char* name :
+         {"envelope_order", "kurtogram_peak", "cyclic_coherence", "whitened_window_ratio"}) {
         CHECK(find_feature(name)->from_sensor);
         CHECK(!find_feature(name)->basic());
     }
@@ -127,25 +142,6 @@ TEST_CASE("The FM4 of separated planets is that of the worst planet, if any is a
     CHECK(std::isnan(separated_fm4({turn, none})));
     CHECK(std::isnan(separated_fm4({})));
     CHECK(!find_feature("separated_fm4")->basic());
-}
-
-TEST_CASE("The speed error of one sine has the kurtosis 3/2, that of two equal ones 9/4") {
-    std::vector<double> one, two;
-    for (int i = 0; i < 31 * 8; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / (31 * 8);
-        one.push_back(1e-5 * std::sin(31.0 * angle));
-        two.push_back(1e-5 * (std::sin(31.0 * angle) / 31.0 + std::cos(7.0 * angle) / 7.0));
-    }
-    TeParts te;
-    te.turn = one;
-    CHECK(te_speed_kurtosis(te) == Approx(1.5));
-    te.turn = two;
-    CHECK(te_speed_kurtosis(te) == Approx(2.25));
-    const std::vector<double> constant(31 * 8, 0.0);
-    te.turn = constant;
-    CHECK(std::isnan(te_speed_kurtosis(te)));
-    CHECK(!find_feature("te_speed_kurtosis")->from_sensor);
-    CHECK(!find_feature("te_speed_kurtosis")->basic());
 }
 
 }  // namespace

@@ -1,33 +1,22 @@
 """Checks features in Python: python3 test_own_features.py PROGRAM SOURCES [MPIEXEC]
 
 Twins of the program's features in numpy must have their values, in runs that are split, resumed and
-repeated. Files and functions with errors of every kind must give one message each. Exits with 77
-without numpy or h5py.
+repeated. Files and functions with errors of every kind must give one message each.
 """
 
 import hashlib
 import json
 import os
-import pathlib
 import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-PROGRAM, SOURCES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+from python_study_case import PROGRAM, PythonStudyCase, h5py, np
+
 MPIEXEC = sys.argv[3] if len(sys.argv) > 3 else ""
-
-try:
-    import h5py
-    import numpy as np
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
-
-STUDY = (SOURCES / "studies" / "planet-crack-ideal.toml").read_text(encoding="utf-8")
 TWINS = '''
 import numpy as np
 print("printed by the file")
@@ -76,43 +65,7 @@ def added(record, change):
 '''
 
 
-class OwnFeatures(unittest.TestCase):
-    def setUp(self):
-        self.place = tempfile.TemporaryDirectory()
-        self.addCleanup(self.place.cleanup)
-        self.folder = pathlib.Path(self.place.name)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-
-    def study(self, source, use='["te_rms"]', files='["own.py"]'):
-        """A study in another folder than the working folder, and its Python file next to it."""
-        self.write("own.py", source)
-        text = re.sub(r"^use = .*$", f"use = {use}\npython = {files}", STUDY, flags=re.M)
-        for key, value in (("instances", 14), ("threshold_instances", 20), ("noise_levels", [0, 1]),
-                           ("sampling_Hz", 1250), ("low_pass_Hz", 400)):
-            text = re.sub(rf"^{key} = .*$", f"{key} = {value}", text, flags=re.M)
-        self.write("study.toml", text)
-        return self.folder / "study.toml"
-
-    def program(self, *arguments, code=0, before=(), **environment):
-        done = subprocess.run([*before, PROGRAM, *map(str, arguments)], cwd="/", text=True,
-                              capture_output=True, check=False, timeout=300,
-                              env=dict(os.environ, **environment))
-        self.output = " ".join((done.stdout + done.stderr).split())
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done
-
-    def run_study(self, study, name, *arguments, **more):
-        out = self.folder / name
-        self.program("run", study, "--out", out, "--quiet", *arguments, **more)
-        return out
-
-    def values(self, path):
-        with h5py.File(path) as file:
-            return {name: values[:] for name, values in file["features"].items()
-                    if isinstance(values, h5py.Dataset)}
-
+class OwnFeatures(PythonStudyCase):
     def assert_same(self, first, second):
         first, second = self.values(first), self.values(second)
         self.assertEqual(first.keys(), second.keys())
@@ -193,16 +146,6 @@ class OwnFeatures(unittest.TestCase):
         self.program("report", out, "--json", self.folder / "a.json")
         self.program("misses", out, "--feature", "rms", "--size", 3, code=2)
         self.assertFalse((self.folder / "was-run").exists())
-
-    def test_a_changed_file_does_not_continue_a_run(self):
-        study = self.study(TWINS)
-        self.run_study(study, "a.h5", "--instances", "7")
-        self.write("own.py", TWINS + "\n# changed\n")
-        self.program("run", study, "--resume", "--out", self.folder / "a.h5", code=2)
-        self.assertIn("sha256", self.output)
-        self.program("misses", self.folder / "a.h5", "--feature", "rms", "--size", 3, "--gearboxes",
-                     8, "--records", 16, code=2)
-        self.assertIn("own.py: has changed since the study was read", self.output)
 
     def test_an_exception_names_gearbox_file_and_line_and_loses_nothing(self):
         source = ("import numpy as np\ncalls = [0]\ndef fragile(record):\n"

@@ -8,6 +8,7 @@ a line of JSON, and doubles in native order. Only numpy is needed.
 # mypy: ignore-errors
 
 import hashlib
+import importlib
 import inspect
 import json
 import numbers
@@ -17,6 +18,7 @@ import signal
 import socket
 import struct
 import sys
+import sysconfig
 import threading
 import time
 import traceback
@@ -184,26 +186,87 @@ class Records:
         return found | {"baselines": [record for kind, record in made if kind == "baselines"]}
 
 
-def load(path, expected):
-    """Runs a file. Returns its SHA-256 and its features by name."""
+def content(path):
     try:
         with open(path, "rb") as stream:
-            source = stream.read()
+            return stream.read()
     except OSError as error:
         raise Refused(f"{path}: cannot be read: {error.strerror}") from None
-    found = hashlib.sha256(source).hexdigest()
-    if expected not in ("", found):
-        raise Refused(f"{path}: has changed since the study was read: its SHA-256 is now {found}, not "
-                      f"{expected}")
+
+
+def sha256(data):
+    return hashlib.sha256(data).hexdigest()
+
+
+def is_below(path, folder):
+    """True for a file in the folder or below that is no installed package and not of Python."""
+    inside = os.path.relpath(path, folder).split(os.sep)
+    library = sysconfig.get_paths()["stdlib"] + os.sep
+    return not (inside[0] == ".." or {"site-packages", "dist-packages"} & set(inside)
+                or path.startswith(library))
+
+
+def imported_from(folder):
+    """Files of the imported modules by name, of those in the folder or below."""
+    files = {name: getattr(module, "__dict__", {}).get("__file__")
+             for name, module in list(sys.modules.items())}
+    return {name: os.path.abspath(file) for name, file in files.items()
+            if isinstance(file, str) and is_below(os.path.abspath(file), folder)}
+
+
+class Source:
+    """A user's file that was run: its hash, and the modules from its folder or below that were
+    imported since then, as sorted lines of file and hash."""
+
+    def __init__(self, path, found):
+        self.path, self.folder, self.sha256 = path, os.path.dirname(path), found
+        self.modules = []
+
+    def imported(self):
+        files = set(imported_from(self.folder).values()) - {self.path}
+        return sorted(f"{os.path.relpath(file, self.folder)} {sha256(content(file))}"
+                      for file in files)
+
+    def check_modules(self, expected):
+        """Refuses other modules than those of the study, which are lines as `modules` has them."""
+        now, then = (dict(line.rsplit(" ", 1) for line in lines)
+                     for lines in (self.modules, expected))
+        for name in sorted(now | then):
+            file = os.path.join(self.folder, name)
+            if name not in now:
+                raise Refused(f"{self.path}: does not import {file}, as when the study was read")
+            if name not in then:
+                raise Refused(f"{self.path}: imports {file}, but not when the study was read")
+            check_hash(file, now[name], then[name])
+
+
+def check_hash(file, found, expected):
+    if found != expected:
+        raise Refused(f"{file}: has changed since the study was read: its SHA-256 is now {found}, "
+                      f"not {expected}")
+
+
+def load(path, expected, loaded):
+    """Runs a file. Returns its source and its features by name. `expected`: hashes of the study,
+    if it has them; `loaded`: sources of the files that were run before."""
+    text = content(path)
+    source = Source(path, sha256(text))
+    check_hash(path, source.sha256, expected.get("sha256", source.sha256))
+    # Every file imports its modules anew, so that the list does not depend on other files.
+    for folder in {source.folder, *(one.folder for one in loaded)}:
+        for name in imported_from(folder):
+            del sys.modules[name]
+    importlib.invalidate_caches()
     module = types.ModuleType(os.path.splitext(os.path.basename(path))[0])
     module.__file__ = path
     sys.modules.setdefault(module.__name__, module)
-    if os.path.dirname(path) not in sys.path:
-        sys.path.insert(0, os.path.dirname(path))
+    sys.path[:] = [source.folder] + [place for place in sys.path if place != source.folder]
     try:
-        exec(compile(source, path, "exec"), module.__dict__)
+        exec(compile(text, path, "exec"), module.__dict__)
     except BaseException as error:
         raise Refused(f"{place_of(error, path)}: {one_line(error)}") from None
+    source.modules = source.imported()
+    source.check_modules(expected.get("modules", source.modules))
     functions = {}
     for name, value in list(module.__dict__.items()):
         code = getattr(inspect.unwrap(value), "__code__", None) if callable(value) else None
@@ -216,18 +279,38 @@ def load(path, expected):
             functions[function.name] = function
     if not functions:
         raise Refused(f"{path}: has no feature: no public function whose first parameter is record")
-    return found, functions
+    return source, functions
 
 
 class Worker:
     def __init__(self):
         self.functions = {}  # by path and name
+        self.sources = {}  # by path
+
+    def load(self, request):
+        path = request["file"]
+        source, functions = load(path, request, self.sources.values())
+        self.sources[path], self.functions[path] = source, functions
+        self.imported = len(sys.modules)
+        return {"sha256": source.sha256, "modules": source.modules,
+                "functions": [f.described() for f in functions.values()]}
+
+    def check_imports(self):
+        """Refuses modules that a function has imported, if the results do not hold their hashes."""
+        if len(sys.modules) == self.imported:
+            return
+        self.imported = len(sys.modules)
+        known = {os.path.join(one.folder, line) for one in self.sources.values()
+                 for line in [*one.modules, f"{os.path.basename(one.path)} {one.sha256}"]}
+        for one in self.sources.values():
+            for line in one.imported():
+                if os.path.join(one.folder, line) not in known:
+                    raise Refused(f"{one.path}: a function imports {line.rsplit(' ', 1)[0]}; import "
+                                  f"it outside of functions, because results hold its SHA-256")
 
     def reply(self, request, data):
         if "file" in request:
-            found, functions = load(request["file"], request["sha256"])
-            self.functions[request["file"]] = functions
-            return {"sha256": found, "functions": [f.described() for f in functions.values()]}, b""
+            return self.load(request), b""
         records = Records(request, data)
         levels = len(request["levels"])
         values, errors = [], []
@@ -237,6 +320,7 @@ class Worker:
             own, own_errors = self.functions[path][name].values(records, levels)
             values.append(own)
             errors += [(name, request["levels"][level], *error) for level, *error in own_errors]
+        self.check_imports()
         return {"errors": errors}, numpy.concatenate(values).tobytes()
 
 

@@ -191,25 +191,29 @@ double PythonWorker::waited_s() {
 }
 
 PythonFile PythonWorker::load(const std::string& path) {
-    return load(path, "");
+    return load(path, nullptr);
 }
 
-void PythonWorker::require(const std::string& path, const std::string& sha256) {
+void PythonWorker::require(const std::string& path, const PythonHashes& hashes) {
     const auto found = loaded_.find(path);
-    if (found == loaded_.end() || found->second != sha256) {
-        load(path, sha256);
+    if (found == loaded_.end() || found->second != hashes) {
+        load(path, &hashes);
     }
 }
 
-PythonFile PythonWorker::load(const std::string& path, const std::string& sha256) {
-    nlohmann::json json;
-    ask({{"file", path}, {"sha256", sha256}}, {}, path, json);
-    PythonFile file{json.at("sha256"), {}};
+PythonFile PythonWorker::load(const std::string& path, const PythonHashes* expected) {
+    nlohmann::json request{{"file", path}}, json;
+    if (expected != nullptr) {
+        request["sha256"] = expected->sha256;
+        request["modules"] = expected->modules;
+    }
+    ask(request, {}, path, json);
+    PythonFile file{{json.at("sha256"), json.at("modules")}, {}};
     for (const auto& one : json.at("functions")) {
         file.functions.push_back({one.at("name"), one.at("title"), one.at("unit"), one.at("alarm"),
                                   one.at("uses"), one.at("doc")});
     }
-    loaded_[path] = file.sha256;
+    loaded_[path] = file.hashes;
     return file;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mc/files/file_descriptor.hpp"
+#include "mc/files/python/python_hashes.hpp"
 
 namespace gearpod::mc {
 
@@ -25,7 +26,7 @@ struct PythonFunction {
     std::string name, title, unit, alarm, uses, doc;
 };
 struct PythonFile {
-    std::string sha256;
+    PythonHashes hashes;
     std::vector<PythonFunction> functions;
 };
 
@@ -46,8 +47,8 @@ class PythonWorker {
     // Runs the file at this absolute path and returns its features. Throws PythonError if the file
     // cannot be used.
     PythonFile load(const std::string& path);
-    // Runs the file unless this was done before. Throws PythonError if its hash differs.
-    void require(const std::string& path, const std::string& sha256);
+    // Runs the file unless this was done before. Throws PythonError if a hash differs.
+    void require(const std::string& path, const PythonHashes& hashes);
 
     // Sends a request, waits for its reply and returns the reply's values. `work` says in messages
     // what is computed. Throws PythonError if the worker refuses the request or ends. Throws
@@ -56,14 +57,14 @@ class PythonWorker {
                             const std::string& work, nlohmann::json& reply);
 
   private:
-    PythonFile load(const std::string& path, const std::string& sha256);
+    PythonFile load(const std::string& path, const PythonHashes* expected);
     void wait_for_reply(const std::string& work);
     [[noreturn]] void report_end(const std::string& work);
     int end();  // returns the status of waitpid()
 
     Descriptor here_{-1};
     pid_t child_ = -1;
-    std::map<std::string, std::string> loaded_;  // hashes by path
+    std::map<std::string, PythonHashes> loaded_;  // by path
 };
 
 }  // namespace gearpod::mc

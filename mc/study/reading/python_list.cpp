@@ -17,6 +17,7 @@ using features::Feature;
 
 const std::vector<std::string_view> kPythonNames{"name", "file",  "sha256", "title",
                                                  "unit", "alarm", "uses",   "doc"};
+constexpr std::string_view kModules = "modules";
 
 class PythonList {
   public:
@@ -49,7 +50,7 @@ class PythonList {
         try {
             const PythonFile file = PythonWorker::of_thread().load(path);
             for (const PythonFunction& function : file.functions) {
-                add(function, path, file.sha256);
+                add(function, path, file.hashes);
             }
         } catch (const PythonError& error) {
             reject_(printable(error.what()), "");
@@ -57,8 +58,12 @@ class PythonList {
     }
 
     void add_table(const Value& table) {
-        std::vector<std::string> texts(kPythonNames.size());
+        std::vector<std::string> texts(kPythonNames.size()), modules;
         for (const Entry& entry : table.entries) {
+            if (entry.name == kModules) {
+                modules = texts_of(entry.value);
+                continue;
+            }
             const auto known = std::ranges::find(kPythonNames, entry.name);
             if (known == kPythonNames.end()) {
                 reject_(fmt::format("unknown key {}", entry.name),
@@ -75,10 +80,26 @@ class PythonList {
             reject_("a table needs name, file and sha256", "name the file as a string instead");
             return;
         }
-        add({texts[0], texts[3], texts[4], texts[5], texts[6], texts[7]}, texts[1], texts[2]);
+        add({texts[0], texts[3], texts[4], texts[5], texts[6], texts[7]}, texts[1],
+            {texts[2], std::move(modules)});
     }
 
-    void add(const PythonFunction& function, const std::string& path, const std::string& sha256) {
+    std::vector<std::string> texts_of(const Value& list) const {
+        std::vector<std::string> texts;
+        for (const Value& element : list.elements) {
+            texts.push_back(element.text);
+        }
+        if (list.kind != Value::Kind::array ||
+            std::ranges::any_of(texts, [](const std::string& text) {
+                return text.find(' ') == std::string::npos;
+            })) {
+            reject_(fmt::format("{} must be a list of files with their hashes", kModules),
+                    "write [\"helper.py SHA-256\"]");
+        }
+        return texts;
+    }
+
+    void add(const PythonFunction& function, const std::string& path, PythonHashes hashes) {
         const auto same = std::ranges::find_if(
             all_, [&](const PythonFeature& one) { return one.feature->name == function.name; });
         const auto built_in = features::all_features();
@@ -105,7 +126,7 @@ class PythonList {
             function.uses.find("change") != std::string::npos      ? BaselineUse::record_and_change
             : function.uses.find("baselines") != std::string::npos ? BaselineUse::baseline
                                                                    : BaselineUse::nothing;
-        all_.push_back({path, sha256, &features::declare_feature(feature)});
+        all_.push_back({path, std::move(hashes), &features::declare_feature(feature)});
     }
 
     const bool runs_;

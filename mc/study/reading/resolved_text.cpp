@@ -103,9 +103,14 @@ class ValueText {
             const auto pair = [](const char* name, std::string_view value) {
                 return fmt::format("{} = {}", name, quoted_text(std::string(value)));
             };
+            std::string modules;
+            for (const std::string& module : one.hashes.modules) {
+                modules += (modules.empty() ? "modules = [" : ", ") + quoted_text(module);
+            }
             text += fmt::format(
-                "    {{ {}, {}, {}, {}, {}, {}, {}, {} }},\n", pair("name", feature.name),
-                pair("file", one.file), pair("sha256", one.sha256), pair("title", feature.title),
+                "    {{ {}, {}, {}, {}{}, {}, {}, {}, {} }},\n", pair("name", feature.name),
+                pair("file", one.file), pair("sha256", one.hashes.sha256),
+                modules.empty() ? "" : modules + "], ", pair("title", feature.title),
                 pair("unit", feature.unit),
                 pair("alarm", feature.alarm == features::AlarmSide::high ? "high" : "low"),
                 pair("uses", uses_text(feature)), pair("doc", feature.doc));

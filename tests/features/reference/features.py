@@ -12,55 +12,8 @@ import sys
 
 import numpy as np
 
-ZS, ZP, ZR, PLANETS = 13, 11, 35, 3
-P, P_TE = 8, 4
-TAPER, TE_HARMONICS = 0.1, 8
-
-
-def tukey(points, taper):
-    """Window as printed in Liang (2016), section 5.3.1."""
-    n = np.arange(points)
-    last = points - 1
-    w = np.ones(points)
-    rise = n < taper * last / 2
-    fall = n > last * (1 - taper / 2)
-    w[rise] = 0.5 * (1 + np.cos(np.pi * (2 * n[rise] / (taper * last) - 1)))
-    w[fall] = 0.5 * (1 + np.cos(np.pi * (2 * n[fall] / (taper * last) - 2 / taper + 1)))
-    return w
-
-
-def moment(x, power):
-    d = x - np.mean(x)
-    return np.mean(d**power) / np.mean(d**2) ** (power / 2)
-
-
-def separate(turn, teeth):
-    """Parts of an averaged turn, by complex spectra with bins left out."""
-    n = len(turn)
-    order = np.abs(np.round(np.fft.fftfreq(n) * n)).astype(int)
-    spectrum = np.fft.fft(turn)
-    harmonic = (order > 0) & (order % teeth == 0)
-    sideband = np.zeros(n, bool)
-    for k in range(teeth, n, teeth):
-        sideband |= (order == k - 1) | (order == k + 1)
-    sideband &= ~harmonic
-
-    def part(keep):
-        return np.fft.ifft(np.where(keep, spectrum, 0)).real
-
-    signed = np.round(np.fft.fftfreq(n) * n).astype(int)
-    half = (teeth - 1) // 2
-    band = (signed >= teeth - half) & (signed <= teeth + half)
-    amplitude = np.abs(np.fft.rfft(turn)) / n
-    amplitude[1 : (n + 1) // 2] *= 2
-    return {
-        "turn": turn,
-        "regular": part(harmonic | sideband),
-        "residual": part(~harmonic & (order > 0)),
-        "difference": part(~harmonic & ~sideband & (order > 0)),
-        "envelope": np.abs(np.fft.ifft(np.where(band, 2 * spectrum, 0))),
-        "amplitude": amplitude,
-    }
+from parts import (P, P_TE, PLANETS, TAPER, TE_HARMONICS, ZP, ZR, ZS, averaged, moment, rms,
+                   separate, tukey)
 
 
 def tooth_signals(y, teeth, turns, offset):
@@ -72,10 +25,6 @@ def tooth_signals(y, teeth, turns, offset):
         np.concatenate([w * y[((i * teeth + j) * P + at) % len(y)] for i in range(turns)])
         for j in range(teeth)
     ]
-
-
-def rms(x):
-    return np.sqrt(np.mean(x**2))
 
 
 def best_teeth(y, teeth, turns):
@@ -115,15 +64,24 @@ def windows(prefix, signals, held):
     return {prefix + name: value for name, value in out.items()}
 
 
-def averaged(y):
-    return np.mean(y[: ZP * ZR * P].reshape(ZR, ZP * P), axis=0)
-
-
 def derivative(turn):
     """Derivative of a periodic signal over an angle of 2 pi, without its Nyquist order."""
     n = len(turn)
     k = np.fft.fftfreq(n) * n
     return np.fft.ifft(np.where(2 * np.abs(k) < n, 1j * k, 0) * np.fft.fft(turn)).real
+
+
+def speed_features(speed):
+    """Lines of the planet turn over the strongest mesh line, and windows of a mesh period."""
+    n = len(speed)
+    amplitude = 2 * np.abs(np.fft.rfft(speed)) / n
+    orders = np.arange(1, 6)
+    windows = [rms(np.roll(speed, -i)[:P_TE]) for i in range(n)]
+    return {
+        "te_speed_fault_order": np.sum(amplitude[orders[2 * orders < ZP]])
+        / np.max(amplitude[ZP : (n + 1) // 2 : ZP]),
+        "te_speed_window_ratio": np.max(windows) / np.median(windows),
+    }
 
 
 def te_features(te):
@@ -144,7 +102,7 @@ def te_features(te):
         "te_m6a": moment(parts["difference"], 6),
         "te_m8a": moment(parts["difference"], 8),
         "te_speed_kurtosis": moment(derivative(turn), 4),
-    }
+    } | speed_features(derivative(turn))
 
 
 def demodulated(turn, teeth):
@@ -194,25 +152,25 @@ def deconvolved(x):
     return y
 
 
-def envelope_order(y):
-    """Planet turns in the squared envelope of the most impulsive band."""
+def kurtogram(y):
+    """Largest kurtosis over the bands of 1, 2, 3, 4, 6, ... per level, and its squared envelope."""
     n = len(y)
-    meshes = n // P
     spectrum = np.fft.fft(y)
     order = np.arange(n)
-    best, largest = None, -np.inf
-    for width in (1, 2, 4, 8):
-        for i in range(P):
-            if 2 * (i + 1) * width + 1 >= P:
-                break
-            band = (2 * order > (2 * i * width + 1) * meshes) & (
-                2 * order <= (2 * (i + 1) * width + 1) * meshes
-            )
+    peak, envelope = -np.inf, None
+    for bands in (1, 2, 3, 4, 6, 8, 12, 16):
+        for i in range(bands if bands <= P // 2 else 0):
+            band = (2 * bands * order > i * n) & (2 * bands * order <= (i + 1) * n) & (2 * order < n)
             square = np.abs(np.fft.ifft(np.where(band, 2 * spectrum, 0))) ** 2
             kurtosis = np.mean(square**2) / np.mean(square) ** 2 - 2
-            if kurtosis > largest:
-                best, largest = square, kurtosis
-    e = np.abs(np.fft.fft(best))
+            if kurtosis > peak:
+                peak, envelope = kurtosis, square
+    return peak, envelope
+
+
+def envelope_order(y):
+    """Planet turns in the squared envelope of the most impulsive band."""
+    e = np.abs(np.fft.fft(kurtogram(y)[1]))
     lines = np.array([h for h in range(1, 6) if 2 * h < ZP]) * ZR
     near = [np.delete(e[k - ZR // 2 : k + ZR // 2 + 1], ZR // 2) for k in lines]
     return np.sum(e[lines]) / np.sum(np.median(near, axis=1))
@@ -271,6 +229,7 @@ def filtered_features(span, turn, residual):
         "energy_operator": moment(energy, 4),
         "ar_residual_kurtosis": moment(prediction_error(x), 4),
         "envelope_order": envelope_order(span),
+        "kurtogram_peak": kurtogram(span)[0],
         "cyclic_coherence": cyclic_coherence(span),
         "whitened_window_ratio": white.max() / np.median(white),
         "med_kurtosis": moment(deconvolved(x), 4),

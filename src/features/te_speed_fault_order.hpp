@@ -1,0 +1,37 @@
+// Lines of the fault order in the instantaneous angular speed of the encoders, relative to the
+// strongest mesh line:
+//
+//     sum over h of h s(h) / max over j of j Z_p s(j Z_p),   h = 1 to H,   j Z_p below the Nyquist
+//     order,
+//
+// with the amplitudes s of the averaged transmission error, H = 5, or the largest order below
+// Z_p / 2 if that is less. An amplitude s at order k is a speed error of amplitude k s. A faulty
+// tooth changes the speed once per turn, so that the fault order is 1: Chinese J. Mech. Eng. 32
+// (2019), doi:10.1186/s10033-019-0324-z, for the difference of two encoders; X. Song et al., Modern
+// Mech. Eng. 14 (2024) 39-50, for planets and averages over their turns.
+//
+// The average over turns has the multiples of the fault order only. There are no neighbouring lines
+// to compare with. The first mesh line may vanish because of the phases of the planets, hence the
+// strongest one. NaN for a constant transmission error.
+#pragma once
+
+#include <algorithm>
+
+#include "features/signals.hpp"
+
+namespace gearpod::features {
+
+inline double te_speed_fault_order(const TeParts& te) {
+    constexpr std::size_t kFaultHarmonics = 5;
+    const auto teeth = static_cast<std::size_t>(te.mesh_order);
+    double lines = 0.0, mesh = 0.0;
+    for (std::size_t h = 1; h <= kFaultHarmonics && 2 * h < teeth; ++h) {
+        lines += static_cast<double>(h) * te.amplitude[h];
+    }
+    for (std::size_t k = teeth; 2 * k < te.turn.size(); k += teeth) {
+        mesh = std::max(mesh, static_cast<double>(k) * te.amplitude[k]);
+    }
+    return lines / mesh;
+}
+
+}  // namespace gearpod::features
