@@ -53,6 +53,7 @@ struct ReportOptions {
     std::string csv;        // folder for every table; "": none
     std::string figures;    // folder for the page's figures as SVG and PNG; "": none
     std::string evidence;   // folder for the evidence pack; "": none
+    std::string dataset;    // folder for the dataset; "": none
     std::string condition;  // random input; each of its values gets its own threshold; "": none
     // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
     std::optional<double> alarm_cost, miss_cost, fault_share;

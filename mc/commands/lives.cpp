@@ -255,11 +255,12 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
 
 int report_lives(const ReportOptions& options) {
     if (!options.csv.empty() || !options.pdf.empty() || !options.condition.empty() ||
-        options.alarm_cost) {
-        fmt::print(stderr,
-                   "{}: holds lives; --csv, --pdf, --by and costs are only for results of `run`, "
-                   "omit them\n",
-                   options.results);
+        !options.dataset.empty() || options.alarm_cost) {
+        fmt::print(
+            stderr,
+            "{}: holds lives; --csv, --pdf, --by, --dataset and costs are only for results of "
+            "`run`, omit them\n",
+            options.results);
         return kBadInput;
     }
     try {

@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 namespace {
 
-OutputKind kind_in_folder(const NamedFile& file) {
+OutputKind kind_in_folder(const std::string& role, const NamedFile& file) {
     const auto extension = std::filesystem::path(file.name).extension();
     if (extension == ".pdf") {
         return sheet_output();
@@ -23,7 +23,7 @@ OutputKind kind_in_folder(const NamedFile& file) {
         return text_output("a table of `report` (CSV)",
                            file.bytes.substr(0, file.bytes.find_first_of(",\n")));
     }
-    return text_output("a file of `--evidence`", file.bytes.substr(0, file.bytes.find('\n')));
+    return text_output("a file of `" + role + "`", file.bytes.substr(0, file.bytes.find('\n')));
 }
 
 }  // namespace
@@ -33,7 +33,8 @@ bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& file
     bool good = true;
     for (const NamedFile& file : files) {
         const std::string path = path_in(folder.path, file.name);
-        if (const std::string why = why_not_replaced(path, {kind_in_folder(file), force});
+        if (const std::string why =
+                why_not_replaced(path, {kind_in_folder(folder.role, file), force});
             !why.empty()) {
             fmt::print(stderr, "{} {}: {}\n", folder.role, printable(path), why);
             good = false;

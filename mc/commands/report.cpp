@@ -14,6 +14,7 @@
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/report/dataset.hpp"
 #include "mc/report/evidence.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
@@ -63,8 +64,12 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
     const auto others = other_files(options);
     const bool tables_good =
         can_write_folder({"--csv", options.csv}, tables, others, options.force);
+    const auto dataset = options.dataset.empty() ? std::vector<NamedFile>{}
+                                                 : dataset_files(results, rows, options.results);
+    const bool dataset_good =
+        can_write_folder({"--dataset", options.dataset}, dataset, others, options.force);
     if (!can_write_folder({"--evidence", options.evidence}, evidence, others, options.force) ||
-        !tables_good) {
+        !tables_good || !dataset_good) {
         return false;
     }
     if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
@@ -75,6 +80,9 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
     }
     if (!options.evidence.empty()) {
         write_files(options.evidence, evidence);
+    }
+    if (!options.dataset.empty()) {
+        write_files(options.dataset, dataset);
     }
     if (!options.pdf.empty()) {
         const std::string sheet = report_summary(json_text(json));
@@ -126,7 +134,8 @@ int report_command(const ReportOptions& options) {
         const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
                                                 kMostAssessedValues, costs);
         if (!options.json.empty() || !options.html.empty() || !options.pdf.empty() ||
-            !options.csv.empty() || !options.figures.empty() || !options.evidence.empty()) {
+            !options.csv.empty() || !options.figures.empty() || !options.evidence.empty() ||
+            !options.dataset.empty()) {
             if (!write_report_files(options, results, rows, reliability)) {
                 return kBadInput;
             }
@@ -143,11 +152,9 @@ int report_command(const ReportOptions& options) {
         }
         fmt::print("{}", report_text(results_report(results, rows, reliability)));
         const std::pair<const char*, const std::string&> written[] = {
-            {"page", options.html},
-            {"sheet", options.pdf},
-            {"tables", options.csv},
-            {"figures", options.figures},
-            {"evidence", options.evidence}};
+            {"page", options.html},         {"sheet", options.pdf},
+            {"tables", options.csv},        {"figures", options.figures},
+            {"evidence", options.evidence}, {"dataset", options.dataset}};
         for (const auto& [what, where] : written) {
             if (!where.empty()) {
                 fmt::print("\n{}: {}\n", what, where);

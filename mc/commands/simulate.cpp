@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <iterator>
 #include <span>
 
 #include "mc/commands/commands.hpp"
@@ -10,28 +9,13 @@
 #include "mc/input/bad_input.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/library/simulated_row.hpp"
+#include "mc/report/tables.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-std::string csv_text(const Simulation& simulation) {
-    std::string text;
-    for (const SignalColumn& column : simulation.columns) {
-        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, column.unit);
-    }
-    text += "\n";
-    for (std::size_t row = 0; row < simulation.columns[0].values.size(); ++row) {
-        for (std::size_t c = 0; c < simulation.columns.size(); ++c) {
-            fmt::format_to(std::back_inserter(text), "{}{:.17g}", c == 0 ? "" : ",",
-                           simulation.columns[c].values[row]);
-        }
-        text += "\n";
-    }
-    return text;
-}
 
 void write_hdf5(const std::string& path, const Simulation& simulation, const Study& study) {
     const Hdf5Handle file = create_memory_file();
@@ -119,7 +103,7 @@ int simulate_command(const SimulateOptions& options) {
     }
     try {
         if (csv) {
-            const std::string text = csv_text(simulation);
+            const std::string text = signals_csv(simulation.columns);
             write_file(options.out, std::as_bytes(std::span(text)));
         } else if (!options.out.empty()) {
             write_hdf5(options.out, simulation, scene->study());

@@ -20,6 +20,11 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
         "--evidence", report.evidence,
         "write an evidence pack into a folder: a document (PDF) by subjects of EASA AMC1 29.1465 "
         "and MIL-HDBK-1823A, all tables, the JSON, the study and the hashes of these files"));
+    require_file_name(command->add_option(
+        "--dataset", report.dataset,
+        "write a dataset for machine learning into a folder: features with labels, fault sizes and "
+        "gearboxes, split by gearbox for training, validation and test (CSV), stored signals, and "
+        "a data card"));
     command->add_option("--by", report.condition,
                         "random input, e.g. torque_N_m; also use a separate threshold for each of "
                         "its values");

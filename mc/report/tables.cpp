@@ -1,7 +1,10 @@
 #include "mc/report/tables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -266,6 +269,22 @@ std::vector<NamedFile> table_files(const std::vector<CsvTable>& tables) {
         files.push_back({table.name + ".csv", std::move(text)});
     }
     return files;
+}
+
+std::string signals_csv(const std::vector<SignalColumn>& columns) {
+    std::string text;
+    for (const SignalColumn& column : columns) {
+        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, column.unit);
+    }
+    text += "\n";
+    for (std::size_t row = 0; row < columns[0].values.size(); ++row) {
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            fmt::format_to(std::back_inserter(text), "{}{:.17g}", c == 0 ? "" : ",",
+                           columns[c].values[row]);
+        }
+        text += "\n";
+    }
+    return text;
 }
 
 std::string path_in(const std::string& folder, const std::string& name) {

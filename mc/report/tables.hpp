@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mc/files/signal_column.hpp"
+
 namespace gearpod::mc {
 
 struct CsvTable {
@@ -27,6 +29,9 @@ struct NamedFile {
 
 // The tables as CSV files.
 std::vector<NamedFile> table_files(const std::vector<CsvTable>& tables);
+
+// Signals as CSV, "name [unit]" in the header; all columns have the same length.
+std::string signals_csv(const std::vector<SignalColumn>& columns);
 
 // Path of a file in the folder.
 std::string path_in(const std::string& folder, const std::string& name);

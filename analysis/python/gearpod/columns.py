@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from typing import Any, Dict, Iterable, Iterator, Mapping, Tuple
 
 import numpy.typing as npt
@@ -69,3 +70,11 @@ def import_pandas() -> Any:
         raise ImportError("frames need pandas (Debian: python3-pandas); numpy arrays are available "
                           "without it") from error
     return pandas
+
+
+def require_parquet() -> None:
+    """Raises ImportError if pandas has no library that writes Parquet."""
+    import_pandas()
+    if not any(importlib.util.find_spec(name) for name in ("pyarrow", "fastparquet")):
+        raise ImportError("Parquet needs pyarrow or fastparquet (pip install pyarrow); CSV files "
+                          "are available without them")
