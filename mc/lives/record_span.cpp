@@ -62,11 +62,13 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     }
     for (const features::Feature* feature : used_features(study)) {
         const bool own = feature->baseline_use == features::BaselineUse::baseline;
-        if (own || !feature->needs.within(features::kBasicSignals)) {
+        if (own || feature->external || !feature->needs.within(features::kBasicSignals)) {
             reject("features.use",
                    "\"" + std::string(feature->name) +
                        (own ? "\" compares with a baseline record, but a life has its own baseline "
                               "(monitoring.baseline_records)"
+                        : feature->external
+                            ? "\" is in Python, but lives compute features of the program only"
                             : "\" needs samples, but superposed records have only folded squares"),
                    "use te_..., sensor_rms, window_ratio, window_z, change_window_ratio or "
                    "change_window_z");

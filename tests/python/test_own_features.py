@@ -63,6 +63,16 @@ def relative(record, baselines):
 def added(record, change):
     return level(change.sensor)
 '''
+FOLDED = '''
+import numpy as np
+def kurtosis(record):
+    return np.mean(record.te ** 4) / np.mean(record.te ** 2) ** 2
+def ratio(record):
+    return record.tooth_rms.max() / np.median(record.tooth_rms)
+def no_sensor(record):
+    return record.sensor is None
+kurtosis.samples = ratio.samples = no_sensor.samples = False
+'''
 
 
 class OwnFeatures(PythonStudyCase):
@@ -108,6 +118,21 @@ class OwnFeatures(PythonStudyCase):
                                    OMPI_ALLOW_RUN_AS_ROOT="1",
                                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
             self.assert_same(whole, ranks)
+
+    def test_functions_without_samples_have_the_other_signals(self):
+        source = FOLDED + "def peak(record):\n    return abs(record.sensor).max()\n"
+        values = self.values(self.run_study(self.study(source), "a.h5"))
+        use = '["te_kurtosis", "window_ratio", "sensor_rms"]'
+        alone = self.values(self.run_study(self.study(FOLDED, use=use), "b.h5"))
+        for own, built_in in PAIRS.items():
+            if own in alone:
+                np.testing.assert_allclose(alone[own], alone[built_in], rtol=1e-9, err_msg=own)
+                np.testing.assert_allclose(alone[own], values[own], rtol=1e-9, err_msg=own)
+        self.assertEqual({*alone} & {*PAIRS}, {"kurtosis", "ratio"})
+        for found in (alone, values):
+            self.assertTrue((found["no_sensor"] == 1).all())
+        self.run_study(self.folder / "study.toml", "b.h5", "--resume")
+        self.program("report", self.folder / "b.h5")
 
     def test_baselines_and_change_are_those_of_the_program(self):
         study = self.study(COMPARED, use='["own_sensor_rms", "change_sensor_rms"]')
@@ -316,7 +341,7 @@ class OwnFeatures(PythonStudyCase):
         options = [f"life.{key}={value}" for key, value in life.items()]
         self.program("lives", self.study(TWINS, use='["sensor_rms"]'), "--set", *options,
                      "--set", "sensor.noise_levels=[1]", code=2)
-        self.assertIn('"rms" needs samples', self.output)
+        self.assertIn('"rms" is in Python', self.output)
 
     def test_sweeps_and_watching(self):
         study = self.study(TWINS)

@@ -7,6 +7,7 @@ a line of JSON, and doubles in native order. Only numpy is needed.
 
 # mypy: ignore-errors
 
+import copy
 import hashlib
 import importlib
 import inspect
@@ -32,7 +33,8 @@ class Record:
     """Signals and properties of one record. In a function with `batch = True`, the signals and
     what is computed from them have a leading axis: one row per noise level.
 
-    sensor               m/s^2, whole turns of the monitored gear; None without a sensor
+    sensor               m/s^2, whole turns of the monitored gear; None without a sensor, and in
+                         functions with `samples = False`
     te                   rad, transmission error averaged over turns of that gear, without its mean
     tooth_rms            m/s^2, rms around every tooth of that gear; None without a sensor
     noise_level          factor on the noise, one of sensor.noise_levels (batch: an array)
@@ -62,6 +64,11 @@ class Record:
     def carrier_angle(self):
         """Angle of the carrier relative to its fixed gear, rad, from the record's start."""
         return self._angle(self.carrier_meshes)
+
+    def without_samples(self):
+        other = copy.copy(self)
+        other.sensor = None
+        return other
 
     def _angle(self, meshes):
         samples = numpy.arange(self.sensor.shape[-1])
@@ -107,6 +114,7 @@ class Function:
         if self.alarm not in ("high", "low"):
             self.refuse(f'alarm = {self.alarm!r}, but it is "high" or "low"')
         self.batch = getattr(call, "batch", False) is True
+        self.samples = getattr(call, "samples", True) is not False
         self.doc = " ".join((inspect.getdoc(call) or "").split("\n\n")[0].split())[:300]
 
     def refuse(self, what):
@@ -120,7 +128,7 @@ class Function:
 
     def described(self):
         return {name: getattr(self, name) for name in ("name", "title", "unit", "alarm", "doc")} | {
-            "uses": ", ".join(self.uses)}
+            "uses": ", ".join(self.uses), "samples": "" if self.samples else "no"}
 
     def values(self, records, levels):
         """One value per noise level, and the errors as (level, file and line, text)."""
@@ -150,7 +158,11 @@ class Function:
                 (0, place_of(error, self.path, self.line), one_line(error))]
 
     def arguments(self, signals):
-        return {name: signals[name] for name in self.uses}
+        used = {name: signals[name] for name in self.uses}
+        if self.samples:
+            return used
+        return {name: [one.without_samples() for one in value] if isinstance(value, list)
+                else value.without_samples() for name, value in used.items()}
 
     def number(self, value):
         if isinstance(value, numpy.ndarray) and value.ndim == 0:

@@ -211,7 +211,7 @@ PythonFile PythonWorker::load(const std::string& path, const PythonHashes* expec
     PythonFile file{{json.at("sha256"), json.at("modules")}, {}};
     for (const auto& one : json.at("functions")) {
         file.functions.push_back({one.at("name"), one.at("title"), one.at("unit"), one.at("alarm"),
-                                  one.at("uses"), one.at("doc")});
+                                  one.at("uses"), one.at("doc"), one.at("samples")});
     }
     loaded_[path] = file.hashes;
     return file;

@@ -24,6 +24,7 @@ struct PythonError : std::runtime_error {
 // Feature in a Python file.
 struct PythonFunction {
     std::string name, title, unit, alarm, uses, doc;
+    std::string samples;  // "no" if it needs no samples of the sensor
 };
 struct PythonFile {
     PythonHashes hashes;

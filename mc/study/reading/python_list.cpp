@@ -15,9 +15,10 @@ namespace {
 using features::BaselineUse;
 using features::Feature;
 
-const std::vector<std::string_view> kPythonNames{"name", "file",  "sha256", "title",
-                                                 "unit", "alarm", "uses",   "doc"};
+const std::vector<std::string_view> kPythonNames{"name",  "file", "sha256", "title",  "unit",
+                                                 "alarm", "uses", "doc",    "samples"};
 constexpr std::string_view kModules = "modules";
+constexpr auto kWithSamples = features::SignalSet::of<features::TeTurn, features::SensorSamples>();
 
 class PythonList {
   public:
@@ -80,7 +81,7 @@ class PythonList {
             reject_("a table needs name, file and sha256", "name the file as a string instead");
             return;
         }
-        add({texts[0], texts[3], texts[4], texts[5], texts[6], texts[7]}, texts[1],
+        add({texts[0], texts[3], texts[4], texts[5], texts[6], texts[7], texts[8]}, texts[1],
             {texts[2], std::move(modules)});
     }
 
@@ -119,7 +120,7 @@ class PythonList {
             .unit = function.unit.empty() ? "1" : std::string_view(function.unit),
             .alarm = function.alarm == "low" ? features::AlarmSide::low : features::AlarmSide::high,
             .doc = function.doc,
-            .needs = features::SignalSet::of<features::TeTurn, features::SensorSamples>(),
+            .needs = function.samples == "no" ? features::kBasicSignals : kWithSamples,
             .from_sensor = true,
             .external = true};
         feature.baseline_use =

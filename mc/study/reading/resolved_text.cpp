@@ -108,10 +108,11 @@ class ValueText {
                 modules += (modules.empty() ? "modules = [" : ", ") + quoted_text(module);
             }
             text += fmt::format(
-                "    {{ {}, {}, {}, {}{}, {}, {}, {}, {} }},\n", pair("name", feature.name),
+                "    {{ {}, {}, {}, {}{}{}, {}, {}, {}, {} }},\n", pair("name", feature.name),
                 pair("file", one.file), pair("sha256", one.hashes.sha256),
-                modules.empty() ? "" : modules + "], ", pair("title", feature.title),
-                pair("unit", feature.unit),
+                modules.empty() ? "" : modules + "], ",
+                feature.needs.has<features::SensorSamples>() ? "" : pair("samples", "no") + ", ",
+                pair("title", feature.title), pair("unit", feature.unit),
                 pair("alarm", feature.alarm == features::AlarmSide::high ? "high" : "low"),
                 pair("uses", uses_text(feature)), pair("doc", feature.doc));
         }

@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""What a feature in Python costs next to the same feature of the program: whole runs on one thread.
+
+    tests/bench/python_costs.py [--rounds 1] [--instances 800] [--healthy 200]
+                                [--study studies/planet-crack-ideal.toml] [--program build/gearpod]
+
+A round runs the study with a feature of the program and then with the same function in Python:
+crest_factor, which needs the samples of the sensor, and te_kurtosis, which does not (the attribute
+`samples`). Processor time
+is that of all processes, without the time in the function itself. Prints the number of gearboxes
+with other bits, and medians over the rounds of the times and their ratio.
+"""
+import argparse
+import pathlib
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+SOURCE = '''
+import os, time
+import numpy as np
+
+file = os.open(os.path.join(os.path.dirname(__file__), f"time-{os.getpid()}"), os.O_CREAT | os.O_WRONLY)
+spent_s = 0.0
+
+
+def total(x):
+    return np.cumsum(x)[-1]  # from the first sample to the last, as in the program
+
+
+def _crest_factor(record):
+    x = record.sensor_average
+    x = x - total(x) / x.size
+    return np.abs(x).max() / np.sqrt(total(x * x) / x.size)
+
+
+def _te_kurtosis(record):
+    square = (record.te - total(record.te) / record.te.size) ** 2
+    return total(square * square) * square.size / (total(square) * total(square))
+
+
+def own(record):
+    global spent_s
+    start_s = time.process_time()
+    value = FEATURE(record)
+    spent_s += time.process_time() - start_s
+    os.pwrite(file, b"%.9f" % spent_s, 0)
+    return value
+
+
+own.samples = FEATURE is _crest_factor
+'''
+
+
+def processor_s(command: list[str]) -> float:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def values(path: pathlib.Path, name: str) -> np.ndarray:
+    with h5py.File(path) as file:
+        return np.ravel(file["features"][name][:])
+
+
+def compare(feature: str, options: argparse.Namespace) -> None:
+    built_in, python, inside = [], [], []
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "own.py").write_text(SOURCE.replace("FEATURE", "_" + feature))
+        command = [options.program, "run", options.study, "--quiet", "--force",
+                   "--instances", str(options.instances), "--set",
+                   f"ensemble.threshold_instances={options.healthy}", "numerics.threads=1",
+                   "sensor.noise_levels=[1]"]
+        for _ in range(options.rounds):
+            built_in.append(processor_s(command + [f'features.use=["te_rms", "{feature}"]',
+                                                   "--out", name + "/built-in.h5"]))
+            python.append(processor_s(command + ['features.use=["te_rms"]',
+                                                 f'features.python=["{name}/own.py"]',
+                                                 "--out", name + "/python.h5"]))
+            times = list(folder.glob("time-*"))
+            inside.append(sum(float(file.read_text() or 0) for file in times))
+            for file in times:
+                file.unlink()
+        one = values(folder / "built-in.h5", feature)
+        other = values(folder / "python.h5", "own")
+    ratios = [(total - own) / alone for total, own, alone in zip(python, inside, built_in)]
+    print(f"{feature}: {one.size} gearboxes, {np.sum(one != other)} with other bits")
+    print(f"  in the program      {statistics.median(built_in):.2f} s")
+    print(f"  in Python           {statistics.median(python):.2f} s, of these "
+          f"{statistics.median(inside):.2f} s in the function")
+    print(f"  ratio without them  {statistics.median(ratios):.2f}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=1)
+    parser.add_argument("--instances", type=int, default=800)
+    parser.add_argument("--healthy", type=int, default=200)
+    parser.add_argument("--study", default="studies/planet-crack-ideal.toml")
+    parser.add_argument("--program", default="build/gearpod")
+    options = parser.parse_args()
+    for feature in ("crest_factor", "te_kurtosis"):
+        compare(feature, options)
+
+
+if __name__ == "__main__":
+    main()
