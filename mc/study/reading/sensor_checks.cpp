@@ -125,6 +125,10 @@ void check_housing(StudyDraft& draft) {
         }
     }
     if (!s.response_Hz.empty()) {
+        if (s.response_Hz.size() < 2 && draft.usable(kFrequencies)) {
+            draft.reject(kFrequencies, "has one frequency, but nothing passes outside of a range",
+                         "give the lowest and the highest");
+        }
         check_count(draft, "sensor.response_gain", "", s.response_gain.size(), s.response_Hz.size(),
                     kFrequencies);
         check_count(draft, "sensor.response_phase_deg", "", s.response_phase_rad.size(),

@@ -203,6 +203,10 @@ TEST_CASE("Problems of the housing are all reported") {
     CHECK(lengths.code == 2);
     CHECK(lengths.mentions("has 1 values, but sensor.response_Hz has 2"));
     CHECK(lengths.mentions("has 3 values, but sensor.response_Hz has 2"));
+    CHECK(program("describe " + kSmall +
+                  " --set sensor.response_Hz=[5] --set sensor.response_gain=[1]"
+                  " --set sensor.response_phase_deg=[0]")
+              .mentions("has one frequency"));
     CHECK(program("describe " + kSmall + kModes)
               .mentions("70 Hz, damping 0.03, participation 0.8: 13.3 times the vibration"));
 }
