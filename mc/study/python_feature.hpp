@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mc/files/python/python_hashes.hpp"
+#include "mc/input/python_hashes.hpp"
 
 namespace gearpod::features {
 struct Feature;
