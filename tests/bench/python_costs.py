@@ -12,14 +12,13 @@ with other bits, and medians over the rounds of the times and their ratio.
 """
 import argparse
 import pathlib
-import resource
 import statistics
-import subprocess
-import sys
 import tempfile
 
 import h5py
 import numpy as np
+
+from sensor_costs import processor_s
 
 SOURCE = '''
 import os, time
@@ -55,15 +54,6 @@ def own(record):
 
 own.samples = FEATURE is _crest_factor
 '''
-
-
-def processor_s(command: list[str]) -> float:
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def values(path: pathlib.Path, name: str) -> np.ndarray:

@@ -12,15 +12,16 @@ namespace gearpod::test {
 inline const std::string kSmall =
     std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
 
+// 20 healthy and 20 faulty gearboxes.
+inline const std::string kFewGearboxes =
+    " --set ensemble.threshold_instances=20 --set ensemble.instances=20"
+    " --set fault.reduction=0.4 ";
+
 // Results of `run` on that study with 20 healthy and 20 faulty gearboxes.
 inline mc::Results run_small(const Folder& folder, const std::string& name,
                              const std::string& options) {
     const std::string path = folder.file(name);
-    const auto outcome =
-        program("run " + kSmall +
-                " --set ensemble.threshold_instances=20 --set ensemble.instances=20"
-                " --set fault.reduction=0.4 --out " +
-                path + " " + options);
+    const auto outcome = program("run " + kSmall + kFewGearboxes + "--out " + path + " " + options);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     return mc::read_results(path);
@@ -38,6 +39,22 @@ inline double printed_value(const Outcome& outcome, const std::string& name) {
         }
     }
     return 0.0;
+}
+
+// Output of `features` for the exported samples of gearbox 25 of such a run, which has 455 mesh
+// periods.
+inline Outcome features_of_export(const Folder& folder, const std::string& sensor,
+                                  const std::string& options) {
+    const std::string signal = folder.file("signal.h5");
+    const auto simulated = program("simulate " + kSmall + " --instance 25 --meshes 455 --out " +
+                                   signal + kFewGearboxes + options);
+    INFO(simulated.output);
+    REQUIRE(simulated.code == 0);
+    const auto measured =
+        program("features " + signal + " --sensor " + sensor + " --study " + kSmall);
+    INFO(measured.output);
+    REQUIRE(measured.code == 0);
+    return measured;
 }
 
 // Checks that a run with these options has the same bits with other threads, and merged from parts.

@@ -109,18 +109,8 @@ TEST_CASE("Exported samples of an additional sensor have the features of the run
     const Folder folder;
     const std::string side = sensors("{name=\"side\", angle_deg=77, noise=3}");
     const mc::Results results = run(folder, "run.h5", side);
-    const std::string signal = folder.file("signal.h5");
-    const auto simulated =
-        program("simulate " + kSmall + " --instance 25 --meshes 455 --out " + signal +
-                " --set ensemble.threshold_instances=20 --set ensemble.instances=20"
-                " --set fault.reduction=0.4 --set sensor.noise_levels=[0,1]" +
-                side);
-    INFO(simulated.output);
-    REQUIRE(simulated.code == 0);
-    const auto measured =
-        program("features " + signal + " --sensor sensor_side_noise_1 --study " + kSmall);
-    INFO(measured.output);
-    REQUIRE(measured.code == 0);
+    const auto measured = test::features_of_export(folder, "sensor_side_noise_1",
+                                                   "--set sensor.noise_levels=[0,1]" + side);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
         INFO(name);
         CHECK(at_level(named(results.variants[0].features, name), 1)[25] ==

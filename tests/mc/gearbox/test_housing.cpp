@@ -128,18 +128,7 @@ TEST_CASE("Rows with a housing keep their bits over threads, parts and merging")
 TEST_CASE("Exported samples with a housing have the features of the run") {
     const Folder folder;
     const mc::Results results = run_small(folder, "run.h5", kModes);
-    const std::string signal = folder.file("signal.h5");
-    const auto simulated =
-        program("simulate " + kSmall + " --instance 25 --meshes 455 --out " + signal +
-                " --set ensemble.threshold_instances=20 --set ensemble.instances=20"
-                " --set fault.reduction=0.4" +
-                kModes);
-    INFO(simulated.output);
-    REQUIRE(simulated.code == 0);
-    const auto measured =
-        program("features " + signal + " --sensor sensor_noise_1 --study " + kSmall);
-    INFO(measured.output);
-    REQUIRE(measured.code == 0);
+    const auto measured = test::features_of_export(folder, "sensor_noise_1", kModes);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
         INFO(name);
         CHECK(values(results, name)[25] ==

@@ -8,7 +8,7 @@
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 #include "signals/spectra/order_spectrum.hpp"
-#include "tests/mc/program.hpp"
+#include "tests/mc/gearbox/small_runs.hpp"
 #include "tests/mc/study_example.hpp"
 
 namespace test_noise_density {
@@ -122,23 +122,12 @@ TEST_CASE("Features of noise by density are those of the exported signal") {
         program("features " + signal + " --sensor sensor_noise_1 --study " + study);
     INFO(measured.output);
     REQUIRE(measured.code == 0);
-    const auto value = [](const std::string& text, const std::string& name) {
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
-            std::istringstream words(line);
-            std::string first;
-            double number = 0.0;
-            if (words >> first >> number && first == name) {
-                return number;
-            }
-        }
-        return 0.0;
-    };
     INFO(simulated.output);
     for (const char* name : {"sensor_rms", "window_ratio", "window_z", "window_kurtosis"}) {
         INFO(name);
-        CHECK(value(simulated.output, name) > 0.0);
-        CHECK(value(simulated.output, name) == Approx(value(measured.output, name)).epsilon(1e-5));
+        CHECK(test::printed_value(simulated, name) > 0.0);
+        CHECK(test::printed_value(simulated, name) ==
+              Approx(test::printed_value(measured, name)).epsilon(1e-5));
     }
 }
 
