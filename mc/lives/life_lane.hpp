@@ -1,12 +1,16 @@
 // Computes the records of one gearbox while its crack grows step by step.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 
 #include "machine/cancellation.hpp"
+#include "mc/gearbox/python_features.hpp"
 #include "mc/gearbox/realization_signals.hpp"
+#include "mc/gearbox/record_change.hpp"
 #include "mc/lives/life_tile.hpp"
 #include "mc/lives/superposed_signals.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -24,14 +28,12 @@ class LifeTiles::Lane {
           id_(gearbox.id),
           inputs_(gearbox.inputs),
           features_(used_features(tiles.scene_.study())),
-          compares_(std::ranges::any_of(features_,
-                                        [](const features::Feature* one) {
-                                            return one->baseline_use ==
-                                                   features::BaselineUse::change;
-                                        })),
+          needs_(superposed_needs(features_)),
           span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
-          record_(tiles.scene_, {}, span_.turns * span_.recordings),
-          change_(tiles.scene_, {}, span_.turns * span_.recordings) {
+          record_(tiles.scene_, needs_.record, span_.turns * span_.recordings),
+          change_(tiles.scene_, needs_.change, span_.turns * span_.recordings),
+          reference_(tiles.scene_, needs_.baseline, span_.turns * span_.recordings),
+          python_(tiles.scene_, features_) {
         life_.history = tiles.crack_.history(gearbox, cracked);
         life_.values.assign(features_.size(),
                             std::vector<double>(life_.history.records.size(), 0.0));
@@ -49,7 +51,7 @@ class LifeTiles::Lane {
     // records as the baseline has, taken before the first record, each at its own torque and speed.
     // Recordings shorter than the span count in proportion, with at least one span in total.
     void compute_reference_pattern(const std::vector<LaneSignals>& healthy) {
-        if (!compares_) {
+        if (!compares()) {
             return;
         }
         const Study& study = tiles_.scene_.study();
@@ -124,7 +126,7 @@ class LifeTiles::Lane {
                 basis.push_back(&one);
             }
         }
-        if (compares_) {
+        if (compares()) {
             basis.push_back(&noise_);
         }
         return basis;
@@ -144,9 +146,9 @@ class LifeTiles::Lane {
         return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
     }
 
-    void add_record(std::size_t r, double low, double high, const SuperposedSignals& superposed,
-                    std::size_t parts) {
-        const LifeRecord& record = life_.history.records[r];
+    // Coefficients of a record's signals.
+    std::vector<double> coefficients_of(const LifeRecord& record, double low, double high,
+                                        std::size_t parts) const {
         const std::vector<double> load_weights = tiles_.load_weights({record.torque, record.speed});
         const double depth_fraction =
             record.depth_m > 0.0 ? (record.depth_m - low) / (high - low) : 0.0;
@@ -159,8 +161,12 @@ class LifeTiles::Lane {
                 coefficients[(low > 0.0 ? 2 * n : n) + t] += depth_fraction * one;
             }
         }
-        Realization own_record{record_id(id_, r, false), inputs_};
-        InstanceInputs& inputs = own_record.inputs;
+        return coefficients;
+    }
+
+    // Inputs of a record, with the noise of its sensor.
+    InstanceInputs inputs_of(const LifeRecord& record) const {
+        InstanceInputs inputs = inputs_;
         if (tiles_.distributions_.sensor_noise_only) {
             const SensorNoise noise = with_rms_factor(
                 tiles_.scene_.study(),
@@ -174,29 +180,99 @@ class LifeTiles::Lane {
             inputs.background_noise_m_s2 *= record.noise;
             inputs.encoder_noise_rad *= record.noise;
         }
+        return inputs;
+    }
+
+    void add_record(std::size_t r, double low, double high, const SuperposedSignals& superposed,
+                    std::size_t parts) {
+        const LifeRecord& record = life_.history.records[r];
+        std::vector<double> coefficients = coefficients_of(record, low, high, parts);
+        Realization own_record{record_id(id_, r, false), inputs_of(record)};
         const std::vector<std::size_t> starts = starts_of(r);
         LaneSignals own = fold_record(superposed, coefficients, starts);
         for (double& value : own.te_turn) {
             value /= inputs_.gain * record.gain;  // the gain belongs to the sensor only
         }
         record_.load(own, own_record);
-        features::FeatureInput input = record_.at(0), change;
-        LaneSignals changed;
-        if (compares_) {
-            for (std::size_t t = 0; t < n; ++t) {
+        features::FeatureInput input = record_.at(0), change, reference;
+        LaneSignals changed, before;
+        if (!needs_.baseline.empty()) {
+            std::vector<double> pattern(parts, 0.0);
+            std::ranges::copy(pattern_, pattern.begin());
+            pattern.back() = 1.0;
+            before = fold_record(superposed, pattern, starts);
+            for (double& value : before.te_turn) {
+                value /= inputs_.gain;
+            }
+            reference_.load(before, own_record.inputs, no_noise(before));
+            reference = reference_.at(0);
+            input.baseline = &reference;
+        }
+        if (!needs_.change.empty()) {
+            for (std::size_t t = 0; t < pattern_.size(); ++t) {
                 coefficients[t] -= pattern_[t];
             }
             coefficients.back() = -1.0;
             changed = fold_record(superposed, coefficients, starts);
-            own_record.id = record_id(id_, r, true);
-            change_.load(changed, own_record);
+            if (uses_samples()) {
+                change_.load(changed, own_record.inputs,
+                             noise_of_change(tiles_.scene_, changed, record_.noise(), {}));
+            } else {
+                own_record.id = record_id(id_, r, true);
+                change_.load(changed, own_record);
+            }
             change = change_.at(0);
             input.change = &change;
         }
+        set_values(r, own_record.inputs, input);
+    }
+
+    // Noise of signals that already contain theirs.
+    static RealizationNoise no_noise(const LaneSignals& signals) {
+        const std::vector<double> bins(signals.folded.size(), 0.0);
+        return {{bins, bins},
+                std::vector<double>(signals.sensor.size(), 0.0),
+                std::vector<double>(signals.te_turn.size(), 0.0)};
+    }
+
+    // Computes the features of a record. The transmission error is averaged over the whole span, so
+    // that those in Python do not get it if records have another length.
+    void set_values(std::size_t r, InstanceInputs inputs, features::FeatureInput& input) {
+        const LifeRecord& record = life_.history.records[r];
         for (std::size_t f = 0; f < features_.size(); ++f) {
-            const double value = features_[f]->value(input);
-            life_.values[f][r] = std::isfinite(value) ? value : std::nan("");
+            if (!features_[f]->external) {
+                set_value(f, r, features_[f]->value(input));
+            }
         }
+        if (python_.empty()) {
+            return;
+        }
+        inputs.torque_N_m *= record.torque;
+        inputs.speed_rad_s *= record.speed;
+        if (life_record_length(tiles_.scene_.study()).given()) {
+            input.get<features::TeTurn>() = {};
+        }
+        python_.add(tiles_.scene_.study().sensor.noise_levels.front(), inputs, input);
+        const std::string work =
+            fmt::format("{} gearbox {}, record {} of its life",
+                        id_.group == Group::threshold ? "healthy" : "cracked", id_.index, r + 1);
+        const std::vector<double> own = python_.compute(work);
+        print_python_problems(python_.problems(), work);
+        for (std::size_t f = 0, next = 0; f < features_.size(); ++f) {
+            if (features_[f]->external) {
+                set_value(f, r, own[next++]);
+            }
+        }
+    }
+
+    void set_value(std::size_t feature, std::size_t r, double value) {
+        life_.values[feature][r] = std::isfinite(value) ? value : std::nan("");
+    }
+
+    // True if records are compared with the reference pattern.
+    bool compares() const { return !needs_.change.empty() || !needs_.baseline.empty(); }
+    bool uses_samples() const {
+        return needs_samples(needs_.record) || needs_samples(needs_.change);
     }
 
     // First turns of the recordings of a record; empty if each recording contains all turns.
@@ -228,13 +304,14 @@ class LifeTiles::Lane {
                                  static_cast<std::size_t>(span_.turns % span_.all_turns),
                                  sum.folded);
         }
-        if (noise_by_density(tiles_.scene_.study())) {
+        if (uses_samples() || noise_by_density(tiles_.scene_.study())) {
+            sum.turns = span_.turns * span_.recordings;
             add_samples(superposed, coefficients, starts, sum.sensor);
         }
         return sum;
     }
 
-    // Appends the samples of all recordings, to which coloured noise is added one by one.
+    // Appends the samples of all recordings.
     void add_samples(const SuperposedSignals& superposed, std::span<const double> coefficients,
                      const std::vector<std::size_t>& starts, std::vector<double>& samples) const {
         for (int i = 0; i < span_.recordings; ++i) {
@@ -248,9 +325,10 @@ class LifeTiles::Lane {
     const GearboxId id_;
     const InstanceInputs inputs_;
     const LaneFeatures features_;
-    const bool compares_;
+    const ComparedNeeds needs_;
     const RecordSpan span_;
-    RealizationSignals record_, change_;
+    RealizationSignals record_, change_, reference_;
+    PythonFeatures python_;
     GearboxLife life_;
     LaneSignals noise_;            // noise of the reference pattern
     std::vector<double> pattern_;  // coefficients of the healthy signals

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/housing.hpp"
@@ -17,6 +16,30 @@ namespace {
 double mesh_frequency_Hz(const Scene& scene, double speed_rad_s) {
     return std::abs(scene.drivetrain().mesh_frequency_rad_s(speed_rad_s)) /
            (2.0 * std::numbers::pi);
+}
+
+// Reason why a feature cannot be computed from superposed records; empty if it can.
+std::string feature_problem(const Scene& scene, const RecordSpan& record,
+                            const features::Feature& feature) {
+    const Study& study = scene.study();
+    if (feature.needs.has<features::HealthyRecords>()) {
+        return "compares with the records of other healthy gearboxes, but a life has its own "
+               "baseline (monitoring.baseline_records)";
+    }
+    if (life_record_length(study).given() && !feature.external &&
+        feature.needs.has<features::TeTurn, features::TeParts>()) {
+        return "averages the transmission error over the whole span, but recordings have another "
+               "length (record_s, record_turns)";
+    }
+    if (record.recordings > 1 && needs_samples(feature.needs)) {
+        return fmt::format(
+            "needs the samples of one recording, but a record averages {} (life.recordings)",
+            record.recordings);
+    }
+    const int meshes = record.turns * scene.span().planet_teeth,
+              least = least_meshes(feature, study, scene.span());
+    return least > meshes ? fmt::format("needs {} mesh periods, but a record has {}", least, meshes)
+                          : "";
 }
 
 }  // namespace
@@ -51,6 +74,25 @@ std::string record_text(const Scene& scene) {
                       teeth, record.turns, record.all_turns));
 }
 
+ComparedNeeds superposed_needs(std::span<const features::Feature* const> features) {
+    using features::BaselineUse;
+    ComparedNeeds needs;
+    for (const features::Feature* feature : features) {
+        const BaselineUse use = feature->baseline_use;
+        const bool changes = use == BaselineUse::change || use == BaselineUse::record_and_change;
+        if (use != BaselineUse::change) {
+            needs.record |= feature->needs;
+        }
+        if (changes) {
+            needs.change |= feature->needs;
+        }
+        if (use == BaselineUse::baseline || (changes && feature->external)) {
+            needs.baseline |= feature->needs;
+        }
+    }
+    return needs;
+}
+
 std::vector<SceneError> superposition_problems(const Scene& scene) {
     const Study& study = scene.study();
     std::vector<SceneError> problems;
@@ -60,29 +102,16 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     if (!study.life.interval_h) {
         reject("life.interval_h", "missing: the time between records", "add [life]");
     }
-    for (const features::Feature* feature : used_features(study)) {
-        const bool own = feature->baseline_use == features::BaselineUse::baseline;
-        if (own || feature->external || !feature->needs.within(features::kBasicSignals)) {
-            reject("features.use",
-                   "\"" + std::string(feature->name) +
-                       (own ? "\" compares with a baseline record, but a life has its own baseline "
-                              "(monitoring.baseline_records)"
-                        : feature->external
-                            ? "\" is in Python, but lives compute features of the program only"
-                            : "\" needs samples, but superposed records have only folded squares"),
-                   "use te_..., sensor_rms, window_ratio, window_z, change_window_ratio or "
-                   "change_window_z");
+    try {
+        const RecordSpan record = record_span(scene, nominal_inputs(study).speed_rad_s);
+        for (const features::Feature* feature : used_features(study)) {
+            if (const std::string what = feature_problem(scene, record, *feature); !what.empty()) {
+                reject("features.use", "\"" + std::string(feature->name) + "\" " + what,
+                       "remove it");
+            }
         }
-    }
-    const bool short_records = life_record_length(study).given();
-    for (const std::string& name : study.features.use) {
-        if (short_records && name.starts_with("te_")) {
-            reject("features.use",
-                   "\"" + name +
-                       "\" averages the transmission error over the whole span, but recordings "
-                       "have another length",
-                   "remove it, or record_s and record_turns");
-        }
+    } catch (const SceneError& error) {
+        problems.push_back(error);
     }
     if (study.effects.quasi_static()) {
         reject("effects.motion", "a quasi-static gearbox has no sensor signal",
@@ -105,13 +134,6 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
         reject("sensor.housing_modes",
                "records are superpositions of parts that reach the sensor along a stiff path",
                "remove them, and a measured response (sensor.response_Hz)");
-    }
-    if (short_records) {
-        try {
-            record_span(scene, nominal_inputs(study).speed_rad_s);
-        } catch (const SceneError& error) {
-            problems.push_back(error);
-        }
     }
     return problems;
 }

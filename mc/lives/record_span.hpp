@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
@@ -25,6 +26,10 @@ RecordSpan record_span(const Scene& scene, double speed_rad_s);
 // Description of the length of a record and of the tooth pairs in it, for example "26 turns of
 // ...".
 std::string record_text(const Scene& scene);
+
+// Needs of features in lives. Unlike in compared_needs(), a change is superposed without the
+// samples of the record and of the baseline.
+ComparedNeeds superposed_needs(std::span<const features::Feature* const> features);
 
 // All reasons why the study's records cannot be superposed; empty if they can.
 std::vector<SceneError> superposition_problems(const Scene& scene);

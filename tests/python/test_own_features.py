@@ -74,6 +74,22 @@ def no_sensor(record):
 kurtosis.samples = ratio.samples = no_sensor.samples = False
 '''
 
+LIFE = '''
+[life]
+interval_h = 5
+first_depth_mm = 1
+last_depth_mm = 4
+depth_steps = 2
+paris_factor = 1.36e-7
+paris_exponent = 2.25
+records = 10
+healthy_lives = 2
+torque_scatter = 0.02
+speed_scatter = 0.02
+[monitoring]
+baseline_records = 3
+'''
+
 
 class OwnFeatures(PythonStudyCase):
     def assert_same(self, first, second):
@@ -118,6 +134,35 @@ class OwnFeatures(PythonStudyCase):
                                    OMPI_ALLOW_RUN_AS_ROOT="1",
                                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
             self.assert_same(whole, ranks)
+
+    def life_study(self, source, use='["te_rms"]'):
+        study = self.study(source, use)
+        study.write_text(study.read_text().replace("noise_levels = [0, 1]", "noise_levels = [1]") + LIFE)
+        return study
+
+    def test_lives_have_the_values_of_the_program(self):
+        source = TWINS + COMPARED + "def speed(record):\n    return record.speed_rpm\n"
+        use = [*PAIRS.values(), "own_sensor_rms", "change_sensor_rms"]
+        study = self.life_study(source, json.dumps(use))
+        outs = [self.folder / f"{threads}.h5" for threads in (1, 2)]
+        for threads, out in enumerate(outs, 1):
+            self.program("lives", study, "--out", out, "--show-withheld", "--quiet", "--set",
+                         f"numerics.threads={threads}")
+        first, second = map(self.values, outs)
+        for name, values in first.items():
+            self.assertEqual(values.tobytes(), second[name].tobytes(), name)
+        for own, built_in in {**PAIRS, "relative": "own_sensor_rms",
+                              "added": "change_sensor_rms"}.items():
+            self.assertGreater(np.isfinite(first[own]).sum(), 50)
+            np.testing.assert_allclose(first[own], first[built_in], rtol=1e-9, err_msg=own)
+        self.assertLess(0.01, np.nanstd(first["speed"]) / np.nanmean(first["speed"]))
+        self.program("lives", study, "--set", "life.recordings=2", code=2)
+        self.assertIn('"rms" needs the samples of one recording', self.output)
+
+    def test_lives_name_the_record_in_which_a_feature_fails(self):
+        study = self.life_study("def own(record):\n    return 1 / (record.torque_Nm < 0)\n")
+        self.program("lives", study, "--out", self.folder / "a.h5", "--show-withheld")
+        self.assertRegex(self.output, r"own.py:2: ZeroDivisionError.*gearbox \d+, record 1 of")
 
     def test_functions_without_samples_have_the_other_signals(self):
         source = FOLDED + "def peak(record):\n    return abs(record.sensor).max()\n"
