@@ -279,7 +279,7 @@ void SmoothResponse::add_bounds(const ResponseRows& rows, double threshold, doub
     const auto normal = [&] {
         return link_quantile(Link::probit, (static_cast<double>(engine() >> 11) + 0.5) * 0x1p-53);
     };
-    std::vector<double> errors[2][kSizes];
+    std::vector<double> errors[2][kSizes], at_threshold[kSizes];
     SmoothResponse again;
     again.nodes_ = nodes_;
     again.middle_ = middle_;
@@ -303,6 +303,21 @@ void SmoothResponse::add_bounds(const ResponseRows& rows, double threshold, doub
                 }
             }
         }
+        for (std::size_t i = 0; i < kSizes; ++i) {
+            const double error = again.distance(sizes[i], threshold, side) -
+                                 truth.distance(sizes[i], threshold, side);
+            if (std::isfinite(error)) {
+                at_threshold[i].push_back(error);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < kSizes; ++i) {
+        const double found = distance(sizes[i], threshold, side);
+        const auto pod_at = [&](double error) {
+            return link_probability(Link::probit, found - error);
+        };
+        band_.push_back({sizes[i], pod_at(0.0), pod_at(quantile_of(at_threshold[i], confidence)),
+                         pod_at(quantile_of(at_threshold[i], 1.0 - confidence))});
     }
     for (std::size_t p = 0; p < 2; ++p) {
         const double u = link_quantile(Link::probit, shares[p]);

@@ -34,6 +34,8 @@ class SmoothResponse {
     double normality() const { return normality_; }  // p-value of the standardised residuals
     const SizeBounds& a50() const { return a50_; }
     const SizeBounds& a90() const { return a90_; }
+    // POD with its bounds at sizes from the smallest to the largest, which are those of the table.
+    const std::vector<PodPoint>& band() const { return band_; }
     double smallest() const { return nodes_.front(); }
     double largest() const { return nodes_.back(); }
 
@@ -60,6 +62,7 @@ class SmoothResponse {
     double middle_ = 1.0, sigma_ = 0.0, growth_ = 0.0, correlation_ = 0.0, normality_ = 1.0;
     int active_ = 0;  // coefficients of the mean that are not zero
     SizeBounds a50_, a90_;
+    std::vector<PodPoint> band_;
 };
 
 }  // namespace gearpod::analysis

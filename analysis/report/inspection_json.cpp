@@ -46,7 +46,11 @@ Json responses_of(const InspectionResult& result) {
         json["smooth"] = {
             {"a50", to_json(smooth.a50())},      {"a90", to_json(smooth.a90())},
             {"smallest", smooth.smallest()},     {"largest", smooth.largest()},
-            {"scatter_growth", smooth.growth()}, {"correlation", smooth.correlation()}};
+            {"scatter_growth", smooth.growth()}, {"correlation", smooth.correlation()},
+            {"band", band_json(smooth.band())},  {"mean", Json::array()}};
+        for (const PodPoint& point : smooth.band()) {
+            json["smooth"]["mean"].push_back(smooth.mean(point.size));
+        }
     }
     if (pod.refusal.empty()) {
         add_curve(json, pod.curve.location, pod.curve.scale, pod.curve.covariance);

@@ -7,20 +7,6 @@
 namespace gearpod::analysis {
 namespace {
 
-Json to_json(const std::vector<PodPoint>& band) {
-    Json json{{"size", Json::array()},
-              {"pod", Json::array()},
-              {"lower", Json::array()},
-              {"upper", Json::array()}};
-    for (const PodPoint& point : band) {
-        json["size"].push_back(number(point.size));
-        json["pod"].push_back(number(point.pod));
-        json["lower"].push_back(number(point.lower));
-        json["upper"].push_back(number(point.upper));
-    }
-    return json;
-}
-
 Json to_json(const HitMissFit& fit) {
     const PodForm& form = fit.curve.form;
     const bool fitted = fit.refusal.empty();
@@ -65,6 +51,20 @@ Json to_json(const SignalResponseFit& fit) {
 
 }  // namespace
 
+nlohmann::json band_json(const std::vector<PodPoint>& band) {
+    Json json{{"size", Json::array()},
+              {"pod", Json::array()},
+              {"lower", Json::array()},
+              {"upper", Json::array()}};
+    for (const PodPoint& point : band) {
+        json["size"].push_back(number(point.size));
+        json["pod"].push_back(number(point.pod));
+        json["lower"].push_back(number(point.lower));
+        json["upper"].push_back(number(point.upper));
+    }
+    return json;
+}
+
 nlohmann::json hit_miss_json(const HitMissPod& pod) {
     Json json = pod.refusal.empty() ? to_json(pod.chosen) : Json::object();
     json["tests"] = pod.tests;
@@ -76,7 +76,7 @@ nlohmann::json hit_miss_json(const HitMissPod& pod) {
     json["supported"] = pod.supported.size();
     json["a50"] = pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr);
     json["a90"] = pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr);
-    json["band"] = to_json(pod.band);
+    json["band"] = band_json(pod.band);
     json["bound"] = bound_text(pod.rule);
     json["candidates"] = Json::array();
     for (const HitMissFit& fit : pod.candidates) {
@@ -91,7 +91,7 @@ nlohmann::json signal_response_json(const SignalResponsePod& pod) {
               {"chosen", pod.refusal.empty() ? Json(pod.chosen) : Json(nullptr)},
               {"a50", pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr)},
               {"a90", pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr)},
-              {"band", to_json(pod.band)},
+              {"band", band_json(pod.band)},
               {"candidates", Json::array()}};
     for (const SignalResponseFit& fit : pod.candidates) {
         json["candidates"].push_back(to_json(fit));

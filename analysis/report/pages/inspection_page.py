@@ -15,6 +15,9 @@ class Inspection(Findings):
         super().__init__(data)
         self.sizes = Sizes(data["size"])
         self.pod = data["hit_miss"] or data["signal_response"]
+        if self.pod and self.pod.get("smooth"):  # a monotone curve instead of a line
+            self.pod = {**self.pod, **self.pod["smooth"], "refusal": None, "model": "a monotone curve",
+                        "bound": "from tables simulated from the curve"}
         self.value = data["value"]["name"]
         self.bound = f"a90/{number(100 * data['confidence'])}"
 
@@ -83,32 +86,35 @@ def _curve(inspection, page):
                        blocks.table("POD over size", ["size", "POD", "lower", "upper"], rows))
 
 
+def _line(pod, size):
+    """Mean response on the line of the chosen candidate."""
+    line = pod["candidates"][pod["chosen"]]
+    at = line["intercept"] + line["slope"] * (math.log(size) if line["log_size"] else size)
+    power = line["power"]
+    inside = 1 + power * at
+    return (at if power == 1 else math.exp(at) if power == 0
+            else inside ** (1 / power) if inside > 0 else float("nan"))
+
+
 def _responses(inspection, page):
     pod, data = inspection.pod, inspection.data
-    line = pod["candidates"][pod["chosen"]]
     figure, axes = panel(3.6)
     shown = inspection.sizes.shown
     points = [(shown(s), v) for s, v in zip(data["data"]["size"], data["data"]["value"])]
     axes.plot([s for s, _ in points], [v for _, v in points], linestyle="none", marker="o",
               markersize=3.5, markeredgewidth=0, color=colour(0), label="measured")
-    x, y = [], []
-    for size in pod["band"]["size"]:
-        at = line["intercept"] + line["slope"] * (math.log(size) if line["log_size"] else size)
-        power = line["power"]
-        inside = 1 + power * at
-        x.append(shown(size))
-        y.append(at if power == 1 else math.exp(at) if power == 0
-                 else inside ** (1 / power) if inside > 0 else float("nan"))
-    axes.plot(x, y, color=colour(1), linestyle=dash(1), label="line")
+    x = [shown(size) for size in pod["band"]["size"]]
+    y = pod.get("mean") or [_line(pod, size) for size in pod["band"]["size"]]
+    axes.plot(x, y, color=colour(1), linestyle=dash(1), label="line" if not pod.get("mean") else "curve")
     axes.axhline(pod["threshold"], color=INK, linewidth=1, linestyle=(0, (4, 3)), label="threshold")
     axes.set_xlabel(inspection.sizes.axis())
     unit = data["value"]["unit"]
     axes.set_ylabel(inspection.value + (f", {unit}" if unit else ""))
     legend_below(axes, 3)
-    svg = to_svg(figure, "Responses over size", f"{len(points)} values and the line through them",
+    svg = to_svg(figure, "Responses over size", f"{len(points)} values and {pod['model']}",
                  page.names)
     rows = [[number(s, DIGITS), number(v, DIGITS)] for s, v in points]
-    how = (f"The line ({pod['model']}) and the decision threshold; {pod['censored'][0]} values are "
+    how = (f"The mean ({pod['model']}) and the decision threshold; {pod['censored'][0]} values are "
            f"censored below and {pod['censored'][1]} above.")
     return page.figure("Responses", [svg], how,
                        blocks.table("Measured values", ["size", inspection.value], rows))

@@ -7,13 +7,16 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "analysis/inspection.hpp"
 #include "analysis/measured_coverage.hpp"
 #include "analysis/pod/calibrated_bounds.hpp"
 #include "analysis/pod/cluster_effect.hpp"
+#include "analysis/report/inspection_json.hpp"
 #include "analysis/report/inspection_report.hpp"
+#include "analysis/statistics/link.hpp"
 #include "tests/analysis/pod/inspection_examples.hpp"
 
 namespace test_calibrated_bounds {
@@ -156,8 +159,22 @@ TEST_CASE("A curve is fitted where no line passes the checks") {
     CHECK(found.smooth->a90().upper.size > found.smooth->a90().estimate.size);
     CHECK(found.smooth->growth() == Approx(0.5).margin(0.2));
     CHECK(found.smooth->scatter(1.0) == Approx(1.2).epsilon(0.2));
+    double inside = 0.0;
+    for (const PodPoint& point : found.smooth->band()) {
+        const double truth = 40.0 * point.size / (point.size + 1.5) - 15.0;
+        const double pod = link_probability(Link::probit, truth / (1.2 * std::sqrt(point.size)));
+        CHECK(point.pod == Approx(pod).margin(0.08));
+        CHECK(point.lower <= point.pod);
+        CHECK(point.pod <= point.upper);
+        inside += point.lower <= pod && pod <= point.upper ? 1.0 : 0.0;
+    }
+    CHECK(inside > 0.8 * static_cast<double>(found.smooth->band().size()));
     const std::string text = report_text(inspection_report(request, found, {"t", {}, "v", ""}));
     CHECK_THAT(text, Catch::Contains("monotone curve"));
+    const auto json = inspection_json(on_a_curve(300, 1), request, found, {"t", {}, "v", ""});
+    const auto& smooth = json["signal_response"]["smooth"];
+    CHECK(smooth["band"]["pod"].size() == smooth["mean"].size());
+    CHECK(smooth["mean"].front() == Approx(found.smooth->mean(found.smooth->smallest())));
 
     // Eight equal responses hold no more information than one.
     const Inspections once = on_a_curve(60, 1);

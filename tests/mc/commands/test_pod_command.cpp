@@ -156,6 +156,24 @@ TEST_CASE("pod reports data that determine no curve") {
     CHECK_THAT(program("pod " + table + " --firth").output, Catch::Contains("a90"));
 }
 
+TEST_CASE("The page of responses that lie on no line shows a curve with its bounds") {
+    const Folder folder;
+    std::mt19937_64 engine(3);
+    std::normal_distribution<double> normal;
+    std::string text = "size,response\n";
+    for (int i = 0; i < 120; ++i) {
+        const double size = 0.3 + 3.7 * (i + 0.5) / 120;
+        text += fmt::format("{},{}\n", size,
+                            40.0 * size / (size + 1.5) + 1.2 * std::sqrt(size) * normal(engine));
+    }
+    const std::string page = folder.file("curve.html");
+    const auto json = pod_of(written(folder, "curve.csv", text) + " --threshold 15 --html " + page);
+    REQUIRE(json["signal_response"]["smooth"].is_object());
+    const std::string html = bytes_of(page);
+    CHECK(html.find("Figure 1. Probability of detection") != std::string::npos);
+    CHECK(html.find("The mean (a monotone curve)") != std::string::npos);
+}
+
 // Shape of a test with seeded wear: 35 depths on one gear each, 8 records of each, and 250 records
 // of healthy gears. Truth: 1 + 0.02 a, standard deviations 0.15 between gears and 0.1 within.
 TEST_CASE(
