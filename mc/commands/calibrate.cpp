@@ -20,6 +20,7 @@
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/run/support.hpp"
 #include "mc/study/housing.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -81,10 +82,11 @@ class Command {
                                  "calibration does not simulate the housing",
                                  "remove them, and a measured response (sensor.response_Hz)"});
         }
-        if (!scene->study().sensor.bearings.empty()) {
+        if (has_other_sources(scene->study())) {
             problems_.push_back({options_.study.path, 0, "sensor.bearings",
-                                 "calibration does not simulate faulty bearings",
-                                 "use recordings without one, and remove the key"});
+                                 "calibration simulates neither faulty bearings nor neighbouring "
+                                 "stages (sensor.stages)",
+                                 "use recordings without them, and remove the keys"});
         }
         if (!problems_.empty()) {
             return stop();

@@ -13,6 +13,7 @@
 #include "mc/ensemble/miss_rate.hpp"
 #include "mc/input/wrapped_text.hpp"
 #include "mc/study/noise.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "signals/windowing/noise_importance_sampler.hpp"
@@ -58,10 +59,11 @@ void check_numbers(const Study& study, const MissesOptions& options, Problems& p
              .what = "its study gives the noise by density, which is not white after the "
                      "low-pass; `misses` needs white noise (sensor.noise_m_s2)"});
     }
-    if (!study.sensor.bearings.empty()) {
+    if (has_other_sources(study)) {
         problems.push_back({.file = options.results,
-                            .what = "its study has faulty bearings, whose impulses all records of "
-                                    "a gearbox would share (sensor.bearings)"});
+                            .what = "its study has faulty bearings or neighbouring stages, whose "
+                                    "vibration all records of a gearbox would share "
+                                    "(sensor.bearings, sensor.stages)"});
     }
     if (options.records < kKinds || options.records % kKinds != 0 ||
         options.records > kMostRecords) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "mc/description/entries.hpp"
-#include "mc/gearbox/bearing_signals.hpp"
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/scene/instance_inputs.hpp"
 #include "mc/study/gears.hpp"
 
@@ -14,11 +16,23 @@ namespace {
 void print_bearing(const Scene& scene, const Bearing& bearing) {
     const InstanceInputs inputs = nominal_inputs(scene.study());
     const signals::BearingImpulses impulses = bearing_impulses(scene, inputs, bearing);
-    print_entry(bearing.role == BearingRole::other_fault ? "other fault" : "faulty bearing",
+    print_entry(bearing.role == SourceRole::other_fault ? "other fault" : "faulty bearing",
                 fmt::format("{}: {:.3f} impulses per shaft turn, {:.4g} Hz; {:.3g} m/s^2 rms after "
                             "the low-pass, while loaded most",
                             bearing_text(bearing), impulses_per_turn(bearing), impulses.rate_Hz,
                             signals::bearing_rms(impulses, scene.study().sensor.low_pass_Hz)));
+}
+
+void print_stage(const NeighbourStage& stage, const Scene& own) {
+    print_entry("neighbouring stage",
+                fmt::format("\"{}\": {}, its {} on the {} here, meshes at {:.4g} Hz, gain x {:g}; "
+                            "the shaft's elasticity is not modelled{}",
+                            stage.name, own.study().title, member_name(*stage.stage_shaft),
+                            member_name(*stage.shaft), std::abs(own.nominal_mesh_frequency_Hz()),
+                            stage.gain,
+                            stage.role == SourceRole::other_fault
+                                ? "; its fault is that of other_fault records"
+                                : ""));
 }
 
 }  // namespace
@@ -70,6 +84,9 @@ void print_sensors(const Scene& scene) {
     }
     for (const Bearing& bearing : study.sensor.bearings) {
         print_bearing(scene, bearing);
+    }
+    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
+        print_stage(study.sensor.stages[i], scene.stages()[i]);
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
-#include "mc/gearbox/bearing_signals.hpp"
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"
 
@@ -30,7 +30,7 @@ RowShape row_shape(const Study& study) {
     const std::size_t meshes =
         teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
     const std::size_t variants =
-        study.sensor.additional.size() + (has_bearings(study, BearingRole::other_fault) ? 1 : 0);
+        study.sensor.additional.size() + (has_other_fault(study) ? 1 : 0);
     return {input_columns(study).size(), study.features.use.size(),
             study.sensor.noise_levels.size(), meshes, variants};
 }
@@ -106,10 +106,10 @@ std::vector<double> BatchWorker::variants_of(const Realization& record,
         SensorSignals own = signals_of_sensor(signals, s, study.sensor.additional[s].noise);
         add(additional_[s].compute(own.linked(), at_sensor(study, record, s + 1)));
     }
-    if (has_bearings(study, BearingRole::other_fault)) {
+    if (has_other_fault(study)) {
         if (record.id.group == Group::threshold) {
             LaneSignals other = signals;
-            add_bearings(task_.scene, record, BearingRole::other_fault, other);
+            add_other_fault(task_.scene, record, other);
             add(features_.compute(other, record));
         } else {
             add(std::vector<double>(shape_.features * shape_.levels,

@@ -12,7 +12,7 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/scene/feature_needs.hpp"
-#include "mc/study/bearings.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 
@@ -37,7 +37,7 @@ Results results_frame(const Study& study) {
                                                 sensor.name, sensor.angle_deg),
                                     results.features});
     }
-    if (has_bearings(study, BearingRole::other_fault)) {
+    if (has_other_fault(study)) {
         results.variants.push_back(
             {kOtherFault,
              "healthy gearboxes of the threshold sample with " + other_fault_text(study),

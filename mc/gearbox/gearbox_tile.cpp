@@ -18,6 +18,7 @@
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/housing.hpp"
+#include "mc/study/other_sources.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
 #include "signals/windowing/folded_signal.hpp"
@@ -226,7 +227,7 @@ void add_costs(const GearboxTile& of, GearboxTile& tile) {
 std::size_t computed_baselines(const Study& study) {
     const bool same =
         study.features.baseline_torque_scatter == 0.0 && !has_random_fluctuations(study) &&
-        study.sensor.tones.empty() && study.sensor.bearings.empty() &&
+        study.sensor.tones.empty() && !has_other_sources(study) &&
         std::ranges::none_of(
             study.random, [](const RandomInput& input) { return input.distribution.per_record(); });
     return same ? 1 : static_cast<std::size_t>(study.features.baseline_records);

@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "machine/cancellation.hpp"
-#include "mc/gearbox/bearing_signals.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/record_samples.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -135,16 +135,14 @@ void add_housing_response(const Scene& scene, const SensorPaths& path, const Gea
     fold_again(scene, own);
 }
 
-// Adds the transmission error and the bearings to a lane with sensor samples.
-void complete(const Scene& scene, const GearboxTile& tile, int lane, int meshes,
-              LaneSignals& signals) {
-    if (cuts_records(scene, meshes)) {
-        signals.te = te_signal(scene, tile, lane);
+// Adds the transmission error to lanes with sensor samples, `first` the first of them, and other
+// sources of vibration.
+void complete(const Scene& scene, const GearboxTile& tile, std::size_t first, int meshes,
+              std::span<LaneSignals> lanes) {
+    for (std::size_t i = 0; i < lanes.size() && cuts_records(scene, meshes); ++i) {
+        lanes[i].te = te_signal(scene, tile, static_cast<int>(first + i));
     }
-    const Realization& realization = tile.realizations[static_cast<std::size_t>(lane)];
-    for (std::size_t sensor = 0; sensor <= signals.additional.size(); ++sensor) {
-        add_bearings(scene, realization, BearingRole::background, of_sensor(signals, sensor));
-    }
+    add_background(scene, std::span(tile.realizations).subspan(first, lanes.size()), lanes);
 }
 
 }  // namespace
@@ -161,7 +159,7 @@ LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const Gear
             own.sensor = samples_along(scene, path, tile, sensor, 0, lane, meshes);
         }
     }
-    complete(scene, tile, lane, meshes, lane_result);
+    complete(scene, tile, static_cast<std::size_t>(lane), meshes, std::span(&lane_result, 1));
     return lane_result;
 }
 
@@ -191,9 +189,7 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths&
             of_sensor(all[lane], sensor).sensor = std::move(samples[lane]);
         }
     }
-    for (std::size_t lane = 0; lane < all.size(); ++lane) {
-        complete(scene, tile, static_cast<int>(lane), meshes, all[lane]);
-    }
+    complete(scene, tile, 0, meshes, all);
     return all;
 }
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "lockstep/excitation/excitation_rows.hpp"
-#include "mc/gearbox/bearing_signals.hpp"
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
 #include "mc/gearbox/realization_features.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
@@ -89,11 +89,11 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
     const Realization& realization = tile.realizations[0];
     const LaneSignals all = lane_signals(scene, path, tile, 0, scene.signal_meshes());
     add_sensor(scene, realization, all, features, "sensor", rows, out);
-    if (has_bearings(scene.study(), BearingRole::other_fault)) {
+    if (has_other_fault(scene.study())) {
         LaneSignals other;
         other.sensor.resize(all.sensor.size(), 0.0);
         other.te = all.te;
-        add_bearings(scene, realization, BearingRole::other_fault, other);
+        add_other_fault(scene, realization, other);
         std::vector<double> samples = drawn_record(scene, std::move(other), realization).sensor;
         samples.resize(rows);
         out.columns.push_back({kOtherFault, "m/s^2", std::move(samples)});

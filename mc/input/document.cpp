@@ -1,5 +1,7 @@
 #include "mc/input/document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <fstream>
@@ -194,6 +196,21 @@ void uncorrelate(Entry& random, const std::string& key) {
 }
 
 }  // namespace
+
+std::string quoted_text(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            result += '\\';
+            result += c;
+        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            result += fmt::format("\\u{:04X}", static_cast<int>(c));
+        } else {
+            result += c;
+        }
+    }
+    return result + "\"";
+}
 
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts(1);

@@ -52,6 +52,9 @@ std::vector<std::string> drop_overridden_random(Value& document);
 // Content of a file. A problem is appended if it cannot be read.
 std::string read_file(const std::string& path, Problems& problems);
 
+// Text as a TOML string.
+std::string quoted_text(const std::string& text);
+
 // Splits "a.b.c" into its parts; "" has one part, which is empty.
 std::vector<std::string> split(const std::string& text, char separator);
 

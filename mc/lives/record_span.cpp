@@ -9,6 +9,7 @@
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/housing.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -120,11 +121,10 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     if (study.sensor.noise_levels.size() != 1) {
         reject("sensor.noise_levels", "a life has one noise level", "use noise_levels = [1]");
     }
-    if (has_random_fluctuations(study) || !study.sensor.tones.empty() ||
-        !study.sensor.bearings.empty()) {
+    if (has_random_fluctuations(study) || !study.sensor.tones.empty() || has_other_sources(study)) {
         reject("life.interval_h",
                "records are superpositions of steady signals, but the study has fluctuations, "
-               "gravity, tones or bearings that differ between records",
+               "gravity, tones, bearings or stages that differ between records",
                "remove them");
     }
     if (!study.sensor.additional.empty()) {

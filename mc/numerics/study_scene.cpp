@@ -16,6 +16,15 @@ StudyScene refused(Problems problems) {
     return none;
 }
 
+// Chooses the numerics of neighbouring stages that leave them to a tolerance.
+void choose_numerics_of_stages(Study& study) {
+    for (NeighbourStage& stage : study.sensor.stages) {
+        auto resolved = std::make_shared<const Study>(resolve_numerics(*stage.study).study);
+        stage.text = resolved_text(*resolved);
+        stage.study = std::move(resolved);
+    }
+}
+
 }  // namespace
 
 StudyScene make_scene(const std::string& name, StudyReading reading) {
@@ -40,6 +49,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                          "remove it, or build with all kernels (preset portable)"}});
     }
     try {
+        choose_numerics_of_stages(*reading.study);
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));
         StudyScene made{std::make_unique<const Scene>(resolved.study),
                         std::move(resolved.choice),

@@ -105,7 +105,7 @@ struct Variant {
 // Beginning of the names of variants that are measured by additional sensors.
 inline const std::string kSensorVariant = "sensor_";
 // Name of the variant in which the healthy gearboxes of the threshold group have another fault than
-// that of the study (BearingRole::other_fault). Its values are NaN for graded gearboxes.
+// that of the study (SourceRole::other_fault). Its values are NaN for graded gearboxes.
 inline constexpr const char* kOtherFault = "other_fault";
 
 struct Timing {

@@ -8,7 +8,7 @@
 #include "lockstep/tile/excited_integrator.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/scene/stepping.hpp"
-#include "mc/study/bearings.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 

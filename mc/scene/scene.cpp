@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "mc/scene/feature_needs.hpp"
+#include "mc/scene/neighbour_stages.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -30,10 +31,10 @@ bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
 
 Scene::Scene(const Study& study)
     : Scene(study, std::make_shared<const Sampler>(study), make_drivetrain(with_gears(study)),
-            nullptr, nullptr, kAllMeshes) {}
+            nullptr, nullptr, nullptr, kAllMeshes) {}
 
 Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrain> drivetrain,
-             SharedStiffness stiffness, SharedPlan plan, int most_recorded)
+             SharedStiffness stiffness, SharedPlan plan, SharedStages stages, int most_recorded)
     : study_(std::move(study)),
       sampler_(std::move(sampler)),
       drivetrain_(std::move(drivetrain)),
@@ -42,6 +43,9 @@ Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrai
       plan_(plan ? std::move(plan)
                  : std::make_shared<const ScenePlan>(
                        make_plan(study_, *sampler_, *drivetrain_, *stiffness_))),
+      stages_(stages
+                  ? std::move(stages)
+                  : std::make_shared<const std::vector<Scene>>(stage_scenes(study_, *drivetrain_))),
       span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(
           drivetrain_->mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s) / (2.0 * pi)),
@@ -63,17 +67,18 @@ Scene Scene::with(const Numerics& numerics) const {
             drivetrain_,
             same_stiffness ? stiffness_ : nullptr,
             same_plan ? plan_ : nullptr,
+            stages_,
             most_recorded_};
 }
 
 Scene Scene::with(const Life& life) const {
     Study study = study_;
     study.life = life;
-    return {std::move(study), sampler_, drivetrain_, stiffness_, plan_, most_recorded_};
+    return {std::move(study), sampler_, drivetrain_, stiffness_, plan_, stages_, most_recorded_};
 }
 
 Scene Scene::recording_at_most(int meshes) const {
-    return {study_, sampler_, drivetrain_, stiffness_, plan_, meshes};
+    return {study_, sampler_, drivetrain_, stiffness_, plan_, stages_, meshes};
 }
 
 }  // namespace gearpod::mc

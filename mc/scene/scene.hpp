@@ -56,6 +56,9 @@ class Scene {
         return stiffness_->tooth_scales();
     }
 
+    // Scenes of the neighbouring stages, in the order of the study.
+    const std::vector<Scene>& stages() const { return *stages_; }
+
     const signals::SpanLayout& span() const { return span_; }
     // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
     // its mate.
@@ -93,15 +96,17 @@ class Scene {
     using SharedStiffness = std::shared_ptr<const SceneStiffness>;
     using SharedPlan = std::shared_ptr<const ScenePlan>;
     using SharedSampler = std::shared_ptr<const Sampler>;
-    // Null stiffness and plan are computed.
+    using SharedStages = std::shared_ptr<const std::vector<Scene>>;
+    // Null stiffness, plan and stages are computed.
     Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrain> drivetrain,
-          SharedStiffness stiffness, SharedPlan plan, int most_recorded);
+          SharedStiffness stiffness, SharedPlan plan, SharedStages stages, int most_recorded);
 
     Study study_;
     SharedSampler sampler_;
     std::shared_ptr<const Drivetrain> drivetrain_;
     SharedStiffness stiffness_;
     SharedPlan plan_;
+    SharedStages stages_;
     signals::SpanLayout span_;
     double nominal_mesh_frequency_Hz_;
     int signal_meshes_;

@@ -1,6 +1,7 @@
 // Sensors of a study, and what they pick up apart from the gearbox.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "mc/study/member.hpp"
 
 namespace gearpod::mc {
+
+struct Study;
 
 // Interfering tone at the sensor: of a given frequency, or an order of a shaft of the gearbox.
 struct Tone {
@@ -21,8 +24,9 @@ struct Tone {
 
 // Faulty part of a rolling bearing.
 enum class BearingFault { outer, inner, roller, cage };
-// Records in which a bearing is heard: all of them, or those of another fault than the study's.
-enum class BearingRole { background, other_fault };
+// Records that contain the vibration of a fault elsewhere: all of them, or those of another fault
+// than the study's.
+enum class SourceRole { background, other_fault };
 
 // Rolling bearing with a local fault (signals/noise/bearing_impulses.hpp). The outer ring stands
 // still, the inner ring turns with the shaft.
@@ -37,9 +41,26 @@ struct Bearing {
     double resonance_Hz = 0.0, damping = 0.0;
     double slip = 0.0;           // standard deviation of an interval over its mean
     double load_zone_deg = 0.0;  // width
-    BearingRole role = BearingRole::background;
+    SourceRole role = SourceRole::background;
 
     bool operator==(const Bearing&) const = default;
+};
+
+// Neighbouring stage, whose vibration reaches the sensor, too. A shaft connects it with the study's
+// gearbox; its elasticity is not modelled, so that both turn steadily.
+struct NeighbourStage {
+    std::string name;
+    std::string text;                          // its study, with all defaults
+    std::shared_ptr<const Study> study;        // that text, read; never null
+    std::optional<Member> shaft, stage_shaft;  // the common shaft: here, and in that stage
+    double gain = 1.0;                         // factor on the vibration at that study's own sensor
+    // other_fault: the stage is healthy, and has its study's fault in records of another fault.
+    SourceRole role = SourceRole::background;
+
+    bool operator==(const NeighbourStage& other) const {
+        return name == other.name && text == other.text && shaft == other.shaft &&
+               stage_shaft == other.stage_shaft && gain == other.gain && role == other.role;
+    }
 };
 
 // Natural mode of the housing between the gearbox and the sensors
@@ -89,6 +110,7 @@ struct Sensor {
     double tone_level = 1.0;  // factor on the amplitudes of all tones
     std::vector<Bearing> bearings;
     double bearing_level = 1.0;  // factor on the amplitudes of all bearings
+    std::vector<NeighbourStage> stages;
     double encoder_sampling_Hz = 0.0;
     double encoder_noise_rad = 0.0;         // rms
     std::vector<double> noise_levels{1.0};  // factors on both noises, ascending

@@ -9,7 +9,7 @@
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/wilson.hpp"
 #include "features/feature.hpp"
-#include "mc/study/bearings.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {

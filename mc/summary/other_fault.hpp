@@ -1,5 +1,5 @@
 // Alarms that another fault than the study's raises in healthy gearboxes
-// (BearingRole::other_fault).
+// (SourceRole::other_fault).
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "mc/study/bearings.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/gears.hpp"
 #include "signals/noise/bearing_impulses.hpp"
 
@@ -32,8 +32,7 @@ Bearing read_bearing(const ListElement& element) {
         element.reject("load_zone_deg has no effect: the load of this part is constant",
                        "remove it, or use fault = \"inner\" or \"roller\"");
     }
-    bearing.role =
-        static_cast<BearingRole>(element.choice("role", kBearingRoles, false).value_or(0));
+    bearing.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
     return bearing;
 }
 
@@ -63,7 +62,7 @@ std::string bearing_table(const Bearing& bearing) {
         load_turns_per_turn(bearing) > 0.0
             ? fmt::format("load_zone_deg = {}, ", bearing.load_zone_deg)
             : "",
-        kBearingRoles[static_cast<std::size_t>(bearing.role)].text);
+        kSourceRoles[static_cast<std::size_t>(bearing.role)].text);
 }
 
 }  // namespace gearpod::mc

@@ -14,9 +14,6 @@ inline constexpr ChoiceName kBearingFaults[] = {{"outer", static_cast<int>(Beari
                                                 {"inner", static_cast<int>(BearingFault::inner)},
                                                 {"roller", static_cast<int>(BearingFault::roller)},
                                                 {"cage", static_cast<int>(BearingFault::cage)}};
-inline constexpr ChoiceName kBearingRoles[] = {
-    {"background", static_cast<int>(BearingRole::background)},
-    {"other_fault", static_cast<int>(BearingRole::other_fault)}};
 inline constexpr TableField kBearingFields[] = {
     {"fault", TableField::Kind::text, true, kBearingFaults},
     {"shaft", TableField::Kind::text, false, kShafts},
@@ -29,7 +26,7 @@ inline constexpr TableField kBearingFields[] = {
     {"damping"},
     {"slip"},
     {"load_zone_deg"},
-    {"role", TableField::Kind::text, false, kBearingRoles}};
+    {"role", TableField::Kind::text, false, kSourceRoles}};
 // Problems name the bearing by its position in the list.
 std::vector<Bearing> read_bearings(const Value& list, const RejectElement& reject);
 

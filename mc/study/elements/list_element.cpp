@@ -134,6 +134,18 @@ std::optional<int> ListElement::choice(std::string_view name, std::span<const Ch
     return std::nullopt;
 }
 
+std::string ListElement::text(std::string_view name, bool required) const {
+    const Value* value = find(name, required);
+    if (value == nullptr) {
+        return "";
+    }
+    if (value->kind != Value::Kind::text) {
+        reject(fmt::format("{} must be a string, but is {}", name, value->kind_name()), "");
+        return "";
+    }
+    return value->text;
+}
+
 std::string ListElement::word(std::string_view name) const {
     const Value* value = find(name, true);
     if (value == nullptr) {
@@ -150,8 +162,8 @@ std::string ListElement::word(std::string_view name) const {
     return value->text;
 }
 
-std::optional<Member> ListElement::shaft() const {
-    const std::optional<int> found = choice("shaft", kShafts, true);
+std::optional<Member> ListElement::shaft(std::string_view name) const {
+    const std::optional<int> found = choice(name, kShafts, true);
     return found ? std::optional(static_cast<Member>(*found)) : std::nullopt;
 }
 

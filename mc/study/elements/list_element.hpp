@@ -20,6 +20,11 @@ inline constexpr ChoiceName kShafts[] = {{"sun", static_cast<int>(Member::sun)},
                                          {"pinion", static_cast<int>(Member::pinion)},
                                          {"gear", static_cast<int>(Member::gear)}};
 
+// Roles of a source of vibration elsewhere.
+inline constexpr ChoiceName kSourceRoles[] = {
+    {"background", static_cast<int>(SourceRole::background)},
+    {"other_fault", static_cast<int>(SourceRole::other_fault)}};
+
 // Reads the values of one table. Whatever is wrong is rejected, and the value is then 0 or empty.
 class ListElement {
   public:
@@ -37,10 +42,12 @@ class ListElement {
     // Value of one of the choices; empty if it is missing, which is rejected where it is required.
     std::optional<int> choice(std::string_view name, std::span<const ChoiceName> choices,
                               bool required) const;
+    // Text; "" if it is missing, which is rejected where it is required.
+    std::string text(std::string_view name, bool required) const;
     // Required text of lower-case letters, digits and dashes; "" if it is rejected.
     std::string word(std::string_view name) const;
-    // Member named by "shaft", which is required: one of kShafts.
-    std::optional<Member> shaft() const;
+    // Member named by `name`, which is required: one of kShafts.
+    std::optional<Member> shaft(std::string_view name = "shaft") const;
     // Rejects the table unless it has exactly one of two names. True if it has the first.
     bool first_of(std::string_view first, std::string_view second) const;
     // Rejects a statement of the table.

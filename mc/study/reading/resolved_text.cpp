@@ -34,21 +34,6 @@ std::string value_text(double si, double to_si) {
     return fmt::format("{}", near);
 }
 
-std::string quoted_text(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            result += '\\';
-            result += c;
-        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-            result += fmt::format("\\u{:04X}", static_cast<int>(c));
-        } else {
-            result += c;
-        }
-    }
-    return result + "\"";
-}
-
 // Value of one key as TOML; "" if it is not given.
 class ValueText {
   public:

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "mc/study/bearings.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "signals/noise/low_pass_noise.hpp"
 
@@ -100,13 +100,14 @@ void check_tones_and_bearings(StudyDraft& draft) {
             "sensor only",
             "remove them");
     }
-    if (!s.bearings.empty() && draft.study.ensemble.threshold_records > 1 &&
+    if (has_other_sources(draft.study) && draft.study.ensemble.threshold_records > 1 &&
         draft.usable("ensemble.threshold_records")) {
-        draft.reject("ensemble.threshold_records",
-                     fmt::format("is {}, but all records of a gearbox would have the same impulses "
-                                 "(sensor.bearings)",
-                                 draft.study.ensemble.threshold_records),
-                     "use 1, or remove the bearings");
+        draft.reject(
+            "ensemble.threshold_records",
+            fmt::format("is {}, but all records of a gearbox would have the same vibration "
+                        "of other sources (sensor.bearings, sensor.stages)",
+                        draft.study.ensemble.threshold_records),
+            "use 1, or remove bearings and stages");
     }
 }
 

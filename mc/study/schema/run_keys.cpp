@@ -3,6 +3,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "mc/study/elements/additional_sensors.hpp"
 #include "mc/study/elements/bearings.hpp"
+#include "mc/study/elements/stages.hpp"
 #include "mc/study/elements/housing_modes.hpp"
 #include "mc/study/elements/tones.hpp"
 #include "mc/study/keys/access.hpp"
@@ -76,6 +77,7 @@ const Key kRunKeys[] = {
     {"sensor", "tone_level", number<&Sensor::tone_level>, kNone, kNotNegative, with_tones, kRandom, "factor on the amplitudes of all tones: how loud the rest of this machine is"},
     {"sensor", "bearings", tables<&Sensor::bearings, read_bearings, bearing_table>("bearings", kBearingFields), kNone, kAny, acceleration_detail, kShared, "rolling bearings with a local fault, whose impulses the sensor picks up: docs/guide/sensors.md"},
     {"sensor", "bearing_level", number<&Sensor::bearing_level>, kNone, kNotNegative, with_bearings, kRandom, "factor on the amplitudes of all bearings: how severe their faults are"},
+    {"sensor", "stages", tables<&Sensor::stages, read_stages, stage_table>("stages", kStageFields), kNone, kAny, acceleration_detail, kShared, "neighbouring stages, each a study of its own, whose vibration the sensor picks up, too: docs/guide/sensors.md"},
     {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
     {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
     {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on the noise of accelerometer and encoders, ascending"},

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "mc/gearbox/bearing_signals.hpp"
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/results/row_source.hpp"
-#include "mc/study/bearings.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/summary/other_fault.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
 

@@ -29,6 +29,7 @@ constexpr std::pair<StreamPurpose, std::uint64_t> kStableNumbers[] = {
     {StreamPurpose::speed_noise, 0x830ea67b5ae5fd07u},
     {StreamPurpose::tone_phases, 0x2aebedb682410a19u},
     {StreamPurpose::bearing_impulses, 0x65f6a4bd105a4482u},
+    {StreamPurpose::stage_start, 0x63ffbc50074125a2u},
     {StreamPurpose::record_start, 0x6cfd7dd3525916a4u},
     {StreamPurpose::assembled_teeth, 0x256fdde146e2f937u},
     {StreamPurpose::sensor_noise, 0x270990c91ac696a3u},

@@ -1,4 +1,4 @@
-#include "mc/study/bearings.hpp"
+#include "mc/study/other_sources.hpp"
 
 #include <fmt/format.h>
 
@@ -63,9 +63,14 @@ double load_turns_per_turn(const Bearing& bearing) {
     return 0.0;
 }
 
-bool has_bearings(const Study& study, BearingRole role) {
-    return std::ranges::any_of(study.sensor.bearings,
-                               [&](const Bearing& bearing) { return bearing.role == role; });
+bool has_other_sources(const Study& study) {
+    return !study.sensor.bearings.empty() || !study.sensor.stages.empty();
+}
+
+bool has_other_fault(const Study& study) {
+    const auto is_fault = [](const auto& source) { return source.role == SourceRole::other_fault; };
+    return std::ranges::any_of(study.sensor.bearings, is_fault) ||
+           std::ranges::any_of(study.sensor.stages, is_fault);
 }
 
 std::string bearing_text(const Bearing& bearing) {
@@ -77,11 +82,16 @@ std::string bearing_text(const Bearing& bearing) {
 
 std::string other_fault_text(const Study& study) {
     std::string text;
-    for (const Bearing& bearing : study.sensor.bearings) {
-        if (bearing.role == BearingRole::other_fault) {
-            text += fmt::format("{}the {}", text.empty() ? "a fault of " : " and ",
-                                bearing_text(bearing));
+    const auto add = [&](SourceRole role, const std::string& what) {
+        if (role == SourceRole::other_fault) {
+            text += (text.empty() ? "a fault of " : " and ") + what;
         }
+    };
+    for (const Bearing& bearing : study.sensor.bearings) {
+        add(bearing.role, "the " + bearing_text(bearing));
+    }
+    for (const NeighbourStage& stage : study.sensor.stages) {
+        add(stage.role, "the neighbouring stage \"" + stage.name + "\"");
     }
     return text;
 }

@@ -1,4 +1,5 @@
-// Impulses of a study's faulty rolling bearings, and their text.
+// Sources of vibration other than the study's gearbox: faulty rolling bearings and neighbouring
+// stages.
 #pragma once
 
 #include <string>
@@ -15,11 +16,14 @@ double impulses_per_turn(const Bearing& bearing);
 // Turns of the faulty part through the load zone per turn of the shaft; 0 for a constant load.
 double load_turns_per_turn(const Bearing& bearing);
 
-bool has_bearings(const Study& study, BearingRole role);
+// True if there are bearings or stages, which differ between the records of a gearbox.
+bool has_other_sources(const Study& study);
+// True if there are records of another fault than the study's.
+bool has_other_fault(const Study& study);
 
 // "outer ring of the sun's bearing"
 std::string bearing_text(const Bearing& bearing);
-// All bearings of the other fault, "" without one: "a fault of the outer ring of the sun's bearing"
+// The other fault, "" without one: "a fault of the outer ring of a bearing of the sun"
 std::string other_fault_text(const Study& study);
 
 }  // namespace gearpod::mc

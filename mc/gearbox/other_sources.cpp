@@ -1,0 +1,147 @@
+#include "mc/gearbox/other_sources.hpp"
+
+#include <algorithm>
+#include <boost/random/uniform_01.hpp>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "machine/cancellation.hpp"
+#include "mc/gearbox/record_samples.hpp"
+#include "mc/scene/neighbour_stages.hpp"
+#include "signals/spectra/periodic_interpolation.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void add_bearings(const Scene& scene, const Realization& realization, SourceRole role,
+                  std::vector<double>& samples) {
+    const std::vector<Bearing>& bearings = scene.study().sensor.bearings;
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+        if (bearings[i].role == role) {
+            machine::throw_if_cancelled();
+            Philox engine =
+                record_stream(scene.study(), realization.id,
+                              with_suffix(StreamPurpose::bearing_impulses, std::to_string(i)));
+            signals::add_bearing_vibration(bearing_impulses(scene, realization.inputs, bearings[i]),
+                                           scene.study().sensor.low_pass_Hz,
+                                           sample_s(scene, realization.inputs), engine, samples);
+        }
+    }
+}
+
+// Adds `factor` times the steady vibration of a stage's gearbox, from a random position on, to the
+// samples of a record.
+void add_stage_vibration(const Scene& scene, std::size_t stage, const Realization& realization,
+                         const Realization& gearbox, const std::vector<double>& vibration,
+                         double factor, std::vector<double>& samples) {
+    const signals::PeriodicInterpolation signal(vibration);
+    Philox engine = record_stream(
+        scene.study(), realization.id,
+        with_suffix(StreamPurpose::stage_start, scene.study().sensor.stages[stage].name));
+    const double start =
+        boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
+    const double step =
+        sample_s(scene, realization.inputs) / sample_s(scene.stages()[stage], gearbox.inputs);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] += factor * signal(start + step * static_cast<double>(i));
+    }
+}
+
+// Adds the vibration of a stage next to the gearboxes of records, without its fault or with it.
+void add_stage(const Scene& scene, std::size_t stage, std::span<const Realization> realizations,
+               bool faulty, double factor, std::span<std::vector<double>> samples) {
+    const Scene& own = scene.stages()[stage];
+    const SensorPaths path = sensor_paths(own);
+    const auto lanes = static_cast<std::size_t>(own.study().numerics.lanes);
+    for (std::size_t first = 0; first < realizations.size(); first += lanes) {
+        const auto part = realizations.subspan(first, std::min(lanes, realizations.size() - first));
+        std::vector<Realization> gearboxes;
+        for (const Realization& realization : part) {
+            gearboxes.push_back(stage_gearbox(scene, stage, realization));
+            if (faulty) {
+                gearboxes.back().inputs.fault_size = stage_fault_size(scene, stage, realization.id);
+            }
+        }
+        const GearboxTile tile =
+            run_realizations(own, path, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
+        const std::vector<LaneSignals> signals =
+            all_lane_signals(own, path, tile, own.span_meshes());
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            if (tile.status[i] == Status::ok) {
+                add_stage_vibration(scene, stage, part[i], gearboxes[i], signals[i].sensor, factor,
+                                    samples[first + i]);
+            } else {
+                std::ranges::fill(samples[first + i], std::numeric_limits<double>::quiet_NaN());
+            }
+        }
+    }
+}
+
+// Adds samples to those of a sensor of a record.
+void add_samples(const Scene& scene, const std::vector<double>& samples, LaneSignals& sensor) {
+    std::ranges::transform(sensor.sensor, samples, sensor.sensor.begin(), std::plus<>());
+    fold_again(scene, sensor);
+}
+
+}  // namespace
+
+signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
+                                          const Bearing& bearing) {
+    const double shaft_Hz = bearing.shaft
+                                ? scene.drivetrain().shaft_turns_per_mesh(*bearing.shaft) /
+                                      dynamics::mesh_period_s(scene.inputs(inputs))
+                                : bearing.shaft_Hz;
+    const double load_turns = load_turns_per_turn(bearing);
+    return {
+        .rate_Hz = impulses_per_turn(bearing) * shaft_Hz,
+        .slip = bearing.slip,
+        .load_turns_Hz = load_turns * shaft_Hz,
+        .load_zone_rad = load_turns > 0.0 ? bearing.load_zone_deg * std::numbers::pi / 180.0 : 0.0,
+        .amplitude_m_s2 = inputs.bearing_level * bearing.amplitude_m_s2,
+        .resonance_Hz = bearing.resonance_Hz,
+        .damping = bearing.damping};
+}
+
+void add_background(const Scene& scene, std::span<const Realization> realizations,
+                    std::span<LaneSignals> records) {
+    if (records.empty() || records.front().sensor.empty() || !has_other_sources(scene.study())) {
+        return;
+    }
+    std::vector<std::vector<double>> samples;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        samples.emplace_back(records[i].sensor.size(), 0.0);
+        add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
+    }
+    for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
+        add_stage(scene, stage, realizations.first(records.size()), false,
+                  scene.study().sensor.stages[stage].gain, samples);
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        add_samples(scene, samples[i], records[i]);
+        for (LaneSignals& sensor : records[i].additional) {
+            add_samples(scene, samples[i], sensor);
+        }
+    }
+}
+
+void add_other_fault(const Scene& scene, const Realization& realization, LaneSignals& record) {
+    if (record.sensor.empty() || !has_other_fault(scene.study())) {
+        return;
+    }
+    std::vector<double> samples(record.sensor.size(), 0.0);
+    add_bearings(scene, realization, SourceRole::other_fault, samples);
+    const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
+    for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+        if (stages[stage].role == SourceRole::other_fault) {  // in place of the healthy stage
+            const double gain = stages[stage].gain;
+            add_stage(scene, stage, std::span(&realization, 1), true, gain, std::span(&samples, 1));
+            add_stage(scene, stage, std::span(&realization, 1), false, -gain,
+                      std::span(&samples, 1));
+        }
+    }
+    add_samples(scene, samples, record);
+}
+
+}  // namespace gearpod::mc

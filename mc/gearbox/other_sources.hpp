@@ -1,0 +1,24 @@
+// Vibration of other sources in the records of a gearbox: faulty bearings and neighbouring stages.
+#pragma once
+
+#include <span>
+
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/study/other_sources.hpp"
+#include "signals/noise/bearing_impulses.hpp"
+
+namespace gearpod::mc {
+
+// Impulses of one of the study's bearings in a gearbox with these inputs.
+signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
+                                          const Bearing& bearing);
+
+// Adds the background sources to the samples of all sensors of records and folds them again. No
+// effect without samples. Samples count as evenly spaced even if the speed fluctuates. A record
+// next to whose gearbox a stage fails becomes NaN.
+void add_background(const Scene& scene, std::span<const Realization> realizations,
+                    std::span<LaneSignals> records);
+// Adds the other fault to the samples of the first sensor, likewise.
+void add_other_fault(const Scene& scene, const Realization& realization, LaneSignals& record);
+
+}  // namespace gearpod::mc

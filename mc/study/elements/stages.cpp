@@ -1,0 +1,106 @@
+#include "mc/study/elements/stages.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "mc/input/document.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr Range kAbove0{.low = 0.0, .low_open = true};
+
+// Text of the study of a stage; `name` is that of its file in messages.
+std::string study_text(const ListElement& element, const Value& table, std::string& name) {
+    if (!element.first_of("study", "text")) {
+        name = "the study of a stage";
+        return element.text("text", false);
+    }
+    const auto folder = std::filesystem::path(table.position.file).parent_path();
+    name = (folder / element.text("study", false)).lexically_normal().string();
+    Problems problems;
+    std::string text = read_file(name, problems);
+    for (const Problem& problem : problems) {
+        element.reject(name + ": " + problem.what, problem.remedy);
+    }
+    return problems.empty() ? text : "";
+}
+
+bool has_stages(const std::string& text, const std::string& name) {
+    Problems ignored;
+    const Value document = parse_document(text, name, ignored);
+    const Entry* sensor = document.find("sensor");
+    return sensor != nullptr && sensor->value.find("stages") != nullptr;
+}
+
+void read_stage_study(const ListElement& element, const Value& table, NeighbourStage& stage) {
+    std::string name;
+    const std::string text = study_text(element, table, name);
+    if (text.empty()) {
+        return;
+    }
+    if (has_stages(text, name)) {
+        element.reject(name + " has stages of its own (sensor.stages)",
+                       "list all stages in one study");
+        return;
+    }
+    StudyReading reading = read_study_text(text, name);
+    if (!reading.study) {
+        element.reject("its study has problems:\n" + format(reading.problems), "");
+        return;
+    }
+    if (!has_gears(*reading.study) || reading.study->effects.quasi_static()) {
+        element.reject(name + " has no gears whose vibration can be computed",
+                       "give tooth numbers and another effects.motion than quasi-static");
+        return;
+    }
+    stage.text = resolved_text(*reading.study);
+    stage.study = std::make_shared<const Study>(*std::move(reading.study));
+}
+
+NeighbourStage read_stage(const ListElement& element, const Value& table) {
+    NeighbourStage stage;
+    stage.name = element.word("name");
+    stage.shaft = element.shaft();
+    stage.stage_shaft = element.shaft("stage_shaft");
+    stage.gain = element.number("gain", kAbove0, 1.0);
+    stage.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
+    read_stage_study(element, table, stage);
+    if (stage.study && stage.role == SourceRole::other_fault &&
+        stage.study->fault.kind == nullptr) {
+        element.reject("role = \"other_fault\", but its study has no [fault]", "add one");
+    }
+    return stage;
+}
+
+}  // namespace
+
+std::vector<NeighbourStage> read_stages(const Value& list, const RejectElement& reject) {
+    std::vector<NeighbourStage> stages;
+    for (std::size_t i = 0; i < list.elements.size(); ++i) {
+        const ListElement element(list.elements[i], fmt::format("stage {}", i + 1), kStageFields,
+                                  "write { name = \"first\", study = \"first-stage.toml\", shaft = "
+                                  "\"sun\", stage_shaft = \"carrier\" }",
+                                  reject);
+        stages.push_back(read_stage(element, list.elements[i]));
+        for (std::size_t before = 0; before < i; ++before) {
+            if (!stages[i].name.empty() && stages[before].name == stages[i].name) {
+                element.reject("its name \"" + stages[i].name + "\" occurs twice", "rename one");
+            }
+        }
+    }
+    return stages;
+}
+
+std::string stage_table(const NeighbourStage& stage) {
+    return fmt::format(
+        "{{ name = \"{}\", text = {}, shaft = \"{}\", stage_shaft = \"{}\", gain = {}, role = "
+        "\"{}\" }}",
+        stage.name, quoted_text(stage.text), member_name(*stage.shaft),
+        member_name(*stage.stage_shaft), stage.gain,
+        kSourceRoles[static_cast<std::size_t>(stage.role)].text);
+}
+
+}  // namespace gearpod::mc
