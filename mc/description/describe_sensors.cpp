@@ -25,11 +25,12 @@ void print_bearing(const Scene& scene, const Bearing& bearing) {
 
 void print_stage(const NeighbourStage& stage, const Scene& own) {
     print_entry("neighbouring stage",
-                fmt::format("\"{}\": {}, its {} on the {} here, meshes at {:.4g} Hz, gain x {:g}; "
+                fmt::format("\"{}\": {}, its {} on the {}{}, meshes at {:.4g} Hz, gain x {:g}; "
                             "the shaft's elasticity is not modelled{}",
                             stage.name, own.study().title, member_name(*stage.stage_shaft),
-                            member_name(*stage.shaft), std::abs(own.nominal_mesh_frequency_Hz()),
-                            stage.gain,
+                            member_name(*stage.shaft),
+                            stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
+                            std::abs(own.nominal_mesh_frequency_Hz()), stage.gain,
                             stage.role == SourceRole::other_fault
                                 ? "; its fault is that of other_fault records"
                                 : ""));

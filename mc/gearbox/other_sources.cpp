@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <boost/random/uniform_01.hpp>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -31,12 +33,22 @@ void add_bearings(const Scene& scene, const Realization& realization, SourceRole
     }
 }
 
+// Interpolation of periods of that many samples. A thread keeps the one used last, because most
+// stages have one length.
+signals::PeriodicInterpolation& interpolation_of(std::size_t samples) {
+    thread_local std::unique_ptr<signals::PeriodicInterpolation> last;
+    if (!last || last->samples() != static_cast<int>(samples)) {
+        last = std::make_unique<signals::PeriodicInterpolation>(static_cast<int>(samples));
+    }
+    return *last;
+}
+
 // Adds `factor` times the steady vibration of a stage's gearbox, from a random position on, to the
 // samples of a record.
 void add_stage_vibration(const Scene& scene, std::size_t stage, const Realization& realization,
                          const Realization& gearbox, const std::vector<double>& vibration,
                          double factor, std::vector<double>& samples) {
-    const signals::PeriodicInterpolation signal(vibration);
+    const signals::PeriodicSpline signal = interpolation_of(vibration.size()).spline(vibration);
     Philox engine = record_stream(
         scene.study(), realization.id,
         with_suffix(StreamPurpose::stage_start, scene.study().sensor.stages[stage].name));
@@ -49,31 +61,35 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
     }
 }
 
-// Adds the vibration of a stage next to the gearboxes of records, without its fault or with it.
-void add_stage(const Scene& scene, std::size_t stage, std::span<const Realization> realizations,
-               bool faulty, double factor, std::span<std::vector<double>> samples) {
+// Gearbox of a stage next to that of a record, and the record's samples to which `factor` times its
+// vibration is added.
+struct StageRecord {
+    const Realization* record;
+    Realization gearbox;
+    double factor;
+    std::vector<double>* samples;
+};
+
+// Samples become NaN if the stage's gearbox fails.
+void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecord> records) {
     const Scene& own = scene.stages()[stage];
     const SensorPaths path = sensor_paths(own);
     const auto lanes = static_cast<std::size_t>(own.study().numerics.lanes);
-    for (std::size_t first = 0; first < realizations.size(); first += lanes) {
-        const auto part = realizations.subspan(first, std::min(lanes, realizations.size() - first));
+    for (std::size_t first = 0; first < records.size(); first += lanes) {
+        const auto part = records.subspan(first, std::min(lanes, records.size() - first));
         std::vector<Realization> gearboxes;
-        for (const Realization& realization : part) {
-            gearboxes.push_back(stage_gearbox(scene, stage, realization));
-            if (faulty) {
-                gearboxes.back().inputs.fault_size = stage_fault_size(scene, stage, realization.id);
-            }
-        }
+        std::ranges::transform(part, std::back_inserter(gearboxes), &StageRecord::gearbox);
         const GearboxTile tile =
             run_realizations(own, path, gearboxes, static_cast<int>(part.size() > 1 ? lanes : 1));
         const std::vector<LaneSignals> signals =
             all_lane_signals(own, path, tile, own.span_meshes());
         for (std::size_t i = 0; i < part.size(); ++i) {
+            machine::throw_if_cancelled();
             if (tile.status[i] == Status::ok) {
-                add_stage_vibration(scene, stage, part[i], gearboxes[i], signals[i].sensor, factor,
-                                    samples[first + i]);
+                add_stage_vibration(scene, stage, *part[i].record, part[i].gearbox,
+                                    signals[i].sensor, part[i].factor, *part[i].samples);
             } else {
-                std::ranges::fill(samples[first + i], std::numeric_limits<double>::quiet_NaN());
+                std::ranges::fill(*part[i].samples, std::numeric_limits<double>::quiet_NaN());
             }
         }
     }
@@ -106,7 +122,10 @@ signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInpu
 
 void add_background(const Scene& scene, std::span<const Realization> realizations,
                     std::span<LaneSignals> records) {
-    if (records.empty() || records.front().sensor.empty() || !has_other_sources(scene.study())) {
+    const Sensor& study = scene.study().sensor;
+    const bool any = !study.stages.empty() ||
+                     std::ranges::count(study.bearings, SourceRole::background, &Bearing::role) > 0;
+    if (!any || records.empty() || records.front().sensor.empty()) {
         return;
     }
     std::vector<std::vector<double>> samples;
@@ -115,8 +134,12 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
     }
     for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
-        add_stage(scene, stage, realizations.first(records.size()), false,
-                  scene.study().sensor.stages[stage].gain, samples);
+        std::vector<StageRecord> next;
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]),
+                            study.stages[stage].gain, &samples[i]});
+        }
+        add_stage(scene, stage, next);
     }
     for (std::size_t i = 0; i < records.size(); ++i) {
         add_samples(scene, samples[i], records[i]);
@@ -135,10 +158,12 @@ void add_other_fault(const Scene& scene, const Realization& realization, LaneSig
     const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].role == SourceRole::other_fault) {  // in place of the healthy stage
-            const double gain = stages[stage].gain;
-            add_stage(scene, stage, std::span(&realization, 1), true, gain, std::span(&samples, 1));
-            add_stage(scene, stage, std::span(&realization, 1), false, -gain,
-                      std::span(&samples, 1));
+            const Realization healthy = stage_gearbox(scene, stage, realization);
+            Realization faulty = healthy;
+            faulty.inputs.fault_size = stage_fault_size(scene, stage, realization.id);
+            const StageRecord both[] = {{&realization, faulty, stages[stage].gain, &samples},
+                                        {&realization, healthy, -stages[stage].gain, &samples}};
+            add_stage(scene, stage, both);
         }
     }
     add_samples(scene, samples, record);

@@ -16,12 +16,20 @@ namespace {
 constexpr const char* kKey = "sensor.stages";
 constexpr double kSameSpeed = 1e-3;  // largest relative difference
 
-// Turns per second of a shaft at nominal speed.
-double shaft_Hz(const Study& study, const Drivetrain& drivetrain, Member shaft) {
-    return drivetrain.shaft_turns_per_mesh(shaft) *
-           std::abs(drivetrain.mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) /
-           (2.0 * std::numbers::pi);
-}
+// Shaft of a stage or of the study's gearbox, at nominal speed.
+struct ShaftEnd {
+    const Study& study;
+    Member shaft;
+    std::string of;
+
+    std::string text() const { return fmt::format("the {} of {}", member_name(shaft), of); }
+    double turns_Hz() const {
+        const auto drivetrain = make_drivetrain(study);
+        return drivetrain->shaft_turns_per_mesh(shaft) *
+               std::abs(drivetrain->mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) /
+               (2.0 * std::numbers::pi);
+    }
+};
 
 std::string named(const NeighbourStage& stage, const std::string& what) {
     return fmt::format("stage \"{}\": {}", stage.name, what);
@@ -41,24 +49,34 @@ void check_steady(const NeighbourStage& stage) {
     }
 }
 
-void check_shaft(const Study& study, const Drivetrain& drivetrain, const NeighbourStage& stage) {
-    const double here = shaft_Hz(study, drivetrain, *stage.shaft);
-    const double there = shaft_Hz(*stage.study, *make_drivetrain(*stage.study), *stage.stage_shaft);
-    if (here == 0.0 || there == 0.0) {
+// The other end of a stage's common shaft.
+ShaftEnd other_end(const Study& study, const NeighbourStage& stage) {
+    for (const NeighbourStage& earlier : study.sensor.stages) {
+        if (earlier.name == stage.of) {
+            return {*earlier.study, *stage.shaft, fmt::format("stage \"{}\"", earlier.name)};
+        }
+    }
+    return {study, *stage.shaft, "the study's gearbox"};
+}
+
+void check_shaft(const Study& study, const NeighbourStage& stage) {
+    const ShaftEnd own{*stage.study, *stage.stage_shaft, "its gearbox"},
+        other = other_end(study, stage);
+    for (const ShaftEnd& end : {own, other}) {
+        if (end.turns_Hz() == 0.0) {
+            throw SceneError(kKey, named(stage, end.text() + " stands still"),
+                             "name shafts that turn");
+        }
+    }
+    const double ratio = other.turns_Hz() / own.turns_Hz();
+    if (std::abs(ratio - 1.0) > kSameSpeed) {
         throw SceneError(
             kKey,
-            named(stage, fmt::format("its common shaft stands still (the {} {})",
-                                     member_name(here == 0.0 ? *stage.shaft : *stage.stage_shaft),
-                                     here == 0.0 ? "here" : "there")),
-            "name shafts that turn");
-    }
-    if (std::abs(there - here) > kSameSpeed * here) {
-        throw SceneError(kKey,
-                         named(stage, fmt::format("its {} turns at {:.6g} rpm, but the {} here at "
-                                                  "{:.6g} rpm, and they are one shaft",
-                                                  member_name(*stage.stage_shaft), 60.0 * there,
-                                                  member_name(*stage.shaft), 60.0 * here)),
-                         fmt::format("multiply the speed in its study by {:.8g}", here / there));
+            named(stage, fmt::format("{} turns at {:.6g} rpm, but {} at {:.6g} rpm, and "
+                                     "they are one shaft",
+                                     own.text(), 60.0 * own.turns_Hz(), other.text(),
+                                     60.0 * other.turns_Hz())),
+            fmt::format("multiply the speed in its study by {:.8g}", ratio));
     }
 }
 
@@ -73,11 +91,11 @@ GearboxId id_in_stage(const GearboxId& id) {
 
 }  // namespace
 
-std::vector<Scene> stage_scenes(const Study& study, const Drivetrain& drivetrain) {
+std::vector<Scene> stage_scenes(const Study& study) {
     std::vector<Scene> scenes;
     for (const NeighbourStage& stage : study.sensor.stages) {
         check_steady(stage);
-        check_shaft(study, drivetrain, stage);
+        check_shaft(study, stage);
         if (stage.study->sensor.low_pass_Hz != study.sensor.low_pass_Hz) {
             throw SceneError(
                 kKey,

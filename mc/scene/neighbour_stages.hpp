@@ -10,7 +10,7 @@ namespace gearpod::mc {
 
 // In the order of the study. Throws SceneError if a stage cannot run steadily, if its common shaft
 // has another speed, or if its low-pass differs.
-std::vector<Scene> stage_scenes(const Study& study, const Drivetrain& drivetrain);
+std::vector<Scene> stage_scenes(const Study& study);
 
 // Gearbox of stage number `stage` next to the study's gearbox of a record, without the stage's
 // fault. Speed and torque differ from their nominal values by the same factors as here.

@@ -43,9 +43,8 @@ Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrai
       plan_(plan ? std::move(plan)
                  : std::make_shared<const ScenePlan>(
                        make_plan(study_, *sampler_, *drivetrain_, *stiffness_))),
-      stages_(stages
-                  ? std::move(stages)
-                  : std::make_shared<const std::vector<Scene>>(stage_scenes(study_, *drivetrain_))),
+      stages_(stages ? std::move(stages)
+                     : std::make_shared<const std::vector<Scene>>(stage_scenes(study_))),
       span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(
           drivetrain_->mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s) / (2.0 * pi)),

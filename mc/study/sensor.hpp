@@ -53,13 +53,15 @@ struct NeighbourStage {
     std::string text;                          // its study, with all defaults
     std::shared_ptr<const Study> study;        // that text, read; never null
     std::optional<Member> shaft, stage_shaft;  // the common shaft: here, and in that stage
-    double gain = 1.0;                         // factor on the vibration at that study's own sensor
+    std::string of;     // `shaft` is that of this earlier stage; "": of the study's gearbox
+    double gain = 1.0;  // factor on the vibration at that study's own sensor
     // other_fault: the stage is healthy, and has its study's fault in records of another fault.
     SourceRole role = SourceRole::background;
 
     bool operator==(const NeighbourStage& other) const {
         return name == other.name && text == other.text && shaft == other.shaft &&
-               stage_shaft == other.stage_shaft && gain == other.gain && role == other.role;
+               stage_shaft == other.stage_shaft && of == other.of && gain == other.gain &&
+               role == other.role;
     }
 };
 

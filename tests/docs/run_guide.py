@@ -27,7 +27,7 @@ SMALL = {
     "lives": ["--instances", "2", "--set", "ensemble.threshold_instances=2",
               "--set", "life.healthy_lives=2", "--set", "life.records=40"],
 }
-REAL_TEETH = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml",
+REAL_TEETH = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml", "studies/two-stages.toml",
               "studies/real-teeth.toml", "studies/indicator-league.toml", "stage.toml")
 LAUNCHER = """#!/usr/bin/python3 -Bs
 import os, sys

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "mc/study/other_sources.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 #include "signals/noise/bearing_impulses.hpp"
 
 namespace gearpod::mc {

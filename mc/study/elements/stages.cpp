@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "mc/input/document.hpp"
 #include "mc/study/gears.hpp"
@@ -65,6 +67,7 @@ NeighbourStage read_stage(const ListElement& element, const Value& table) {
     stage.name = element.word("name");
     stage.shaft = element.shaft();
     stage.stage_shaft = element.shaft("stage_shaft");
+    stage.of = element.has("of") ? element.word("of") : "";
     stage.gain = element.number("gain", kAbove0, 1.0);
     stage.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
     read_stage_study(element, table, stage);
@@ -85,10 +88,15 @@ std::vector<NeighbourStage> read_stages(const Value& list, const RejectElement& 
                                   "\"sun\", stage_shaft = \"carrier\" }",
                                   reject);
         stages.push_back(read_stage(element, list.elements[i]));
-        for (std::size_t before = 0; before < i; ++before) {
-            if (!stages[i].name.empty() && stages[before].name == stages[i].name) {
-                element.reject("its name \"" + stages[i].name + "\" occurs twice", "rename one");
-            }
+        const auto is_earlier = [&](const std::string& name) {
+            return std::ranges::count(std::span(stages).first(i), name, &NeighbourStage::name) > 0;
+        };
+        if (is_earlier(stages[i].name)) {
+            element.reject("its name \"" + stages[i].name + "\" occurs twice", "rename one");
+        }
+        if (!stages[i].of.empty() && !is_earlier(stages[i].of)) {
+            element.reject("of: no earlier stage has the name \"" + stages[i].of + "\"",
+                           "list the stages in the order of their shafts");
         }
     }
     return stages;
@@ -96,9 +104,10 @@ std::vector<NeighbourStage> read_stages(const Value& list, const RejectElement& 
 
 std::string stage_table(const NeighbourStage& stage) {
     return fmt::format(
-        "{{ name = \"{}\", text = {}, shaft = \"{}\", stage_shaft = \"{}\", gain = {}, role = "
+        "{{ name = \"{}\", text = {}, shaft = \"{}\", {}stage_shaft = \"{}\", gain = {}, role = "
         "\"{}\" }}",
         stage.name, quoted_text(stage.text), member_name(*stage.shaft),
+        stage.of.empty() ? "" : fmt::format("of = \"{}\", ", stage.of),
         member_name(*stage.stage_shaft), stage.gain,
         kSourceRoles[static_cast<std::size_t>(stage.role)].text);
 }

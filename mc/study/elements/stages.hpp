@@ -16,6 +16,7 @@ inline constexpr TableField kStageFields[] = {
     {"text", TableField::Kind::text},
     {"shaft", TableField::Kind::text, true, kShafts},
     {"stage_shaft", TableField::Kind::text, true, kShafts},
+    {"of", TableField::Kind::text},
     {"gain"},
     {"role", TableField::Kind::text, false, kSourceRoles}};
 // Problems name the stage by its position in the list. `study` is a file relative to the folder of

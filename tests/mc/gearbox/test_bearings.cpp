@@ -268,7 +268,7 @@ TEST_CASE("Problems of bearings and tones are all reported at once") {
                 " --set ensemble.threshold_records=2");
     CHECK(shafts.code == 2);
     for (const char* text : {"the ring stands still", "this kind of gearbox has no pinion",
-                             "all records of a gearbox would have the same impulses"}) {
+                             "all records of a gearbox would have the same vibration"}) {
         INFO(shafts.output);
         CHECK(shafts.mentions(text));
     }

@@ -1,0 +1,193 @@
+// Checks neighbouring stages: their vibration at the sensor against a Fourier series of their own
+// signal, their gearboxes, records with their fault, and what is refused.
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <vector>
+
+#include "mc/gearbox/record_samples.hpp"
+#include "mc/results/results_file.hpp"
+#include "mc/scene/neighbour_stages.hpp"
+#include "tests/mc/gearbox/small_runs.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_neighbour_stages {
+
+using namespace gearpod;
+using test::Folder;
+using test::kSmall;
+using test::program;
+
+namespace {
+
+// Sun speed of the stage's study, rpm: its sun is on the carrier's shaft of the small gearbox.
+constexpr double kSunRpm = 60.0;
+
+// The small gearbox with its sun on the carrier's shaft, and a fault of the stage.
+std::string stage_file(const Folder& folder, const std::string& name, double sun_rpm = kSunRpm) {
+    std::string text = test::bytes_of(kSmall);
+    const auto replace = [&](const std::string& old, const std::string& by) {
+        const std::size_t at = text.find(old);
+        REQUIRE(at != std::string::npos);
+        text.replace(at, old.size(), by);
+    };
+    replace("carrier_speed_rpm = 60", "carrier_speed_rpm = " + std::to_string(sun_rpm * 13 / 48));
+    replace("reduction = 0", "reduction = 0.4");
+    const std::string path = folder.file(name);
+    std::ofstream(path) << text;
+    return path;
+}
+
+std::string stages(const std::string& path, const std::string& more) {
+    return "--set 'sensor.stages=[{name=\"slow\", study=\"" + path +
+           "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]' ";
+}
+
+// Study of the small gearbox next to that stage.
+mc::Study small_study(const std::string& path, const std::string& more) {
+    const auto reading =
+        mc::read_study(kSmall, {"sensor.stages=[{name=\"slow\", study=\"" + path +
+                                "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]"});
+    INFO(format(reading.problems));
+    REQUIRE(reading.study.has_value());
+    return *reading.study;
+}
+
+// Noise-free sensor signal of a gearbox over the span.
+std::vector<double> sensor_signal(const mc::Scene& scene, const mc::Realization& gearbox) {
+    const auto path = mc::sensor_paths(scene);
+    const auto tile = mc::run_realizations(scene, path, {gearbox}, 1);
+    REQUIRE(tile.status.front() == mc::Status::ok);
+    return mc::lane_signals(scene, path, tile, 0, scene.span_meshes()).sensor;
+}
+
+// Values of a signal of that period, at positions in samples, by its Fourier series.
+std::vector<double> series_at(const std::vector<double>& period,
+                              const std::vector<double>& positions) {
+    const auto n = static_cast<double>(period.size());
+    std::vector<double> values(positions.size(), 0.0);
+    for (std::size_t k = 0; 2 * k < period.size(); ++k) {
+        const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) / n;
+        std::complex<double> coefficient = 0.0;
+        for (std::size_t i = 0; i < period.size(); ++i) {
+            coefficient += period[i] * std::polar(1.0, -turn * static_cast<double>(i));
+        }
+        for (std::size_t p = 0; p < positions.size(); ++p) {
+            values[p] += (k == 0 ? 1.0 : 2.0) / n *
+                         (coefficient * std::polar(1.0, turn * positions[p])).real();
+        }
+    }
+    return values;
+}
+
+}  // namespace
+
+TEST_CASE("The sensor picks up the stage's own signal, at the stage's time, times the gain") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    const mc::Scene scene(small_study(path, ", gain=0.5")), alone(*mc::read_study(kSmall).study);
+    const mc::GearboxId id{mc::Group::graded, 3};
+    const mc::Realization gearbox = scene.sampler().draw(id);
+    const std::vector<double> with = sensor_signal(scene, gearbox),
+                              without = sensor_signal(alone, gearbox);
+    const mc::Realization neighbour = mc::stage_gearbox(scene, 0, gearbox);
+    CHECK(neighbour.inputs.fault_size == 0.0);
+    const std::vector<double> own = sensor_signal(scene.stages()[0], neighbour);
+    // Mesh frequencies: 35 Hz here, 60 / 48 * 13 / 60 * 35 Hz there.
+    const double step =
+        mc::sample_s(scene, gearbox.inputs) / mc::sample_s(scene.stages()[0], neighbour.inputs);
+    CHECK(step == Approx((1.0 / (35.0 * scene.samples_per_mesh())) *
+                         (35.0 * 13 / 48 * scene.stages()[0].samples_per_mesh()))
+                      .epsilon(1e-9));
+    mc::Philox engine = mc::record_stream(scene.study(), id,
+                                          mc::with_suffix(mc::StreamPurpose::stage_start, "slow"));
+    const double start =
+        boost::random::uniform_01<double>()(engine) * static_cast<double>(own.size());
+    std::vector<double> positions;
+    constexpr std::size_t kEvery = 97;
+    for (std::size_t i = 0; i < with.size(); i += kEvery) {
+        positions.push_back(start + step * static_cast<double>(i));
+    }
+    const std::vector<double> expected = series_at(own, positions);
+    double sum = 0.0, error = 0.0;
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        sum += std::pow(0.5 * expected[p], 2);
+        error += std::pow(with[kEvery * p] - without[kEvery * p] - 0.5 * expected[p], 2);
+    }
+    CHECK(sum > 0.0);
+    CHECK(std::sqrt(error / sum) < 1e-3);
+}
+
+TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to it") {
+    const Folder folder;
+    const mc::Scene scene(small_study(stage_file(folder, "stage.toml"), ""));
+    mc::Realization gearbox = scene.sampler().draw({mc::Group::threshold, 1});
+    const mc::Realization usual = mc::stage_gearbox(scene, 0, gearbox);
+    gearbox.inputs.torque_N_m *= 0.9;
+    gearbox.inputs.speed_rad_s *= 1.1;
+    const mc::Realization other = mc::stage_gearbox(scene, 0, gearbox);
+    CHECK(other.inputs.torque_N_m == Approx(0.9 * usual.inputs.torque_N_m).epsilon(1e-12));
+    CHECK(other.inputs.speed_rad_s == Approx(1.1 * usual.inputs.speed_rad_s).epsilon(1e-12));
+    CHECK(mc::stage_fault_size(scene, 0, gearbox.id) == Approx(0.4));
+}
+
+TEST_CASE("Another fault is that of the stage, in the same records") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    const mc::Results other = run_small(folder, "other.h5", stages(path, ", role=\"other_fault\"")),
+                      background = run_small(folder, "background.h5", stages(path, ""));
+    REQUIRE(other.variants.size() == 1);
+    CHECK(background.variants.empty());
+    const auto& healthy = other.features[4];
+    REQUIRE(healthy.name == "sensor_rms");
+    CHECK(test::bits_of_values(healthy.values) ==
+          test::bits_of_values(background.features[4].values));
+    const auto& faulty = other.variants[0].features[4];
+    for (std::size_t row = 0; row < 20; ++row) {
+        CHECK(faulty.values[row] != healthy.values[row]);
+        CHECK(faulty.values[row] == Approx(healthy.values[row]).epsilon(0.5));
+    }
+    // Results hold the stage's study.
+    std::filesystem::remove(path);
+    const auto report = program("report " + folder.file("other.h5"));
+    CHECK(report.code == 0);
+    CHECK(report.mentions("a fault of the neighbouring stage \"slow\""));
+}
+
+TEST_CASE("Rows next to a stage keep their bits over threads, parts and merging") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    test::check_equal_bits_over_parts(stages(path, ", role=\"other_fault\"") +
+                                      "--set 'features.use=[\"fm4\",\"change_sensor_rms\"]' ");
+}
+
+TEST_CASE("Stages that do not fit are refused, all at once, with what would be right") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml");
+    const auto refused = [&](const std::string& options) {
+        const auto outcome = program("describe " + kSmall + " " + options);
+        CHECK(outcome.code == 2);
+        INFO(outcome.output);
+        return outcome;
+    };
+    CHECK(refused(stages(stage_file(folder, "fast.toml", 66.0), ""))
+              .mentions("multiply the speed in its study by 0.909"));
+    CHECK(refused(stages(folder.file("none.toml"), "")).mentions("none.toml: cannot be read"));
+    CHECK(refused(stages(path, "") + "--set sensor.low_pass_Hz=100")
+              .mentions("its sensor.low_pass_Hz is 120, but here it is 100"));
+    const auto both = refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                              "\", shaft=\"sun\", stage_shaft=\"sun\", gain=-1},"
+                              "{name=\"a\", study=\"" +
+                              path + "\", shaft=\"sun\", stage_shaft=\"sun\", of=\"b\"}]'");
+    CHECK(both.mentions("stage 1: gain must be > 0"));
+    CHECK(both.mentions("stage 2: its name \"a\" occurs twice"));
+    CHECK(both.mentions("stage 2: of: no earlier stage has the name \"b\""));
+    std::ofstream(folder.file("nested.toml")) << test::bytes_of(path) << "\n[sensor.more]\n";
+    CHECK(refused(stages(folder.file("nested.toml"), "")).mentions("its study has problems"));
+    CHECK(program("lives " + kSmall + " " + stages(path, "")).mentions("bearings or stages"));
+}
+
+}  // namespace test_neighbour_stages
