@@ -31,10 +31,12 @@ std::vector<double> cuts_of(int number) {
     return cuts;
 }
 
-// Number of cuts for which a gear pair has springs enough.
-int number_of_cuts(double contact_ratio, int across) {
+// Number of cuts for which a gear pair has springs enough. The part with small gaps has `across`
+// times `along` of them; parts along the path take the place of cuts.
+int number_of_cuts(double contact_ratio, int across, int along) {
     const int pairs = static_cast<int>(std::ceil(contact_ratio));
-    return std::clamp(kMostSlicedSprings / pairs - across, kFewestCuts, kMostCuts);
+    return std::clamp(kMostSlicedSprings / pairs - across * along, kFewestCuts,
+                      kMostCuts - across * (along - 1));
 }
 
 using Factor = std::function<double(double)>;
@@ -112,7 +114,7 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
         add_slice({{{within.begin, inner.begin}, {inner.end, within.end}}}, {});
     };
     const int along = gap_.flanks.wear ? std::max(1, kWornParts / across) : 1;
-    for (const double cut : cuts_of(number_of_cuts(ratio_ + overlap_, across * along))) {
+    for (const double cut : cuts_of(number_of_cuts(ratio_ + overlap_, across, along))) {
         const Positions within{reaches(cut * approach, closest, 0),
                                reaches(cut * approach, closest, ratio_)};
         if (slices_.empty()) {
