@@ -45,11 +45,13 @@ FAULTS = (
     ("pitting", "pits on a planet tooth, 12, 24, 36 mm wide", PITS.format(PLANET, 40), "pit_width_mm", [12, 24, 36]),
     ("sun-pitted", "pits on 12 neighbouring sun teeth, 12, 24, 36 mm wide", PITS.format('member = "sun"\nteeth = 12', 48),
      "pit_width_mm", [12, 24, 36]),
+    ("worn-sun", "worn flanks of all sun teeth, 5, 10, 20 um", 'kind = "wear"\nmember = "sun"\nwear_um = 0\n',
+     "wear_um", [5, 10, 20]),
 )
 
-# Faults whose healthy gearboxes are integrated too: a step ends at each edge of the pits, so that the same
-# healthy gearboxes differ by the error of the steps.
-OWN_HEALTHY = ("pitting", "sun-pitted")
+# Faults whose healthy gearboxes are integrated too: a step ends at each edge of the pits, and at the pitch
+# point of worn flanks, so that the same healthy gearboxes differ by the error of the steps.
+OWN_HEALTHY = ("pitting", "sun-pitted", "worn-sun")
 
 
 def study_of(fault):

@@ -97,7 +97,10 @@ void print_fault_sizes(const Scene& scene) {
     std::string text = fmt::format("{}{}", groups ? "random, in groups with the edges " : "",
                                    fmt::join(sizes, ", "));
     if (!unit.suffix.empty()) {
-        text += fmt::format(" {}; {} % of the largest possible size, {:.4g} {}", unit.name,
+        text += fmt::format(" {}", unit.name);
+    }
+    if (!unit.suffix.empty() && largest > 0.0) {
+        text += fmt::format("; {} % of the largest possible size, {:.4g} {}",
                             fmt::join(shares, ", "), largest / unit.to_si, unit.name);
     }
     print_entry("fault sizes", text);

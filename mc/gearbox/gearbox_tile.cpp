@@ -41,6 +41,11 @@ lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realizati
                 scene.fault().mesh(c, realization.inputs.fault_size));
         }
     }
+    if (!scene.fault().worn_pairs().empty()) {
+        for (const Realization& realization : realizations) {
+            faults.wear.push_back(realization.inputs.fault_size);
+        }
+    }
     return faults;
 }
 

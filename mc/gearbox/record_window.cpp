@@ -14,6 +14,7 @@
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/false_alarm_target.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
@@ -71,11 +72,12 @@ std::string record_conditions(const Study& study) {
         mates.push_back(fmt::format("{} of the {} {} teeth that it can meet ({:.0f} %)", one.met,
                                     one.all, member_name(one.mate), 100.0 * one.met / one.all));
     }
-    std::string text =
-        fmt::format(" A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
-                    length.given() ? " and begins at a random tooth position"
-                                   : ", until all teeth have met (sensor.record_s)",
-                    study.fault.kind != nullptr ? "the faulty" : "a", fmt::join(mates, " and "));
+    std::string text = fmt::format(
+        " A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
+        length.given() ? " and begins at a random tooth position"
+                       : ", until all teeth have met (sensor.record_s)",
+        study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
+        fmt::join(mates, " and "));
     if (const std::optional<double> interval_h = record_interval_h(study)) {
         text += fmt::format(" There are {:g} h between two records.", *interval_h);
     }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mc/random/philox.hpp"
+#include "mc/study/fault_places.hpp"
 #include "mc/study/faults/crack_angle.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/growth/paris_growth.hpp"

@@ -4,23 +4,12 @@
 #include <cmath>
 
 #include "mc/scene/scene_error.hpp"
+#include "mc/study/fault_places.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-std::vector<FaultPlace> places_on_planet(FaultSide side) {
-    switch (side) {
-        case FaultSide::sun:
-            return {{0, 2}};
-        case FaultSide::ring:
-            return {{1, 1}};
-        case FaultSide::both:
-            return {{0, 2}, {1, 1}};
-    }
-    return {};
-}
 
 void check_sizes(const Study& study, const stiffness::ToothFaultFamily& family) {
     for (const double size : fault_sizes(study)) {
@@ -59,28 +48,29 @@ lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet&
     return {};
 }
 
-}  // namespace
-
-std::vector<FaultPlace> fault_places(const Fault& fault) {
-    switch (fault.member.value()) {
-        case Member::planet:
-            return places_on_planet(fault.side.value());
-        case Member::ring:
-            return {{1, 2}};
-        case Member::gear:
-            return {{0, 2}};
-        case Member::sun:
-        case Member::pinion:
-            return {{0, 1}};
-        case Member::carrier:
-            return {};
+// Pairs in which the flanks of the faulty member meet its mates.
+std::vector<int> pairs_of_member(const Fault& fault, int meshes, const lockstep::PairSet& pairs) {
+    const int per_mesh = pairs.pairs() / meshes;
+    std::vector<int> all;
+    for (const FaultPlace& place : fault_places(fault)) {
+        for (int n = 0; n < per_mesh; ++n) {
+            if (fault.member != Member::planet || n == fault.planet - 1) {
+                all.push_back(static_cast<int>(place.mesh) * per_mesh + n);
+            }
+        }
     }
-    return {};
+    return all;
 }
+
+}  // namespace
 
 SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                        const lockstep::PairSet& pairs) {
     if (study.fault.kind == nullptr) {
+        return;
+    }
+    if (study.fault.kind->wears_flanks()) {
+        worn_pairs_ = pairs_of_member(study.fault, static_cast<int>(meshes.size()), pairs);
         return;
     }
     for (const FaultPlace& place : fault_places(study.fault)) {

@@ -6,6 +6,9 @@
 #include "dynamics/helical_pair.hpp"
 #include "gears/tooth_deviations.hpp"
 #include "mc/scene/scene_error.hpp"
+#include "mc/study/fault_places.hpp"
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/schema/sizes.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/gapped_mesh.hpp"
@@ -88,13 +91,41 @@ double corner_reach_m(const Study& study, double force_N, const SceneMesh& mesh)
                   pitch_error_m(study, mesh.members.member_2));
 }
 
-// Adds relief, crowning and extended contact. Gaps of crowned teeth vary across the face.
+// Worn gear of a mesh, 1 or 2; 0 if none wears.
+int worn_gear(const Study& study, const MeshMembers& mesh) {
+    if (study.fault.kind == nullptr || !study.fault.kind->wears_flanks()) {
+        return 0;
+    }
+    const auto meshes = meshes_of(study.gearbox.kind);
+    for (const FaultPlace& place : fault_places(study.fault)) {
+        if (meshes[place.mesh].kind == mesh.kind) {
+            return place.gear;
+        }
+    }
+    return 0;
+}
+
+// Adds wear; the corner gaps of contact that it opens are followed too.
+void add_wear(const Study& study, int worn_gear, stiffness::FlankGaps& gaps) {
+    const std::vector<double> sizes = fault_sizes(study);
+    gaps.reach_m += sizes.empty() ? 0.0 : sizes.back();
+    try {
+        gaps.wear.emplace(gaps.geometry, worn_gear);
+    } catch (const std::invalid_argument& error) {
+        throw SceneError("fault.kind", error.what(), "");
+    }
+}
+
+// Adds relief, crowning, wear and extended contact. Gaps of crowned teeth vary across the face.
 void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
     constexpr int kSlices = 8, kHelicalSlices = 4;
     stiffness::FlankGaps gaps{*mesh.geometry, relief_of(study, mesh.members.member_1),
                               relief_of(study, mesh.members.member_2)};
     if (study.effects.contact_onset == ContactOnset::extended) {
         gaps.reach_m = corner_reach_m(study, force_N, mesh);
+    }
+    if (const int worn = worn_gear(study, mesh.members); worn > 0) {
+        add_wear(study, worn, gaps);
     }
     const double overlap = study.gearbox.helix_angle_rad > 0.0 ? overlap_ratio(study) : 0.0;
     const bool crowned = gaps.relief_1.crowning_m + gaps.relief_2.crowning_m > 0.0;

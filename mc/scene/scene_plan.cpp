@@ -79,7 +79,8 @@ class PlanBuilder {
 
     void add_tooth_pairs(lockstep::IntegrationPlan& integration) const {
         try {
-            lockstep::add_tooth_pairs(stiffness_.pairs(), integration.grid, integration.nodes);
+            lockstep::add_tooth_pairs(stiffness_.pairs(), integration.grid, integration.nodes,
+                                      stiffness_.fault().worn_pairs());
         } catch (const std::invalid_argument& error) {
             throw SceneError("gearbox.addendum_coefficient", error.what(),
                              "use teeth with a lower contact ratio, or fewer face_slices",
@@ -99,8 +100,8 @@ class PlanBuilder {
         return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
     }
 
-    // Pilot sample: the nominal gearbox and the first graded ones, all with the largest fault. The
-    // same for every run of the study.
+    // Pilot sample: the nominal gearbox and the first graded ones. All have the largest fault, or
+    // every second one if it is wear. The same for every run of the study.
     lockstep::Pilot pilot() const {
         const SceneFault& fault = stiffness_.fault();
         const std::vector<double> sizes = fault_sizes(study_);
@@ -113,9 +114,14 @@ class PlanBuilder {
                     ? nominal_inputs(study_)
                     : sampler_.draw({Group::graded, static_cast<std::uint64_t>(lane - 1)}).inputs;
             pilot.inputs.push_back(gearbox_inputs(study_, drivetrain_, inputs));
+            const double largest = sizes.empty() ? 0.0 : sizes.back();
             for (int curve = 0; curve < fault.curves(); ++curve) {
                 pilot.faults.curve[static_cast<std::size_t>(curve)].push_back(
-                    fault.mesh(curve, sizes.empty() ? 0.0 : sizes.back()));
+                    fault.mesh(curve, largest));
+            }
+            // Wear has no healthy mesh periods, so every second gearbox is healthy.
+            if (!fault.worn_pairs().empty()) {
+                pilot.faults.wear.push_back(lane % 2 == 0 ? largest : 0.0);
             }
         }
         // Converges to a thousandth of the periodic orbit; the remaining transient is the same on

@@ -253,12 +253,14 @@ double MeshGeometry::tip_clearance(int which_tip) const {
     return clearance_of_tip(gear_1_, gear_2_, centre_distance(), which_tip);
 }
 
-double MeshGeometry::contact_radius(int which, double tau) const {
-    // Roll angle: the contact angle plus or minus the tooth's half angle.
+double MeshGeometry::roll_angle(int which, double tau) const {
     const Gear& at = gear(which);
-    const double half = at.internal ? -at.half_base_angle() : at.half_base_angle();
-    const double roll = contact_angle(which, tau) + half;
-    return at.base_radius() * std::hypot(1, roll);
+    const double half = at.half_base_angle();
+    return contact_angle(which, tau) + (at.internal ? -half : half);
+}
+
+double MeshGeometry::contact_radius(int which, double tau) const {
+    return gear(which).base_radius() * std::hypot(1, roll_angle(which, tau));
 }
 
 }  // namespace gearpod::gears

@@ -43,6 +43,9 @@ class MeshGeometry {
     double working_pitch_radius(int which) const;
     // Gap between the non-working flanks along the working pitch circles, m.
     double backlash() const;
+    // Roll angle of the contact on gear `which`: its distance along the line of action from the
+    // tangent point on the base circle, over the base radius, rad.
+    double roll_angle(int which, double tau) const;
     // Contact radius on gear `which`, tau mesh periods after the start of the engagement.
     double contact_radius(int which, double tau) const;
     // Clearance between the tips of gear `which_tip` and the other gear's root circle, m.

@@ -81,7 +81,7 @@ GappedMesh::GappedMesh(std::unique_ptr<const MeshStiffness> spur, double overlap
     if (overlap_ > 0) {
         std::vector<double> points = breaks();
         points.insert(points.end(), {0, spur_ratio_});
-        for (const double kink : gears::relief_kinks(gaps.geometry, gaps.relief_1, gaps.relief_2))
+        for (const double kink : gap_kinks())
             points.push_back(path_begin() + kink);
         sort_positions(points);
         helical_slices_.emplace(curve_, points, gap_, overlap_, slices_, force_);
@@ -120,6 +120,16 @@ std::vector<double> GappedMesh::breaks() const {
     return all;
 }
 
+// Relief starts or ends at a kink; wear has one at the pitch point, where it is zero.
+std::vector<double> GappedMesh::gap_kinks() const {
+    std::vector<double> kinks =
+        gears::relief_kinks(gap_.flanks.geometry, gap_.flanks.relief_1, gap_.flanks.relief_2);
+    const double pitch = gap_.flanks.geometry.pitch_position();
+    if (gap_.flanks.wear && pitch > 0 && pitch < gap_.flanks.geometry.contact_ratio())
+        kinks.push_back(pitch);
+    return kinks;
+}
+
 // Positions at which time steps must end: starts and ends of engagements, abrupt changes of helical
 // teeth, and kinks of the stiffness or the gap of spur teeth.
 std::vector<double> GappedMesh::make_transitions() const {
@@ -133,8 +143,7 @@ std::vector<double> GappedMesh::make_transitions() const {
     } else {
         for (const double phase : spur_.transitions())
             add_phase(path_begin() + phase, phases);
-        for (const double kink :
-             gears::relief_kinks(gap_.flanks.geometry, gap_.flanks.relief_1, gap_.flanks.relief_2))
+        for (const double kink : gap_kinks())
             add_phase(path_begin() + kink, phases);
     }
     sort_positions(phases);
@@ -169,6 +178,10 @@ void GappedMesh::slice_stiffness(int slice, std::span<const double> tau, double 
 double GappedMesh::slice_gap(int slice, double tau) const {
     return helical() ? helical_slices_->gap(slice, tau)
                      : gap_(tau - path_begin(), gap_.flanks.crown_m(slice, slices_));
+}
+
+double GappedMesh::slice_wear(int slice, double tau) const {
+    return helical() ? helical_slices_->wear(slice, tau) : gap_.wear(tau - path_begin());
 }
 
 double GappedMesh::slice_flank_position(int slice, double tau) const {

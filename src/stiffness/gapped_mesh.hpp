@@ -1,5 +1,6 @@
-// Gear pair whose tooth pairs have gaps: relief, crowning, and contact that starts before and ends
-// after the nominal path of contact (gears/corner_contact.hpp).
+// Gear pair whose tooth pairs have gaps: relief, crowning, wear, and contact that starts before and
+// ends after the nominal path of contact (gears/corner_contact.hpp). Wear differs between
+// gearboxes, so the mesh gives only its distribution over the flank (slice_wear).
 //
 // Each slice of each tooth pair is a unilateral spring, which carries compression only. A spur pair
 // has one slice unless it is crowned. The slices of a helical pair are parts of its contact line
@@ -55,6 +56,7 @@ class GappedMesh : public MeshStiffness {
     void slice_stiffness(int slice, std::span<const double> tau, double inside,
                          std::span<double> stiffness) const override;
     double slice_gap(int slice, double tau) const override;
+    double slice_wear(int slice, double tau) const override;
     double slice_flank_position(int slice, double tau) const override;
     double slice_on_path(int slice, double tau) const override;
 
@@ -63,6 +65,8 @@ class GappedMesh : public MeshStiffness {
     bool helical() const { return helical_slices_.has_value(); }
     // Positions within a tooth pair's engagement, ascending, between which a curve is smooth.
     std::vector<double> breaks() const;
+    // Positions on the nominal path, from its start, at which the gap has a kink.
+    std::vector<double> gap_kinks() const;
     std::vector<double> make_transitions() const;
     ToothPairCurve fit(ExtendedPairs& pairs, int tooth, const std::vector<double>& breaks) const;
 

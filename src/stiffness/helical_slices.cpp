@@ -16,6 +16,7 @@ constexpr int kPositions = 2000;           // at which an engagement is sampled
 constexpr int kContactHalvings = 50;       // of the interval in which a gap is reached
 constexpr double kShortestSlice = 1e-9;    // mesh periods
 constexpr int kFewestCuts = 8, kMostCuts = 17;
+constexpr int kWornParts = 8;  // of the part with small gaps of worn flanks
 
 // Gaps at which the engagement is cut, in nominal approaches, ascending. They are densest near 1,
 // where the flanks of most teeth touch; teeth with index errors of half the approach use all.
@@ -30,10 +31,12 @@ std::vector<double> cuts_of(int number) {
     return cuts;
 }
 
-// Number of cuts for which a gear pair has springs enough.
-int number_of_cuts(double contact_ratio, int across) {
+// Number of cuts for which a gear pair has springs enough. The part with small gaps has `across`
+// times `along` of them; parts along the path take the place of cuts.
+int number_of_cuts(double contact_ratio, int across, int along) {
     const int pairs = static_cast<int>(std::ceil(contact_ratio));
-    return std::clamp(kMostSlicedSprings / pairs - across, kFewestCuts, kMostCuts);
+    return std::clamp(kMostSlicedSprings / pairs - across * along, kFewestCuts,
+                      kMostCuts - across * (along - 1));
 }
 
 using Factor = std::function<double(double)>;
@@ -99,6 +102,8 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
                  integral_of(curve, points, [](double at) { return at * at; })},
       force_(integral_of(curve, points, [this](double at) { return gap_at(at); })),
       place_(integral_of(curve, points, [this](double at) { return place_at(at); })) {
+    if (gap_.flanks.wear)
+        wear_.emplace(integral_of(curve, points, [this](double at) { return wear_at(at); }));
     const auto own_gap = [this](double at) { return gap_at(at); };
     const double closest = closest_position(own_gap, ratio_);
     const double approach =
@@ -108,12 +113,18 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
     const auto add_around = [&](const Positions& within) {
         add_slice({{{within.begin, inner.begin}, {inner.end, within.end}}}, {});
     };
-    for (const double cut : cuts_of(number_of_cuts(ratio_ + overlap_, across))) {
+    const int along = gap_.flanks.wear ? std::max(1, kWornParts / across) : 1;
+    for (const double cut : cuts_of(number_of_cuts(ratio_ + overlap_, across, along))) {
         const Positions within{reaches(cut * approach, closest, 0),
                                reaches(cut * approach, closest, ratio_)};
         if (slices_.empty()) {
-            for (int i = 0; i < across; ++i)
-                add_slice({{within, {}}}, {static_cast<double>(i) / across, (i + 1.0) / across});
+            const auto cut_at = [&](int part) {
+                return part == along ? within.end : within.begin + within.length() * part / along;
+            };
+            for (int part = 0; part < along; ++part)
+                for (int i = 0; i < across; ++i)
+                    add_slice({{{cut_at(part), cut_at(part + 1)}, {}}},
+                              {static_cast<double>(i) / across, (i + 1.0) / across});
         } else {
             add_around(within);
         }
@@ -124,6 +135,10 @@ HelicalSlices::HelicalSlices(const ToothPairCurve& curve, const std::vector<doub
 
 double HelicalSlices::gap_at(double position) const {
     return gap_(position - gap_.extension.reach().before, 0);
+}
+
+double HelicalSlices::wear_at(double position) const {
+    return gap_.wear(position - gap_.extension.reach().before);
 }
 
 double HelicalSlices::place_at(double position) const {
@@ -141,14 +156,18 @@ double HelicalSlices::reaches(double gap_m, double closest, double end) const {
 }
 
 void HelicalSlices::add_slice(const std::array<Positions, 2>& engaged, const FaceRange& face) {
-    Slice slice{engaged, face, std::numeric_limits<double>::infinity(), 0};
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    Slice slice{engaged, face, kNone, 0, kNone, 0};
     for (const Positions& own : engaged) {
         if (own.length() < kShortestSlice)
             continue;
         for (int i = 0; i <= kPositions; ++i) {
-            const double gap = gap_at(own.begin + own.length() * i / kPositions);
+            const double at = own.begin + own.length() * i / kPositions;
+            const double gap = gap_at(at), wear = wear_at(at);
             slice.least_gap = std::min(slice.least_gap, gap);
             slice.largest_gap = std::max(slice.largest_gap, gap);
+            slice.least_wear = std::min(slice.least_wear, wear);
+            slice.largest_wear = std::max(slice.largest_wear, wear);
         }
     }
     if (slice.least_gap <= slice.largest_gap)
@@ -198,6 +217,15 @@ double HelicalSlices::gap(int slice, double tau) const {
     const double second = mean(stiffness_[2], slice, tau, {}) / k;
     const double across = at_zero * at_zero + growth * (2 * at_zero * first + growth * second);
     return gap + crowning * std::clamp(across, 0.0, 1.0);
+}
+
+double HelicalSlices::wear(int slice, double tau) const {
+    if (!wear_)
+        return 0;
+    const Slice& own = slices_[static_cast<std::size_t>(slice)];
+    const double k = stiffness(slice, tau);
+    return k > 0 ? std::clamp(mean(*wear_, slice, tau, {}) / k, own.least_wear, own.largest_wear)
+                 : own.largest_wear;
 }
 
 double HelicalSlices::flank_position(int slice, double tau) const {

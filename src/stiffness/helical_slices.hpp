@@ -9,10 +9,12 @@
 // of it. One cut is at d0, so that the force and its derivative are exact at d0. Parts depend on
 // the engagement, not on the face, because parts of the face would touch one after the other and
 // add one wave each to the transmission error. Only the part with small gaps of crowned teeth is
-// also divided across the face.
+// also divided across the face. Flanks that wear have different gaps within that part, which is
+// therefore also divided along the path.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "stiffness/pair_gap.hpp"
@@ -39,6 +41,8 @@ class HelicalSlices {
     // Stiffness, N/m, and gap, m, of a slice. Positions tau count from the start of the engagement.
     double stiffness(int slice, double tau) const;
     double gap(int slice, double tau) const;
+    // Gap of a slice by wear of unit depth.
+    double wear(int slice, double tau) const;
     // Mean position on the flank, weighted by stiffness: -1/2 at the start of the nominal path and
     // before it, 1/2 at its end and beyond.
     double flank_position(int slice, double tau) const;
@@ -61,10 +65,12 @@ class HelicalSlices {
         std::array<Positions, 2> engaged;  // the second one is empty in the part with small gaps
         FaceRange face;
         double least_gap = 0, largest_gap = 0;  // without crowning, m
+        double least_wear = 0, largest_wear = 0;
     };
     Positions covered(const Slice& slice, const Positions& engaged, double tau,
                       const FaceRange& part) const;
     double gap_at(double position) const;
+    double wear_at(double position) const;
     double place_at(double position) const;
     // Position at which the gap reaches `gap_m`, between one with a smaller gap and an end.
     double reaches(double gap_m, double closest, double end) const;
@@ -74,7 +80,8 @@ class HelicalSlices {
     double ratio_, overlap_;
     std::vector<Slice> slices_;
     std::array<RunningIntegral, 3> stiffness_;  // of the stiffness times position^0, 1, 2
-    RunningIntegral force_, place_;  // of the stiffness times gap, and times flank position
+    RunningIntegral force_, place_;        // of the stiffness times gap, and times flank position
+    std::optional<RunningIntegral> wear_;  // of the stiffness times wear; empty without wear
 };
 
 }  // namespace gearpod::stiffness

@@ -86,6 +86,8 @@ class MeshStiffness {
     virtual void slice_stiffness(int slice, std::span<const double> tau, double inside,
                                  std::span<double> stiffness) const;
     virtual double slice_gap(int /*slice*/, double /*tau*/) const { return 0; }
+    // Gap of that slice by wear of unit depth, if the flanks of one gear wear (gears::FlankWear).
+    virtual double slice_wear(int /*slice*/, double /*tau*/) const { return 0; }
     virtual double slice_flank_position(int /*slice*/, double tau) const {
         return flank_position(tau);
     }

@@ -1,9 +1,11 @@
-// Gap of a spur tooth pair along its engagement: relief, crowning and corner contact.
+// Gap of a spur tooth pair along its engagement: relief, crowning, corner contact and wear.
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "gears/flank_relief.hpp"
+#include "gears/flank_wear.hpp"
 #include "stiffness/path_extension.hpp"
 
 namespace gearpod::stiffness {
@@ -15,6 +17,7 @@ struct FlankGaps {
     // Corner gap, m, up to which contact outside the nominal path is followed. 0: contact starts
     // and ends with the nominal path.
     double reach_m = 0;
+    std::optional<gears::FlankWear> wear = {};  // empty unless the flanks of a gear wear
     // Sum of the crowning of both flanks, m.
     double crowning_m() const { return relief_1.crowning_m + relief_2.crowning_m; }
     // Gap by crowning, averaged over a slice, m.
@@ -40,16 +43,25 @@ struct PairGap {
     // Gap, m, at a position from the start of the nominal path, mesh periods; `crown`: gap by
     // crowning, m.
     double operator()(double at, double crown) const {
-        const double ratio = extension.contact_ratio();
         const double flank = gears::relief_gap(flanks.geometry, flanks.relief_1, flanks.relief_2,
-                                               std::clamp(at, 0.0, ratio)) +
+                                               std::clamp(at, 0.0, extension.contact_ratio())) +
                              crown;
-        if (at >= 0 && at <= ratio) {
-            return flank;
-        }
+        return on_path(at) ? flank : (flank + gears::corner_gap(flanks.geometry, at)) * scale(at);
+    }
+    // Gap by wear of unit depth at that position; 0 unless the flanks wear.
+    double wear(double at) const {
+        return !flanks.wear  ? 0
+               : on_path(at) ? flanks.wear->shape(at)
+                             : flanks.wear->shape(at) * scale(at);
+    }
+
+  private:
+    bool on_path(double at) const { return at >= 0 && at <= extension.contact_ratio(); }
+    // Factor of gaps at a position outside of the path.
+    double scale(double at) const {
         const ExtendedPairs::Change& end = at < 0 ? joins : leaves;
         const double k = end.stiffness(extension.weight(at));
-        return (flank + gears::corner_gap(flanks.geometry, at)) * (k > 0 ? end.own / k : 1);
+        return k > 0 ? end.own / k : 1;
     }
 };
 

@@ -28,7 +28,7 @@ SMALL = {
               "--set", "life.healthy_lives=2", "--set", "life.records=40"],
 }
 REAL_TEETH = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml", "studies/two-stages.toml",
-              "studies/real-teeth.toml", "studies/indicator-league.toml", "stage.toml")
+              "studies/real-teeth.toml", "studies/indicator-league.toml", "studies/worn-sun.toml", "stage.toml")
 LAUNCHER = """#!/usr/bin/python3 -Bs
 import os, sys
 small = {small!r}

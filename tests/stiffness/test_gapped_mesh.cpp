@@ -1,4 +1,5 @@
 // Checks tooth pairs with gaps: relief, crowning and contact beyond the nominal path.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -222,16 +223,33 @@ TEST_CASE("slices without gaps add up to the helical pair") {
     }
 }
 
-// Integral of the spur pair's forces over the face, by sums over 20,000 positions.
-double force_over_face(const GappedMesh& spur, double overlap, double phase, double approach) {
+// Integral of the spur pair's forces over the face, by sums over 20,000 positions; flanks are worn
+// by `wear`, m.
+double force_over_face(const GappedMesh& spur, double overlap, double phase, double approach,
+                       double wear = 0) {
     constexpr int kParts = 20'000;
     double force = 0;
     for (int i = 0; i < kParts; ++i) {
         const double late = overlap * (i + 0.5) / kParts;
         for (double tau = phase; tau < spur.contact_ratio() + overlap; ++tau) {
             if (const double own = tau - late; own > 0 && own < spur.contact_ratio()) {
-                force += at(spur, own) * std::max(0.0, approach - spur.slice_gap(0, own)) / kParts;
+                const double gap = spur.slice_gap(0, own) + wear * spur.slice_wear(0, own);
+                force += at(spur, own) * std::max(0.0, approach - gap) / kParts;
             }
+        }
+    }
+    return force;
+}
+
+// Sum of the forces of a mesh's slices at an approach, with flanks worn by `wear`, m.
+double force_of_slices(const GappedMesh& mesh, double phase, double approach, double wear) {
+    double force = 0;
+    for (double tau = phase; tau < mesh.contact_ratio(); ++tau) {
+        for (int slice = 0; slice < mesh.slices(); ++slice) {
+            double k = 0;
+            mesh.slice_stiffness(slice, {&tau, 1}, tau, {&k, 1});
+            const double gap = mesh.slice_gap(slice, tau) + wear * mesh.slice_wear(slice, tau);
+            force += k * std::max(0.0, approach - gap);
         }
     }
     return force;
@@ -259,6 +277,72 @@ TEST_CASE("slices of helical teeth carry the force of the whole face") {
                                    .epsilon(error));
             }
         }
+    }
+}
+
+// Gaps of the corner contact and of wear add up. Parts of the path resolve wear that lifts a piece
+// of the contact line off; crowned teeth have fewer of them.
+TEST_CASE("slices of worn helical teeth carry the force of the whole face") {
+    constexpr double kOverlap = 1.03;
+    const bool bodies = GENERATE(false, true);
+    const int worn = GENERATE(1, 2);
+    const auto make = [&](double overlap, int slices) {
+        FlankGaps gaps{kSunPlanet, {}, {}, kReach};
+        gaps.wear.emplace(kSunPlanet, worn);
+        return GappedMesh(bodies ? elastic(kSunPlanet) : rigid(kSunPlanet), overlap, gaps, kForce,
+                          slices);
+    };
+    const GappedMesh spur = make(0, 1);
+    for (const int slices : {1, 3}) {
+        const GappedMesh mesh = make(kOverlap, slices);
+        CHECK(mesh.slices() ==
+              GappedMesh(rigid(kSunPlanet), kOverlap, {kSunPlanet, {}, {}, kReach}, kForce, slices)
+                  .slices());
+        for (const double phase : {0.04, 0.41, 0.77}) {
+            const double nominal = LoadedMesh(mesh, kForce).approach(phase, phase);
+            for (const auto& [wear, approach, error] : {std::tuple{0.0, 1.0, 2e-4},
+                                                        {0.0, 0.7, 2e-4},
+                                                        {0.0, 1.5, 2e-4},
+                                                        {0.5, 1.15, 2e-4},
+                                                        {1.0, 1.3, 2e-4},
+                                                        {3.0, 1.9, slices == 1 ? 1.5e-2 : 4e-2}}) {
+                INFO(slices << " slices, gear " << worn << ", phase " << phase << ", wear " << wear
+                            << ", approach " << approach);
+                const double d = approach * nominal, depth = wear * nominal;
+                CHECK(force_of_slices(mesh, phase, d, depth) ==
+                      Approx(force_over_face(spur, kOverlap, phase, d, depth)).epsilon(error));
+            }
+        }
+    }
+}
+
+// Relief of the same shape gives the same gap, also where it is scaled beyond the path.
+TEST_CASE("the gap by wear is continuous, and scaled as relief beyond the path") {
+    for (const bool bodies : {false, true}) {
+        FlankGaps gaps{kRingPlanet, {}, {}, kReach};
+        gaps.wear.emplace(kRingPlanet, 1);
+        const GappedMesh mesh(bodies ? elastic(kRingPlanet) : rigid(kRingPlanet), 0, gaps, kForce,
+                              1);
+        for (const double end : {mesh.path_begin(), mesh.path_end()}) {
+            CHECK(mesh.slice_wear(0, end - 1e-9) ==
+                  Approx(mesh.slice_wear(0, end + 1e-9)).epsilon(1e-4));
+        }
+        // A constant relief of the whole flank: its gap beyond the path without the corner gap.
+        const gears::FlankRelief flat{1e-6, 1e9, 0, 0};
+        const GappedMesh relieved(bodies ? elastic(kRingPlanet) : rigid(kRingPlanet), 0,
+                                  {kRingPlanet, flat, {}, kReach}, kForce, 1);
+        for (const double tau :
+             {0.3 * mesh.path_begin(), 0.5 * (mesh.path_end() + mesh.contact_ratio())}) {
+            const double scale = (relieved.slice_gap(0, tau) - mesh.slice_gap(0, tau)) / 1e-6;
+            const double shape = gaps.wear->shape(tau - mesh.path_begin());
+            CHECK(mesh.slice_wear(0, tau) == Approx(scale * shape).epsilon(1e-6));
+            CHECK((scale > 1.01) == bodies);
+        }
+        CHECK(mesh.slice_wear(0, mesh.pitch_position()) == Approx(0).margin(1e-9));
+        const double phase = mesh.pitch_position() - std::floor(mesh.pitch_position());
+        CHECK(std::ranges::any_of(mesh.transitions(), [&](double transition) {
+            return std::abs(transition - phase) < 1e-9;
+        }));
     }
 }
 

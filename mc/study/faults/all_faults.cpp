@@ -3,11 +3,11 @@
 namespace gearpod::mc {
 
 // Each is defined in the file of its name.
-const FaultKind &crack(), &spatial_crack(), &chip(), &pitting(), &broken(), &reduction();
+const FaultKind &crack(), &spatial_crack(), &chip(), &pitting(), &wear(), &broken(), &reduction();
 
 std::span<const FaultKind* const> all_faults() {
     static const FaultKind* const kinds[] = {
-        &crack(), &spatial_crack(), &chip(), &pitting(), &broken(), &reduction(),
+        &crack(), &spatial_crack(), &chip(), &pitting(), &wear(), &broken(), &reduction(),
     };
     return kinds;
 }

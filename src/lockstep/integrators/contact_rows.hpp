@@ -92,6 +92,16 @@ GEARPOD_INLINE void load_contact(double stiffness, double place, double shared,
     }
 }
 
+// Adds wear of unit depth times its depth, [lane], to the gaps of a spring.
+template <int W, class Real>
+GEARPOD_INLINE void add_wear(double unit_gap, const double* __restrict depth, Real* __restrict e) {
+    const Real shape = static_cast<Real>(unit_gap);
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        e[l] = std::fma(shape, static_cast<Real>(depth[l]), e[l]);
+    }
+}
+
 // Loads stiffness and gaps of all pairs' springs at a stage node; call it after loading the pairs.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_contacts(const IntegrationPlan& plan, const MeshOverrides& overrides,
@@ -115,6 +125,15 @@ GEARPOD_INLINE void load_contacts(const IntegrationPlan& plan, const MeshOverrid
     }
     if (known == 0) {  // one spring carries the whole load
         std::copy_n(m.k, pairs * W, m.tooth_k);
+    }
+    if (!overrides.wear.empty()) {
+        const double* worn = table.tooth_wear.data() + at;
+        for (int j = 0; j < known; ++j) {
+            for (int pair = 0; pair < pairs; ++pair) {
+                add_wear<W>(worn[j * pairs + pair], overrides.wear.data(),
+                            m.tooth_e + j * kRows + pair * W);
+            }
+        }
     }
     for (const PairOverride& o : overrides.faults) {
         if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {

@@ -255,7 +255,8 @@ GEARPOD_INLINE void prefetch_step(const IntegrationPlan& plan, int step) {
          {&table.stiffness, &table.damping_shape, &table.error, &table.error_rate}) {
         prefetch_row(*all, row * pairs, pairs);
     }
-    for (const auto* all : {&table.tooth_stiffness, &table.tooth_place, &table.tooth_gap}) {
+    for (const auto* all :
+         {&table.tooth_stiffness, &table.tooth_place, &table.tooth_gap, &table.tooth_wear}) {
         prefetch_row(*all, row * contacts, contacts);
     }
 }

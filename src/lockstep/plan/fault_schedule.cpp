@@ -22,6 +22,9 @@ FaultSchedule::FaultSchedule(const IntegrationPlan& plan, const FaultCurves& fau
         throw std::invalid_argument(
             "tooth errors need a mesh law with single tooth pairs (unilateral contact)");
     }
+    if (!faults.wear.empty() && plan.nodes.tooth_wear.empty()) {
+        throw std::invalid_argument("wear needs its shape on the flanks (tooth_wear of the plan)");
+    }
     for (const auto& lanes : faults.curve) {
         double longest = 0.0;
         for (const auto& lane : lanes) {
@@ -63,7 +66,7 @@ MeshOverrides FaultSchedule::all_overrides(int k) {
     if (cached == cache_.end()) {
         cached = cache_.emplace(mesh, overrides(mesh)).first;
     }
-    MeshOverrides all{cached->second, {}};
+    MeshOverrides all{cached->second, {}, faults_.wear};
     if (tooth_errors_ != nullptr) {
         all.gaps = tooth_gaps(plan_, *tooth_errors_, k);
     }

@@ -15,13 +15,15 @@
 namespace gearpod::lockstep {
 
 // Inputs for integrating a faulty tile in addition to the plan: stiffness curves of the faulty
-// tooth.
+// tooth, or wear.
 struct FaultCurves {
     const PairSet* pairs = nullptr;
     FaultPattern pattern;
     // [curve][lane]; null for a lane without a fault, whose healthy periodic orbit stays
     // bit-identical. The faults of all lanes have the same number of teeth.
     std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
+    // MeshOverrides::wear of every mesh period.
+    machine::AlignedVector wear = {};
 
     bool faulty(int lane) const;
 };
@@ -31,15 +33,20 @@ struct FaultCurves {
 class FaultSchedule {
   public:
     // `tooth_errors`: errors of single teeth, or null. Throws std::invalid_argument if there are
-    // any but the plan has no single tooth pairs.
+    // any but the plan has no single tooth pairs, and for wear of which it has no shape.
     FaultSchedule(const IntegrationPlan& plan, const FaultCurves& faults,
                   const ToothErrors* tooth_errors = nullptr);
 
     // Pairs whose stiffness the faulty tooth changes during mesh period k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
 
-    // Faults and tooth errors of mesh period k of an integration; k may be any integer. Caches the
-    // faults of each mesh period of the pattern, because these repeat; not thread-safe.
+    // Deviations that are the same in all mesh periods: wear.
+    MeshOverrides periodic_overrides() const { return {{}, {}, faults_.wear}; }
+    // The same with overrides(k).
+    MeshOverrides pattern_overrides(int k) const { return {overrides(k), {}, faults_.wear}; }
+
+    // Faults, wear and tooth errors of mesh period k of an integration; k may be any integer.
+    // Caches the faults of each mesh period of the pattern, because these repeat; not thread-safe.
     MeshOverrides all_overrides(int k);
 
     // True if the faulty tooth is in contact during mesh period k, and if it still is at the end of

@@ -68,10 +68,13 @@ struct PairGaps {
     machine::AlignedVector gap, growth;
 };
 
-// Deviations of one mesh period from the plan.
+// Deviations of one mesh period from the plan. Gaps and wear are used only by the law `unilateral`.
 struct MeshOverrides {
     std::vector<PairOverride> faults;
-    std::vector<PairGaps> gaps;  // used only by the law `unilateral`
+    std::vector<PairGaps> gaps = {};
+    // Depth of the wear of all worn flanks, [lane], m (times StiffnessNodes::tooth_wear); empty if
+    // there is none.
+    machine::AlignedVector wear = {};
 };
 
 // Kernel for one combination of integrator, model and width: integrates the gearboxes in `lanes`

@@ -66,9 +66,11 @@ struct StiffnessNodes {
     //   sense of gears::MeshGeometry, clamped outside.
     // - tooth_gap: gap common to all lanes, m; empty if there is none.
     // - tooth_on_path: share of the slice's face on the nominal path; empty if there are no gaps.
+    // - tooth_wear: gap by wear of unit depth, 0 in pairs whose flanks do not wear; empty if there
+    //   are no others.
     int tooth_pairs = 0;
     int slices = 1;
-    std::vector<double> tooth_stiffness, tooth_place, tooth_gap, tooth_on_path;
+    std::vector<double> tooth_stiffness, tooth_place, tooth_gap, tooth_on_path, tooth_wear;
     int contacts() const { return tooth_pairs * slices; }
     std::vector<ToothEngagement> engagements;  // of all pairs, in order
 };

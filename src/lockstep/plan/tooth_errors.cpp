@@ -96,17 +96,20 @@ std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int c
 }
 
 double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
-                 int node, int contact, int lane) {
+                 int node, int contact, int lane, double wear) {
     const std::size_t at = tooth_pair_at(plan, step, node, contact, pair);
+    const auto worn = [&](double gap) {
+        return plan.nodes.tooth_wear.empty() ? gap : std::fma(plan.nodes.tooth_wear[at], wear, gap);
+    };
     const double shared = plan.nodes.tooth_gap.empty() ? 0.0 : plan.nodes.tooth_gap[at];
     const PairGaps* const own = gaps_of_pair(gaps, pair, step);
     if (own == nullptr) {
-        return shared;
+        return worn(shared);
     }
     const auto teeth = static_cast<std::size_t>(plan.nodes.tooth_pairs);
     const auto tooth = static_cast<std::size_t>(contact / plan.nodes.slices);
     const auto i = tooth * (own->gap.size() / teeth) + static_cast<std::size_t>(lane);
-    return std::fma(plan.nodes.tooth_place[at], own->growth[i], own->gap[i]) + shared;
+    return worn(std::fma(plan.nodes.tooth_place[at], own->growth[i], own->gap[i]) + shared);
 }
 
 }  // namespace gearpod::lockstep

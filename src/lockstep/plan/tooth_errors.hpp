@@ -55,8 +55,9 @@ const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step)
 // slice.
 std::size_t tooth_pair_at(const IntegrationPlan& plan, int step, int node, int contact, int pair);
 
-// Total gap of that spring at a stage node, m: tooth errors, relief and corner contact.
+// Total gap of that spring at a stage node, m: tooth errors, relief, corner contact, and wear of
+// the given depth, m.
 double tooth_gap(const IntegrationPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
-                 int node, int contact, int lane);
+                 int node, int contact, int lane, double wear = 0.0);
 
 }  // namespace gearpod::lockstep

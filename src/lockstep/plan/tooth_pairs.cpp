@@ -43,9 +43,10 @@ EngagedTeeth engaged_teeth(const PairSet& pairs, int pair, double phase) {
 
 namespace {
 
-// Fills the springs of one pair at one stage node; `first` is the index of the first in the tables.
+// Fills the springs of one pair at one stage node; `first` is the index of the first in the tables,
+// `worn` is true if the pair's flanks wear.
 void fill_node(const PairSet& pairs, int pair, double phase, double middle, std::size_t first,
-               StiffnessNodes& nodes) {
+               bool worn, StiffnessNodes& nodes) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
     const EngagedTeeth teeth = engaged_teeth(pairs, pair, middle);
     const auto count = static_cast<std::size_t>(nodes.pairs);
@@ -63,11 +64,15 @@ void fill_node(const PairSet& pairs, int pair, double phase, double middle, std:
                 nodes.tooth_gap[i] = mesh.slice_gap(slice, at);
                 nodes.tooth_on_path[i] = mesh.slice_on_path(slice, at);
             }
+            if (worn) {
+                nodes.tooth_wear[i] = mesh.slice_wear(slice, at);
+            }
         }
     }
 }
 
-void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes) {
+void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, const std::vector<int>& worn,
+                   StiffnessNodes& nodes) {
     const auto contacts = static_cast<std::size_t>(nodes.contacts());
     const auto count = static_cast<std::size_t>(nodes.pairs);
     std::size_t at = 0;  // index of the stage node
@@ -76,7 +81,8 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& 
         for (const double part : grid.stage_nodes) {
             for (int pair = 0; pair < nodes.pairs; ++pair) {
                 fill_node(pairs, pair, step.phase + part * step.length, middle,
-                          at * contacts * count + static_cast<std::size_t>(pair), nodes);
+                          at * contacts * count + static_cast<std::size_t>(pair),
+                          std::ranges::count(worn, pair) > 0, nodes);
             }
             ++at;
         }
@@ -85,7 +91,8 @@ void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& 
 
 }  // namespace
 
-void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes) {
+void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes,
+                     const std::vector<int>& worn) {
     for (int pair = 0; pair < nodes.pairs; ++pair) {
         for (int i = 0; const Step& step : grid.steps) {
             const auto [youngest, count] =
@@ -121,7 +128,8 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
     nodes.tooth_place.assign(size, 0.0);
     nodes.tooth_gap.assign(gaps ? size : 0, 0.0);
     nodes.tooth_on_path.assign(gaps ? size : 0, 0.0);
-    fill_contacts(pairs, grid, nodes);
+    nodes.tooth_wear.assign(worn.empty() ? 0 : size, 0.0);
+    fill_contacts(pairs, grid, worn, nodes);
 }
 
 std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::FaultyMesh& faulty,

@@ -16,9 +16,11 @@ struct EngagedTeeth {
 };
 EngagedTeeth engaged_teeth(const PairSet& pairs, int pair, double phase);
 
-// Adds the springs of the tooth pairs to a table. Throws std::invalid_argument if more than
+// Adds the springs of the tooth pairs to a table. `worn` lists the pairs whose flanks wear; their
+// meshes give the shape (MeshStiffness::slice_wear). Throws std::invalid_argument if more than
 // dynamics::kMostToothPairs are engaged at once, or more than kMostContacts of their slices.
-void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes);
+void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes,
+                     const std::vector<int>& worn = {});
 
 // Passage of a fault through a pair. `start` is the phase at which its first faulty tooth starts to
 // engage, in mesh periods from the same origin as mesh period `mesh`.

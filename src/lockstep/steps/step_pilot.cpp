@@ -19,13 +19,14 @@ class PilotIntegration {
         : pilot_(pilot),
           plan_(in_double_precision(pilot.plan(std::move(grid)))),
           integrator_(make_mesh_integrator<kPilotLanes>(plan_, pilot.inputs)),
-          rotation_(plan_.layout, pilot.inputs) {}
+          rotation_(plan_.layout, pilot.inputs),
+          periodic_(FaultSchedule(plan_, pilot.faults).periodic_overrides()) {}
 
     TileState periodic_orbit() const {
         TileState state = equilibrium_state(plan_, pilot_.inputs);
         MeshRecord scratch = make_record(plan_, kPilotLanes, false);
         for (int mesh = 0; mesh < pilot_.convergence_meshes; ++mesh) {
-            step({}, state, scratch);
+            step(periodic_, state, scratch);
         }
         return state;
     }
@@ -39,7 +40,7 @@ class PilotIntegration {
             all.push_back(make_record(plan_, kPilotLanes, false));
             step(overrides, state, all.back());
         };
-        add({});
+        add(periodic_);
         if (pilot_.faults.pattern.passages.empty()) {
             return all;
         }
@@ -65,6 +66,7 @@ class PilotIntegration {
     const IntegrationPlan plan_;
     const std::unique_ptr<const MeshIntegrator<kPilotLanes>> integrator_;
     const RigidRotation rotation_;
+    const MeshOverrides periodic_;
 };
 
 // Squared deviation of a lane's values from others, and of themselves from 0 or from their mean.

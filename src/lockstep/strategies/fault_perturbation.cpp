@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 
 #include "lockstep/tile/integrated_tile.hpp"
 
@@ -57,6 +58,9 @@ class PerturbedTile : IntegratedTile<W> {
 
 template <int W>
 TileResult FaultPerturbation::run(const TileInputs& tile) const {
+    if (!tile.faults.wear.empty()) {
+        throw std::invalid_argument("wear changes every mesh period, not only passages");
+    }
     return PerturbedTile<W>(tile, *this).run();
 }
 

@@ -43,25 +43,26 @@ class PeriodicTile : IntegratedTile<W> {
         state_ = periodic_orbit_;
         integrate_periodic(record);
         state_ = periodic_orbit_;
-        contact_->add_separation_time(record, {}, all, separation_time_);
+        contact_->add_separation_time(record, schedule_.periodic_overrides(), all,
+                                      separation_time_);
         add_contact_loss(1);
     }
 
     // Integrates one mesh period of the pattern; quiet lanes stay on their periodic orbit.
     void integrate_pattern_mesh(int k, std::array<bool, W>& unperturbed,
                                 const std::array<bool, W>& finished) {
-        const std::vector<PairOverride> passages = schedule_.overrides(k);
+        const MeshOverrides overrides = schedule_.pattern_overrides(k);
         bool any = false;
         for (int l = 0; l < W; ++l) {
             auto& q = unperturbed[static_cast<std::size_t>(l)];
-            q = q && (passages.empty() || !faulty(l));
+            q = q && (overrides.faults.empty() || !faulty(l));
             any = any || (!q && !finished[static_cast<std::size_t>(l)]);
         }
         if (!any) {
             return;
         }
         MeshRecord record = new_record(with_motion_);
-        integrate_mesh(0, {passages, {}}, record);
+        integrate_mesh(0, overrides, record);
         int& id = result_.content[static_cast<std::size_t>(k)];
         if (id == 0) {
             id = static_cast<int>(result_.records.size());

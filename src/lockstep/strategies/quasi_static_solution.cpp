@@ -58,17 +58,17 @@ class QuasiStaticTile {
     }
 
     TileResult solve_pattern(bool with_motion) {
-        add_record(0, {}, with_motion, true);
+        add_record(0, schedule_.periodic_overrides(), with_motion, true);
         for (int k = 0; k < faults_.pattern.length; ++k) {
-            const std::vector<PairOverride> passages = schedule_.overrides(k);
+            const MeshOverrides overrides = schedule_.pattern_overrides(k);
             result_.content.push_back(
-                passages.empty() ? 0 : add_record(0, {passages, {}}, with_motion, false));
+                overrides.faults.empty() ? 0 : add_record(0, overrides, with_motion, false));
         }
         return finish();
     }
 
     TileResult solve_span(const StaticSpan& span) {
-        add_record(0, {}, span.motion_meshes > 0, false);
+        add_record(0, schedule_.periodic_overrides(), span.motion_meshes > 0, false);
         for (int k = 0; k < span.meshes; ++k) {
             result_.content.push_back(add_record(k, schedule_.all_overrides(k),
                                                  k < span.motion_meshes,
@@ -142,6 +142,10 @@ class QuasiStaticTile {
                 }
             }
         }
+        for (std::size_t i = 0; i < known * rows && !overrides.wear.empty(); ++i) {
+            double& gap = state_.tooth_e[i];
+            gap = std::fma(plan_.nodes.tooth_wear[first + i / W], overrides.wear[i % W], gap);
+        }
     }
 
     // Row of one spring in [contact][pair][lane].
@@ -196,7 +200,7 @@ class QuasiStaticTile {
                 }
                 note_status();
                 if (counted && contact_) {
-                    contact_->add_position(i, state_.q, overrides.gaps, 1.0 / plan_.grid.samples,
+                    contact_->add_position(i, state_.q, overrides, 1.0 / plan_.grid.samples,
                                            contact_time_);
                 }
             }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <ranges>
+#include <stdexcept>
 
 #include "lockstep/tile/span_tile.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
@@ -237,6 +238,9 @@ class SuperposedTile : SpanTile<W> {
 
 template <int W>
 TileResult SuperposedSolution::run(const TileInputs& tile) const {
+    if (!tile.faults.wear.empty()) {
+        throw std::invalid_argument("worn flanks are not superposed, but integrated in full");
+    }
     return SuperposedTile<W>(tile, *this).run();
 }
 

@@ -87,8 +87,11 @@ class IntegratedTile {
         }
     }
 
-    // Integrates a healthy mesh period under an excitation that repeats every mesh period.
-    void integrate_periodic(MeshRecord& record) { integrate(excitation_repeats_, 0, {}, record); }
+    // Integrates a mesh period without a faulty tooth under an excitation that repeats every mesh
+    // period.
+    void integrate_periodic(MeshRecord& record) {
+        integrate(excitation_repeats_, 0, schedule_.periodic_overrides(), record);
+    }
 
     // Integrates a mesh period, under the time-varying excitation if `excited`, and records the
     // mesh forces if the record holds the motion.

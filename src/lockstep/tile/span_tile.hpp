@@ -43,7 +43,7 @@ class SpanTile : protected IntegratedTile<W> {
         record.step_states.swap(step_states_);
         size_step_states(plan_, W, record);
         integrate_mesh(k, overrides, record);
-        contact_->add_separation_time(record, overrides.gaps, lanes, separation_time_);
+        contact_->add_separation_time(record, overrides, lanes, separation_time_);
         record.step_states.swap(step_states_);
     }
 

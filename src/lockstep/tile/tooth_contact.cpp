@@ -25,9 +25,10 @@ double static_error(const IntegrationPlan& plan, int step, std::size_t node, int
 // Lane-dependent gaps of a pair, step by step.
 class ToothContact::LaneGaps {
   public:
-    // `size` is the number of tooth pairs times lanes.
-    LaneGaps(std::span<const PairGaps> all, int pair, std::size_t size)
-        : all_(all), pair_(pair), none_(size, 0.0) {}
+    // `size` is the number of tooth pairs times lanes. `wear` may be null.
+    LaneGaps(std::span<const PairGaps> all, const machine::AlignedVector* wear, int pair,
+             std::size_t size)
+        : all_(all), wear_(wear), pair_(pair), none_(size, 0.0) {}
 
     // [tooth pair][lane], m.
     struct Rows {
@@ -41,9 +42,14 @@ class ToothContact::LaneGaps {
         return now_ == nullptr ? Rows{none_.data(), none_.data()}
                                : Rows{now_->gap.data(), now_->growth.data()};
     }
+    // Depth of the wear, [lane], m.
+    const double* wear() const {
+        return wear_ == nullptr || wear_->empty() ? none_.data() : wear_->data();
+    }
 
   private:
     std::span<const PairGaps> all_;
+    const machine::AlignedVector* wear_;
     int pair_;
     const machine::AlignedVector none_;
     const PairGaps* now_ = nullptr;
@@ -82,9 +88,9 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
              static_error(plan_, step, node, pair),
              {}};
     if (plan_.nodes.tooth_pairs == 0) {  // one spring carries the whole load
-        own.teeth.push_back({0, 0, 0.0, 0.0, 1.0});
+        own.teeth.push_back({0, 0, 0.0, 0.0, 0.0, 1.0});
     }
-    const bool gaps = !plan_.nodes.tooth_gap.empty();
+    const bool gaps = !plan_.nodes.tooth_gap.empty(), worn = !plan_.nodes.tooth_wear.empty();
     for (int contact = 0; contact < plan_.nodes.contacts(); ++contact) {
         const int n = static_cast<int>(node);
         const std::size_t at = tooth_pair_at(plan_, step, n, contact, pair);
@@ -93,6 +99,7 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
             own.teeth.push_back({static_cast<std::size_t>(contact),
                                  static_cast<std::size_t>(contact / plan_.nodes.slices), place,
                                  tooth_gap(plan_, {}, pair, step, n, contact, 0),
+                                 worn ? plan_.nodes.tooth_wear[at] : 0.0,
                                  gaps ? plan_.nodes.tooth_on_path[at] : 1.0});
         }
     }
@@ -162,7 +169,7 @@ machine::AlignedVector ToothContact::least_compression(const MeshRecord& record,
             deflect(*periodic_orbit, p, -1.0, 0, at);
             deflect(*periodic_orbit, p, -1.0, degrees, rate);
         }
-        LaneGaps own(gaps, p, contacts_ * width);
+        LaneGaps own(gaps, nullptr, p, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             const std::size_t before = static_cast<std::size_t>(node.step) * width;
             least_deflection(node, at.data() + before, rate.data() + before, d.data());
@@ -205,24 +212,26 @@ void ToothContact::add_separation(const Node& node, std::size_t pair, const doub
                                   machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
     const auto [gap, growth] = own.at(node.step);
+    const double* __restrict wear = own.wear();
     double* __restrict sum = apart.data() + pair * width;
     for (const Tooth& tooth : node.teeth) {
         if (tooth.on_path == 0.0) {
             continue;
         }
         const double shared = tooth.shared + node.error, place = tooth.place;
-        const double share = tooth.on_path;
+        const double share = tooth.on_path, unit_gap = tooth.wear;
         const double* __restrict constant = gap + tooth.tooth * width;
         const double* __restrict slope = growth + tooth.tooth * width;
 #pragma omp simd
         for (std::size_t l = 0; l < width; ++l) {
-            const double compression = d[l] - shared - (place * slope[l] + constant[l]);
+            const double compression =
+                d[l] - shared - (place * slope[l] + constant[l]) - unit_gap * wear[l];
             sum[l] += compression > 0.0 ? 0.0 : share * weight[l];
         }
     }
 }
 
-void ToothContact::add_separation_time(const MeshRecord& record, std::span<const PairGaps> gaps,
+void ToothContact::add_separation_time(const MeshRecord& record, const MeshOverrides& overrides,
                                        std::span<const bool> lanes,
                                        machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
@@ -231,7 +240,7 @@ void ToothContact::add_separation_time(const MeshRecord& record, std::span<const
         const int p = static_cast<int>(pair);
         std::ranges::fill(at, 0.0);
         deflect(record, p, 1.0, 0, at);
-        LaneGaps own(gaps, p, contacts_ * width);
+        LaneGaps own(overrides.gaps, &overrides.wear, p, contacts_ * width);
         for (const Node& node : nodes_[pair]) {
             if (!node.first) {
                 continue;
@@ -249,7 +258,7 @@ void ToothContact::add_separation_time(const MeshRecord& record, std::span<const
 }
 
 void ToothContact::add_position(int step, const machine::AlignedVector& q,
-                                std::span<const PairGaps> gaps, double weight,
+                                const MeshOverrides& overrides, double weight,
                                 ContactTime& time) const {
     const std::size_t width = mesh_period_s_.size(), stages = plan_.grid.stage_nodes.size();
     const machine::AlignedVector weights(width, weight);
@@ -265,7 +274,7 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
         for (const Tooth& tooth : node.teeth) {
             time.engaged[pair] += tooth.on_path * weight;
         }
-        LaneGaps own(gaps, static_cast<int>(pair), contacts_ * width);
+        LaneGaps own(overrides.gaps, &overrides.wear, static_cast<int>(pair), contacts_ * width);
         add_separation(node, pair, d.data(), own, weights.data(), time.apart);
     }
 }

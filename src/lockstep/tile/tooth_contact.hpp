@@ -48,8 +48,9 @@ class ToothContact {
                                              const MeshRecord* periodic_orbit) const;
 
     // Adds the time during which tooth pairs are separated within the nominal path of contact, in
-    // mesh periods, [pair][lane], for the lanes in the mask.
-    void add_separation_time(const MeshRecord& record, std::span<const PairGaps> gaps,
+    // mesh periods, [pair][lane], for the lanes in the mask. `overrides` are those of the mesh
+    // period.
+    void add_separation_time(const MeshRecord& record, const MeshOverrides& overrides,
                              std::span<const bool> lanes, machine::AlignedVector& apart) const;
     // Time that the tooth pairs of a gear pair spend on the nominal path, mesh periods per mesh
     // period.
@@ -58,7 +59,7 @@ class ToothContact {
     // Same for the start of one step with positions `q`, [degree of freedom][lane]. Adds `weight`
     // to the engaged time of each tooth pair on the nominal path, and to the time apart of each
     // separated one.
-    void add_position(int step, const machine::AlignedVector& q, std::span<const PairGaps> gaps,
+    void add_position(int step, const machine::AlignedVector& q, const MeshOverrides& overrides,
                       double weight, ContactTime& time) const;
 
   private:
@@ -71,6 +72,7 @@ class ToothContact {
         std::size_t contact = 0, tooth = 0;  // indices in the tables of springs and of tooth pairs
         double place = 0.0;                  // on the path of contact (StiffnessNodes::tooth_place)
         double shared = 0.0;                 // part of its gap common to all lanes, m
+        double wear = 0.0;                   // part by wear of unit depth
         double on_path = 0.0;                // share of its face on the nominal path of contact
     };
     // Stage node of a step, with the tooth pairs of a gear pair engaged at it.

@@ -35,6 +35,7 @@ const Example kExamples[] = {
     {"chip", "chip_mm = 8"},
     {"pitting",
      "pit_width_mm = 10\npit_length_mm = 1\npit_radius_mm = 30.5\npit_depth_mm = 0.2\nteeth = 2"},
+    {"wear", "wear_um = 20\n[effects]\ncontact_onset = \"extended\""},
     {"broken", "broken = 0.5"},
     {"reduction", "reduction = 0.3"},
 };
@@ -130,11 +131,17 @@ TEST_CASE("The size of every kind of fault is one key, one unit and one column")
     }
 }
 
-TEST_CASE("Every kind of fault weakens the tooth of a study's gearbox") {
+TEST_CASE("Every kind of fault but wear weakens the tooth of a study's gearbox") {
     for (const FaultKind* kind : all_faults()) {
         INFO(kind->name());
         const Study study = study_with(*kind);
         const Scene scene(study);
+        CHECK(scene.fault().worn_pairs().empty() != kind->wears_flanks());
+        if (kind->wears_flanks()) {
+            CHECK(scene.fault().curves() == 0);
+            CHECK(scene.faulty_mesh(fault_size(study)) == nullptr);
+            continue;
+        }
         CHECK(scene.fault().curves() == 1);
         CHECK(scene.fault().largest_size() >= fault_size(study));
         const auto faulty = scene.faulty_mesh(fault_size(study));
@@ -178,6 +185,25 @@ TEST_CASE("Text about a fault names its kind and its size") {
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
         CHECK(holds(both, words + " is on one flank") == kind->shapes_tooth());
     }
+}
+
+TEST_CASE("Wear needs extended contact, a depth within the tooth, and no life") {
+    const std::string text = text_with(*find_fault("wear"));
+    const std::string abrupt = problems_of(text, "\"extended\"", "\"abrupt\"");
+    CHECK(holds(abrupt, "fault.kind"));
+    CHECK(holds(abrupt, "contact_onset = \"extended\""));
+    const std::string negative = problems_of(text, "wear_um = 20", "wear_um = -1");
+    CHECK(holds(negative, "fault.wear_um"));
+    CHECK(holds(negative, "must be >= 0, but is -1"));
+    const std::string deep = problems_of(text, "wear_um = 20", "wear_um = 6000");
+    CHECK(holds(deep, "fault.wear_um"));
+    CHECK(holds(deep, "4987.28 um thick"));  // half of a pitch of 3.175 mm times pi
+    const std::string lives = problems_of(text, "[sensor]", "[life]\ninterval_h = 10\n[sensor]");
+    CHECK(holds(lives, "life.interval_h"));
+    CHECK(holds(lives, "the fault is not a crack"));
+    CHECK(holds(problems_of(text, "kind = \"planetary\"\n",
+                            "kind = \"planetary\"\ntooth_profile = \"constant\"\n"),
+                "wear needs the shape of its tooth"));
 }
 
 TEST_CASE("Cracks follow the law given by the study, by default that of its tooth profile") {
