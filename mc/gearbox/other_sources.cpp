@@ -11,7 +11,6 @@
 
 #include "machine/cancellation.hpp"
 #include "mc/gearbox/record_samples.hpp"
-#include "mc/scene/neighbour_stages.hpp"
 #include "signals/spectra/periodic_interpolation.hpp"
 
 namespace gearpod::mc {
@@ -31,6 +30,15 @@ void add_bearings(const Scene& scene, const Realization& realization, SourceRole
                                            sample_s(scene, realization.inputs), engine, samples);
         }
     }
+}
+
+// Every gearbox has two rows of its own in the stage: healthy gearboxes the even ones.
+GearboxId id_in_stage(const GearboxId& id) {
+    GearboxId other = id;
+    other.group = Group::graded;
+    other.index = 2 * id.index + (id.group == Group::graded ? 1 : 0);
+    other.exchanged = {};
+    return other;
 }
 
 // Interpolation of periods of that many samples. A thread keeps the one used last, because most
@@ -118,6 +126,22 @@ signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInpu
         .amplitude_m_s2 = inputs.bearing_level * bearing.amplitude_m_s2,
         .resonance_Hz = bearing.resonance_Hz,
         .damping = bearing.damping};
+}
+
+Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realization& record) {
+    const Scene& own = scene.stages()[stage];
+    Realization gearbox = own.sampler().draw(id_in_stage(record.id));
+    const InstanceInputs here = nominal_inputs(scene.study()), there = nominal_inputs(own.study());
+    const double torque = record.inputs.torque_N_m / here.torque_N_m;
+    gearbox.inputs.torque_N_m *= torque;
+    gearbox.inputs.fixed_shaft.load_torque_N_m *= torque;
+    gearbox.inputs.speed_rad_s = there.speed_rad_s * record.inputs.speed_rad_s / here.speed_rad_s;
+    gearbox.inputs.fault_size = 0.0;
+    return gearbox;
+}
+
+double stage_fault_size(const Scene& scene, std::size_t stage, const GearboxId& id) {
+    return scene.stages()[stage].sampler().draw(id_in_stage(id)).inputs.fault_size;
 }
 
 void add_background(const Scene& scene, std::span<const Realization> realizations,

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mc/scene/excitation_checks.hpp"
 #include "mc/scene/feature_needs.hpp"
-#include "mc/scene/neighbour_stages.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -27,6 +27,19 @@ bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
     return a == b;
 }
 
+std::vector<Scene> make_stages(const Study& study) {
+    check_stages(study);
+    std::vector<Scene> scenes;
+    for (const NeighbourStage& stage : study.sensor.stages) {
+        Study own = *stage.study;
+        // Other gearboxes here are other gearboxes there.
+        own.ensemble.seed = static_cast<std::int64_t>(
+            fnv1a(stage.name, static_cast<std::uint64_t>(study.ensemble.seed)) >> 1);
+        scenes.emplace_back(own);
+    }
+    return scenes;
+}
+
 }  // namespace
 
 Scene::Scene(const Study& study)
@@ -44,7 +57,7 @@ Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrai
                  : std::make_shared<const ScenePlan>(
                        make_plan(study_, *sampler_, *drivetrain_, *stiffness_))),
       stages_(stages ? std::move(stages)
-                     : std::make_shared<const std::vector<Scene>>(stage_scenes(study_))),
+                     : std::make_shared<const std::vector<Scene>>(make_stages(study_))),
       span_(drivetrain_->span()),
       nominal_mesh_frequency_Hz_(
           drivetrain_->mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s) / (2.0 * pi)),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What each sensor and each part of the background costs: whole runs on one thread.
+"""What each sensor, each part of the background and a stage cost: whole runs on one thread.
 
     tests/bench/sensor_costs.py [--rounds 5] [--instances 64] [--study studies/planet-crack-ideal.toml]
                                 [--program build/gearpod]
@@ -16,6 +16,8 @@ import tempfile
 
 BEARING = ('sensor.bearings=[{fault="inner", shaft="sun", elements=9, diameter_ratio=0.2, '
            'amplitude_m_s2=2, resonance_Hz=600, role="%s"}]')
+STAGE = ('sensor.stages=[{name="first", study="studies/first-stage.toml", shaft="sun", '
+         'stage_shaft="carrier", gain=0.3, role="%s"}]')
 ADDED = {
     "two tones": ['sensor.tones=[{frequency_Hz=50, amplitude_m_s2=0.1}, '
                   '{shaft="sun", order=2, amplitude_m_s2=0.1}]'],
@@ -31,6 +33,8 @@ ADDED = {
                             "sensor.response_phase_deg=[0, 90]"],
     "a bearing in the background": [BEARING % "background"],
     "a bearing as another fault": [BEARING % "other_fault"],
+    "a neighbouring stage": [STAGE % "background"],
+    "a stage as another fault": [STAGE % "other_fault"],
     "a background by its spectrum": ["sensor.background_Hz=[20, 1000]",
                                      "sensor.background_density_m_s2_per_sqrt_Hz=[0.01, 0.001]"],
 }

@@ -11,7 +11,6 @@ namespace gearpod::mc {
 
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject) {
-    constexpr Range kAbove0{.low = 0.0, .low_open = true};
     std::vector<AdditionalSensor> sensors;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
         const std::string which = fmt::format("sensor {}", i + 1);

@@ -9,8 +9,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr Range kAbove0{.low = 0.0, .low_open = true};
-
 Bearing read_bearing(const ListElement& element) {
     Bearing bearing;
     bearing.fault =

@@ -20,6 +20,8 @@ inline constexpr ChoiceName kShafts[] = {{"sun", static_cast<int>(Member::sun)},
                                          {"pinion", static_cast<int>(Member::pinion)},
                                          {"gear", static_cast<int>(Member::gear)}};
 
+inline constexpr Range kAbove0{.low = 0.0, .low_open = true};
+
 // Roles of a source of vibration elsewhere.
 inline constexpr ChoiceName kSourceRoles[] = {
     {"background", static_cast<int>(SourceRole::background)},

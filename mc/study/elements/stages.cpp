@@ -12,8 +12,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr Range kAbove0{.low = 0.0, .low_open = true};
-
 // Text of the study of a stage; `name` is that of its file in messages.
 std::string study_text(const ListElement& element, const Value& table, std::string& name) {
     if (!element.first_of("study", "text")) {

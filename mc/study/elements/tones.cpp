@@ -7,7 +7,6 @@
 namespace gearpod::mc {
 
 std::vector<Tone> read_tones(const Value& list, const RejectElement& reject) {
-    constexpr Range kAbove0{.low = 0.0, .low_open = true};
     std::vector<Tone> tones;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
         const ListElement element(list.elements[i], fmt::format("tone {}", i + 1), kToneFields,

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/record_samples.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/scene/neighbour_stages.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"
 
