@@ -35,8 +35,10 @@ def bounded(schema, key):
 def field_schema(field):
     if "choices" in field:
         return {"enum": field["choices"]}
-    if field["type"] == "text":
+    if field["type"] == "word":
         return {"type": "string", "pattern": "^[a-z0-9-]+$"}
+    if field["type"] == "text":
+        return {"type": "string"}
     if field["type"] == "numbers":
         return {"anyOf": [{"type": "array", "items": {"type": "number"}}, FILE_COLUMN]}
     return {"type": field["type"]}

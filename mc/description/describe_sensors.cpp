@@ -23,17 +23,27 @@ void print_bearing(const Scene& scene, const Bearing& bearing) {
                             signals::bearing_rms(impulses, scene.study().sensor.low_pass_Hz)));
 }
 
+// Speed of a stage if it differs from that of its own study; "" if it does not.
+std::string other_speed_text(const NeighbourStage& stage, const Scene& own) {
+    const double factor =
+        nominal_inputs(own.study()).speed_rad_s / nominal_inputs(*stage.study).speed_rad_s;
+    return std::abs(factor - 1.0) < 1e-3
+               ? ""
+               : fmt::format(", {:.4g} times as fast as in its own study, as the shaft requires",
+                             factor);
+}
+
 void print_stage(const NeighbourStage& stage, const Scene& own) {
-    print_entry("neighbouring stage",
-                fmt::format("\"{}\": {}, its {} on the {}{}, meshes at {:.4g} Hz, gain x {:g}; "
-                            "the shaft's elasticity is not modelled{}",
-                            stage.name, own.study().title, member_name(*stage.stage_shaft),
-                            member_name(*stage.shaft),
-                            stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
-                            std::abs(own.nominal_mesh_frequency_Hz()), stage.gain,
-                            stage.role == SourceRole::other_fault
-                                ? "; its fault is that of other_fault records"
-                                : ""));
+    print_entry(
+        "neighbouring stage",
+        fmt::format(
+            "\"{}\": {}; its {} on the {}{}{}; meshes at {:.4g} Hz; gain x {:g}; the "
+            "shaft transmits no vibration{}",
+            stage.name, own.study().title, member_name(*stage.stage_shaft),
+            member_name(*stage.shaft), stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
+            other_speed_text(stage, own), std::abs(own.nominal_mesh_frequency_Hz()), stage.gain,
+            stage.role == SourceRole::other_fault ? "; its fault is that of other_fault records"
+                                                  : ""));
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ class ValueForm {
     void operator()(const PythonAccess&) const { json_["type"] = "python"; }
 
   private:
-    static constexpr const char* kFieldKinds[] = {"number", "integer", "text", "numbers"};
+    static constexpr const char* kFieldKinds[] = {"number", "integer", "text", "numbers", "word"};
 
     // A number outside the key's range stands for "not given".
     template <class Value>

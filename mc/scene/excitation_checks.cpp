@@ -3,88 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/excited_integrator.hpp"
-#include "mc/scene/drivetrain.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/scene/stepping.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-constexpr const char* kStages = "sensor.stages";
-constexpr double kSameSpeed = 1e-3;  // largest relative difference
-
-// Shaft of a stage or of the study's gearbox, at nominal speed.
-struct ShaftEnd {
-    const Study& study;
-    Member shaft;
-    std::string of;
-
-    std::string text() const { return fmt::format("the {} of {}", member_name(shaft), of); }
-    double turns_Hz() const {
-        const auto drivetrain = make_drivetrain(study);
-        return drivetrain->shaft_turns_per_mesh(shaft) *
-               std::abs(drivetrain->mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) /
-               (2.0 * std::numbers::pi);
-    }
-};
-
-std::string named(const NeighbourStage& stage, const std::string& what) {
-    return fmt::format("stage \"{}\": {}", stage.name, what);
-}
-
-void check_steady(const NeighbourStage& stage) {
-    if (speed_fluctuates(*stage.study) || has_random_fluctuations(*stage.study)) {
-        throw SceneError(kStages, named(stage, "its torque or speed fluctuates within a record"),
-                         "give it a steady torque and speed");
-    }
-    for (const RandomInput& input : stage.study->random) {
-        if (input.key.starts_with("operation.") && input.key.find("speed") != std::string::npos) {
-            throw SceneError(kStages,
-                             named(stage, input.key + " is random, but the common shaft sets it"),
-                             "remove it from [random] there");
-        }
-    }
-}
-
-// The other end of a stage's common shaft.
-ShaftEnd other_end(const Study& study, const NeighbourStage& stage) {
-    for (const NeighbourStage& earlier : study.sensor.stages) {
-        if (earlier.name == stage.of) {
-            return {*earlier.study, *stage.shaft, fmt::format("stage \"{}\"", earlier.name)};
-        }
-    }
-    return {study, *stage.shaft, "the study's gearbox"};
-}
-
-void check_shaft(const Study& study, const NeighbourStage& stage) {
-    const ShaftEnd own{*stage.study, *stage.stage_shaft, "its gearbox"},
-        other = other_end(study, stage);
-    for (const ShaftEnd& end : {own, other}) {
-        if (end.turns_Hz() == 0.0) {
-            throw SceneError(kStages, named(stage, end.text() + " stands still"),
-                             "name shafts that turn");
-        }
-    }
-    const double ratio = other.turns_Hz() / own.turns_Hz();
-    if (std::abs(ratio - 1.0) > kSameSpeed) {
-        throw SceneError(
-            kStages,
-            named(stage, fmt::format("{} turns at {:.6g} rpm, but {} at {:.6g} rpm, and "
-                                     "they are one shaft",
-                                     own.text(), 60.0 * own.turns_Hz(), other.text(),
-                                     60.0 * other.turns_Hz())),
-            fmt::format("multiply the speed in its study by {:.8g}", ratio));
-    }
-}
 
 // Highest fluctuation frequency of a gearbox (sine or noise band), in cycles per mesh period.
 double highest_frequency(const Study& study, const Drivetrain& drivetrain,
@@ -213,21 +142,6 @@ void check_shaft_orders(const Study& study, const Drivetrain& drivetrain, int sa
         const Bearing& bearing = study.sensor.bearings[i];
         if (bearing.shaft) {
             check("sensor.bearings", "bearing", i + 1, *bearing.shaft, impulses_per_turn(bearing));
-        }
-    }
-}
-
-void check_stages(const Study& study) {
-    for (const NeighbourStage& stage : study.sensor.stages) {
-        check_steady(stage);
-        check_shaft(study, stage);
-        if (stage.study->sensor.low_pass_Hz != study.sensor.low_pass_Hz) {
-            throw SceneError(
-                kStages,
-                named(stage,
-                      fmt::format("its sensor.low_pass_Hz is {:g}, but here it is {:g}",
-                                  stage.study->sensor.low_pass_Hz, study.sensor.low_pass_Hz)),
-                "give both the same, as there is one sensor");
         }
     }
 }

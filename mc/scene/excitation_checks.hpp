@@ -1,5 +1,4 @@
-// Checks that a scene's integration plan can resolve the variable excitation of its gearboxes, and
-// that neighbouring stages fit to them.
+// Checks that a scene's integration plan can resolve the variable excitation of its gearboxes.
 #pragma once
 
 #include "lockstep/plan/integration_plan.hpp"
@@ -16,9 +15,5 @@ void check_excitation_resolved(const Study& study, const Sampler& sampler,
 // Throws SceneError if a tone of a shaft, or the impulses of a bearing, are not below half the
 // sampling rate.
 void check_shaft_orders(const Study& study, const Drivetrain& drivetrain, int samples_per_mesh);
-
-// Throws SceneError if a neighbouring stage does not run steadily, if its common shaft has another
-// speed, or if its low-pass differs.
-void check_stages(const Study& study);
 
 }  // namespace gearpod::mc

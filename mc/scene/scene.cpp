@@ -1,11 +1,15 @@
 #include "mc/scene/scene.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
-#include "mc/scene/excitation_checks.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
@@ -27,15 +31,69 @@ bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
     return a == b;
 }
 
+constexpr const char* kStages = "sensor.stages";
+
+std::string named(const NeighbourStage& stage, const std::string& what) {
+    return fmt::format("stage \"{}\": {}", stage.name, what);
+}
+
+void check_steady(const NeighbourStage& stage) {
+    if (speed_fluctuates(*stage.study) || has_random_fluctuations(*stage.study)) {
+        throw SceneError(kStages, named(stage, "its torque or speed fluctuates within a record"),
+                         "give it a steady torque and speed");
+    }
+    for (const RandomInput& input : stage.study->random) {
+        if (input.key.starts_with("operation.") && input.key.find("speed") != std::string::npos) {
+            throw SceneError(kStages,
+                             named(stage, input.key + " is random, but the common shaft sets it"),
+                             "remove it from [random] there");
+        }
+    }
+}
+
+// Turns per second of a shaft at the nominal speed of its study.
+double turns_Hz(const Study& study, Member shaft, const NeighbourStage& stage) {
+    const auto drivetrain = make_drivetrain(study);
+    const double turns =
+        drivetrain->shaft_turns_per_mesh(shaft) *
+        std::abs(drivetrain->mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) / (2.0 * pi);
+    if (turns == 0.0) {
+        throw SceneError(kStages,
+                         named(stage, fmt::format("the {} of its common shaft stands still",
+                                                  member_name(shaft))),
+                         "name shafts that turn");
+    }
+    return turns;
+}
+
+// Study of a stage with the sensor of the study, and with the speed of the common shaft.
+Study stage_study(const Study& study, const NeighbourStage& stage, const Study& other_end) {
+    Study own = *stage.study;
+    const double factor =
+        turns_Hz(other_end, *stage.shaft, stage) / turns_Hz(own, *stage.stage_shaft, stage);
+    for (std::optional<double>* speed :
+         {&own.operation.sun_speed_rad_s, &own.operation.ring_speed_rad_s,
+          &own.operation.carrier_speed_rad_s, &own.operation.pinion_speed_rad_s}) {
+        if (*speed) {
+            **speed *= factor;
+        }
+    }
+    own.sensor.low_pass_Hz = study.sensor.low_pass_Hz;
+    own.sensor.sampling_Hz = std::max(own.sensor.sampling_Hz, study.sensor.sampling_Hz);
+    // Other gearboxes here are other gearboxes there.
+    own.ensemble.seed = static_cast<std::int64_t>(
+        fnv1a(stage.name, static_cast<std::uint64_t>(study.ensemble.seed)) >> 1);
+    return own;
+}
+
 std::vector<Scene> make_stages(const Study& study) {
-    check_stages(study);
+    const std::vector<NeighbourStage>& stages = study.sensor.stages;
     std::vector<Scene> scenes;
-    for (const NeighbourStage& stage : study.sensor.stages) {
-        Study own = *stage.study;
-        // Other gearboxes here are other gearboxes there.
-        own.ensemble.seed = static_cast<std::int64_t>(
-            fnv1a(stage.name, static_cast<std::uint64_t>(study.ensemble.seed)) >> 1);
-        scenes.emplace_back(own);
+    for (const NeighbourStage& stage : stages) {
+        check_steady(stage);
+        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
+        scenes.emplace_back(stage_study(
+            study, stage, stage.of.empty() ? study : scenes[static_cast<std::size_t>(of)].study()));
     }
     return scenes;
 }

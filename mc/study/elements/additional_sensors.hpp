@@ -11,7 +11,7 @@ namespace gearpod::mc {
 
 inline constexpr ChoiceName kDirections[] = {{"radial", 0}, {"tangential", 1}};
 inline constexpr TableField kSensorFields[] = {
-    {"name", TableField::Kind::text, true},
+    {"name", TableField::Kind::word, true},
     {.name = "angle_deg", .required = true},
     {"direction", TableField::Kind::text, false, kDirections},
     {"gain"},

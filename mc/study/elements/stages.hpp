@@ -11,12 +11,12 @@
 namespace gearpod::mc {
 
 inline constexpr TableField kStageFields[] = {
-    {"name", TableField::Kind::text, true},
+    {"name", TableField::Kind::word, true},
     {"study", TableField::Kind::text},
     {"text", TableField::Kind::text},
     {"shaft", TableField::Kind::text, true, kShafts},
     {"stage_shaft", TableField::Kind::text, true, kShafts},
-    {"of", TableField::Kind::text},
+    {"of", TableField::Kind::word},
     {"gain"},
     {"role", TableField::Kind::text, false, kSourceRoles}};
 // Problems name the stage by its position in the list. `study` is a file relative to the folder of

@@ -59,11 +59,11 @@ using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
 using RejectElement = std::function<void(std::string what, std::string remedy)>;
 // Field of a table such as { frequency_Hz = 50, amplitude_m_s2 = 0.1 }.
 struct TableField {
-    enum class Kind { number, integer, text, numbers };
+    enum class Kind { number, integer, text, numbers, word };  // word: lower-case, as for names
     std::string_view name;
     Kind kind = Kind::number;
     bool required = false;
-    std::span<const ChoiceName> choices = {};  // of a text; empty: any lower-case word
+    std::span<const ChoiceName> choices = {};  // of a text; empty: any
 };
 // List of tables.
 struct TablesAccess {

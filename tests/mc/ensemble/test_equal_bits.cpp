@@ -32,7 +32,8 @@ std::vector<std::string> studies_with_teeth() {
     return names;
 }
 
-constexpr double kFastCarrier_rpm = 300.0;
+// The second one is for gearboxes with neighbouring stages, which turn faster.
+constexpr double kFastCarrier_rpm = 300.0, kFastNextToStages_rpm = 60.0;
 
 // True if every mesh of the span is integrated, for a second or more per tile.
 bool integrates_all_meshes(const mc::Study& study) {
@@ -44,8 +45,9 @@ bool integrates_all_meshes(const mc::Study& study) {
 std::vector<std::string> fast(const std::string& name) {
     const mc::Study study = shipped_study(name);
     const double carrier_rpm = study.operation.carrier_speed_rad_s.value_or(0.0) * 30.0 / M_PI;
-    if (integrates_all_meshes(study) && carrier_rpm > 0.0 && carrier_rpm < kFastCarrier_rpm) {
-        return {fmt::format("operation.carrier_speed_rpm={}", kFastCarrier_rpm)};
+    const double fast_rpm = study.sensor.stages.empty() ? kFastCarrier_rpm : kFastNextToStages_rpm;
+    if (integrates_all_meshes(study) && carrier_rpm > 0.0 && carrier_rpm < fast_rpm) {
+        return {fmt::format("operation.carrier_speed_rpm={}", fast_rpm)};
     }
     return {};
 }

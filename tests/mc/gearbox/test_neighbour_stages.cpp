@@ -134,6 +134,25 @@ TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to
     CHECK(mc::stage_fault_size(scene, 0, gearbox.id) == Approx(0.4));
 }
 
+TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of the study") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "fast.toml", 66.0);
+    const mc::Scene scene(small_study(path, ""));
+    const mc::Study& own = scene.stages()[0].study();
+    CHECK(mc::nominal_inputs(own).speed_rad_s ==
+          Approx(13.0 / 48.0 * mc::nominal_inputs(scene.study()).speed_rad_s).epsilon(1e-6));
+    const auto text =
+        program("describe " + kSmall + " " + stages(path, "") + "--set sensor.low_pass_Hz=100");
+    CHECK(text.mentions("0.9091 times as fast as in its own study"));
+    CHECK(text.mentions("meshes at 9.479 Hz"));
+    // A stage next to a stage: the shaft is the first one's, at its speed.
+    const auto chain =
+        program("describe " + kSmall + " --set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                "\", shaft=\"carrier\", stage_shaft=\"sun\"}, {name=\"b\", study=\"" + path +
+                "\", of=\"a\", shaft=\"carrier\", stage_shaft=\"sun\"}]'");
+    CHECK(chain.mentions("meshes at 2.567 Hz"));
+}
+
 TEST_CASE("Another fault is that of the stage, in the same records") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
@@ -173,11 +192,10 @@ TEST_CASE("Stages that do not fit are refused, all at once, with what would be r
         INFO(outcome.output);
         return outcome;
     };
-    CHECK(refused(stages(stage_file(folder, "fast.toml", 66.0), ""))
-              .mentions("multiply the speed in its study by 0.909"));
     CHECK(refused(stages(folder.file("none.toml"), "")).mentions("none.toml: cannot be read"));
-    CHECK(refused(stages(path, "") + "--set sensor.low_pass_Hz=100")
-              .mentions("its sensor.low_pass_Hz is 120, but here it is 100"));
+    CHECK(refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                  "\", shaft=\"ring\", stage_shaft=\"sun\"}]'")
+              .mentions("the ring of its common shaft stands still"));
     const auto both = refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
                               "\", shaft=\"sun\", stage_shaft=\"sun\", gain=-1},"
                               "{name=\"a\", study=\"" +

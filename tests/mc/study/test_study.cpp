@@ -247,7 +247,8 @@ TEST_CASE("The resolved text contains every key that may be given") {
         "inertia speed size_edges_mm planet_positions _shift _tip_mm "
         "centre_distance _relief_um _crowning_um normal_module "
         "ring_to_sun_phase bore _rim_mm _web_mm outer error crack_law "
-        "noise_density uncertain_inputs tones bearings additional background_Hz interval_h record_ "
+        "noise_density uncertain_inputs tones bearings stages additional background_Hz interval_h "
+        "record_ "
         "housing_modes response_Hz "
         "false_alarms_per_ interpolation_tolerance torque_fluctuation "
         "torque_noise until pin_ _factors python index_um quality");
