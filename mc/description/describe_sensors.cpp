@@ -43,6 +43,7 @@ void print_stage(const NeighbourStage& stage, const Scene& own) {
             member_name(*stage.shaft), stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
             other_speed_text(stage, own), std::abs(own.nominal_mesh_frequency_Hz()), stage.gain,
             stage.role == SourceRole::other_fault ? "; its fault is that of other_fault records"
+            : stage.study->fault.kind != nullptr  ? "; its fault is left out"
                                                   : ""));
 }
 

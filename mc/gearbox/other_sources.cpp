@@ -132,7 +132,7 @@ Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realizati
     const Scene& own = scene.stages()[stage];
     Realization gearbox = own.sampler().draw(id_in_stage(record.id));
     const InstanceInputs here = nominal_inputs(scene.study()), there = nominal_inputs(own.study());
-    const double torque = record.inputs.torque_N_m / here.torque_N_m;
+    const double torque = here.torque_N_m != 0.0 ? record.inputs.torque_N_m / here.torque_N_m : 1.0;
     gearbox.inputs.torque_N_m *= torque;
     gearbox.inputs.fixed_shaft.load_torque_N_m *= torque;
     gearbox.inputs.speed_rad_s = there.speed_rad_s * record.inputs.speed_rad_s / here.speed_rad_s;
@@ -146,9 +146,10 @@ double stage_fault_size(const Scene& scene, std::size_t stage, const GearboxId& 
 
 void add_background(const Scene& scene, std::span<const Realization> realizations,
                     std::span<LaneSignals> records) {
-    const Sensor& study = scene.study().sensor;
-    const bool any = !study.stages.empty() ||
-                     std::ranges::count(study.bearings, SourceRole::background, &Bearing::role) > 0;
+    const Sensor& sensor = scene.study().sensor;
+    const bool any =
+        !sensor.stages.empty() ||
+        std::ranges::count(sensor.bearings, SourceRole::background, &Bearing::role) > 0;
     if (!any || records.empty() || records.front().sensor.empty()) {
         return;
     }
@@ -161,14 +162,14 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         std::vector<StageRecord> next;
         for (std::size_t i = 0; i < records.size(); ++i) {
             next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]),
-                            study.stages[stage].gain, &samples[i]});
+                            sensor.stages[stage].gain, &samples[i]});
         }
         add_stage(scene, stage, next);
     }
     for (std::size_t i = 0; i < records.size(); ++i) {
         add_samples(scene, samples[i], records[i]);
-        for (LaneSignals& sensor : records[i].additional) {
-            add_samples(scene, samples[i], sensor);
+        for (LaneSignals& additional : records[i].additional) {
+            add_samples(scene, samples[i], additional);
         }
     }
 }

@@ -105,6 +105,18 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     }
     try {
         const RecordSpan record = record_span(scene, nominal_inputs(study).speed_rad_s);
+        const RecordLength length = life_record_length(study);
+        const double hours = static_cast<double>(record.turns) * record.recordings *
+                             scene.span().planet_teeth /
+                             mesh_frequency_Hz(scene, nominal_inputs(study).speed_rad_s) / 3600.0;
+        if (length.given() && study.life.interval_h && hours > *study.life.interval_h) {
+            problems.emplace_back(
+                length.section + "." + length.key(),
+                fmt::format("a record lasts {:.4g} h or more, but there are {:g} h between two "
+                            "records (life.interval_h)",
+                            hours, *study.life.interval_h),
+                "shorten it");
+        }
         for (const features::Feature* feature : used_features(study)) {
             if (const std::string what = feature_problem(scene, record, *feature); !what.empty()) {
                 reject("features.use", "\"" + std::string(feature->name) + "\" " + what,

@@ -16,12 +16,15 @@ StudyScene refused(Problems problems) {
     return none;
 }
 
-// Chooses the numerics of neighbouring stages that leave them to a tolerance.
+// Chooses the numerics of neighbouring stages that leave them to a tolerance, at their speed here.
 void choose_numerics_of_stages(Study& study) {
-    for (NeighbourStage& stage : study.sensor.stages) {
-        auto resolved = std::make_shared<const Study>(resolve_numerics(*stage.study).study);
-        stage.text = resolved_text(*resolved);
-        stage.study = std::move(resolved);
+    const std::vector<Study> studies = stage_studies(study);
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        NeighbourStage& stage = study.sensor.stages[i];
+        Study own = *stage.study;
+        own.numerics = resolve_numerics(studies[i]).study.numerics;
+        stage.text = resolved_text(own);
+        stage.study = std::make_shared<const Study>(std::move(own));
     }
 }
 

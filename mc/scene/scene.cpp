@@ -53,6 +53,14 @@ void check_steady(const NeighbourStage& stage) {
 
 // Turns per second of a shaft at the nominal speed of its study.
 double turns_Hz(const Study& study, Member shaft, const NeighbourStage& stage) {
+    const bool pair = study.gearbox.kind == GearboxKind::fixed_shaft;
+    if (pair != (shaft == Member::pinion || shaft == Member::gear)) {
+        throw SceneError(
+            kStages,
+            named(stage, fmt::format("a {} gearbox has no {}", pair ? "fixed-shaft" : "planetary",
+                                     member_name(shaft))),
+            pair ? "use \"pinion\" or \"gear\"" : "use \"sun\", \"ring\" or \"carrier\"");
+    }
     const auto drivetrain = make_drivetrain(study);
     const double turns =
         drivetrain->shaft_turns_per_mesh(shaft) *
@@ -80,6 +88,10 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
     }
     own.sensor.low_pass_Hz = study.sensor.low_pass_Hz;
     own.sensor.sampling_Hz = std::max(own.sensor.sampling_Hz, study.sensor.sampling_Hz);
+    own.sensor.record_s.reset();
+    own.sensor.record_turns.reset();
+    own.features = {};
+    own.features.use = {"sensor_rms"};
     // Other gearboxes here are other gearboxes there.
     own.ensemble.seed = static_cast<std::int64_t>(
         fnv1a(stage.name, static_cast<std::uint64_t>(study.ensemble.seed)) >> 1);
@@ -87,18 +99,41 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
 }
 
 std::vector<Scene> make_stages(const Study& study) {
-    const std::vector<NeighbourStage>& stages = study.sensor.stages;
     std::vector<Scene> scenes;
-    for (const NeighbourStage& stage : stages) {
-        check_steady(stage);
-        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
-        scenes.emplace_back(stage_study(
-            study, stage, stage.of.empty() ? study : scenes[static_cast<std::size_t>(of)].study()));
+    const std::vector<Study> studies = stage_studies(study);
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        const NeighbourStage& stage = study.sensor.stages[i];
+        try {
+            scenes.emplace_back(studies[i]);
+        } catch (const SceneError& error) {
+            throw SceneError(kStages, named(stage, error.key() + ": " + error.what()),
+                             error.remedy(), error.kind());
+        }
+        const InstanceInputs nominal = nominal_inputs(studies[i]);
+        if (stage.role == SourceRole::other_fault && !(nominal.fault_size > 0.0) &&
+            std::ranges::none_of(studies[i].random, [](const RandomInput& input) {
+                return input.key.starts_with("fault.");
+            })) {
+            throw SceneError(kStages, named(stage, "its other fault has the size 0"),
+                             "give its [fault] a size");
+        }
     }
     return scenes;
 }
 
 }  // namespace
+
+std::vector<Study> stage_studies(const Study& study) {
+    const std::vector<NeighbourStage>& stages = study.sensor.stages;
+    std::vector<Study> studies;
+    for (const NeighbourStage& stage : stages) {
+        check_steady(stage);
+        const auto of = std::ranges::find(stages, stage.of, &NeighbourStage::name) - stages.begin();
+        studies.push_back(stage_study(
+            study, stage, stage.of.empty() ? study : studies[static_cast<std::size_t>(of)]));
+    }
+    return studies;
+}
 
 Scene::Scene(const Study& study)
     : Scene(study, std::make_shared<const Sampler>(study), make_drivetrain(with_gears(study)),

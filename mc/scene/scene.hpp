@@ -17,6 +17,10 @@
 
 namespace gearpod::mc {
 
+// Studies of the neighbouring stages, with the speed of their common shafts and the sensor of the
+// study. Only their vibration is used: they have no records and one feature. Throws SceneError.
+std::vector<Study> stage_studies(const Study& study);
+
 // Immutable. Copies, and scenes derived from it, share the parts that are equal.
 class Scene {
   public:

@@ -16,6 +16,9 @@ namespace {
 std::string study_text(const ListElement& element, const Value& table, std::string& name) {
     if (!element.first_of("study", "text")) {
         name = "the study of a stage";
+        if (element.has("text") && element.text("text", false).empty()) {
+            element.reject("its study is empty", "");
+        }
         return element.text("text", false);
     }
     const auto folder = std::filesystem::path(table.position.file).parent_path();
@@ -25,14 +28,16 @@ std::string study_text(const ListElement& element, const Value& table, std::stri
     for (const Problem& problem : problems) {
         element.reject(name + ": " + problem.what, problem.remedy);
     }
+    if (problems.empty() && text.empty()) {
+        element.reject(name + " is empty", "name the study of that stage");
+    }
     return problems.empty() ? text : "";
 }
 
-bool has_stages(const std::string& text, const std::string& name) {
-    Problems ignored;
-    const Value document = parse_document(text, name, ignored);
-    const Entry* sensor = document.find("sensor");
-    return sensor != nullptr && sensor->value.find("stages") != nullptr;
+// True if the document gives that key.
+bool gives(const Value& document, const char* section, const char* key) {
+    const Entry* entry = document.find(section);
+    return entry != nullptr && entry->value.find(key) != nullptr;
 }
 
 void read_stage_study(const ListElement& element, const Value& table, NeighbourStage& stage) {
@@ -41,9 +46,16 @@ void read_stage_study(const ListElement& element, const Value& table, NeighbourS
     if (text.empty()) {
         return;
     }
-    if (has_stages(text, name)) {
+    Problems of_text;
+    const Value document = parse_document(text, name, of_text);
+    if (gives(document, "sensor", "stages")) {
         element.reject(name + " has stages of its own (sensor.stages)",
                        "list all stages in one study");
+        return;
+    }
+    if (gives(document, "features", "python")) {
+        element.reject(name + " has features in Python, but only its vibration is used",
+                       "remove features.python there");
         return;
     }
     StudyReading reading = read_study_text(text, name);

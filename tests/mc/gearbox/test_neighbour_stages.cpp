@@ -153,6 +153,18 @@ TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of
     CHECK(chain.mentions("meshes at 2.567 Hz"));
 }
 
+TEST_CASE("A stage that leaves its numerics to a tolerance has them at the speed of the shaft") {
+    const Folder folder;
+    const std::string path = stage_file(folder, "stage.toml", 66.0);
+    std::ofstream(path, std::ios::app) << "\n[numerics]\ntolerance = 1e-2\n";
+    const auto results = run_small(folder, "t.h5", stages(path, ""));
+    CHECK(std::isfinite(results.features[4].values.front()));
+    CHECK(program("simulate " + kSmall + " " + stages(path, "") +
+                  "--set operation.torque_N_m=0 --instance 0 --meshes 40 --out " +
+                  folder.file("s.csv"))
+              .code == 0);
+}
+
 TEST_CASE("Another fault is that of the stage, in the same records") {
     const Folder folder;
     const std::string path = stage_file(folder, "stage.toml");
@@ -203,6 +215,24 @@ TEST_CASE("Stages that do not fit are refused, all at once, with what would be r
     CHECK(both.mentions("stage 1: gain must be > 0"));
     CHECK(both.mentions("stage 2: its name \"a\" occurs twice"));
     CHECK(both.mentions("stage 2: of: no earlier stage has the name \"b\""));
+    CHECK(refused("--set 'sensor.stages=[{name=\"a\", text=\"\", shaft=\"sun\", "
+                  "stage_shaft=\"sun\"}]'")
+              .mentions("stage 1: its study is empty"));
+    CHECK(refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                  "\", shaft=\"pinion\", stage_shaft=\"sun\"}]'")
+              .mentions("a planetary gearbox has no pinion"));
+    // Its mesh frequency would be 129 Hz.
+    const auto fast = refused("--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                              "\", shaft=\"sun\", stage_shaft=\"carrier\"}]'");
+    CHECK(fast.mentions("sensor.stages: stage \"a\": sensor.sampling_Hz"));
+    std::string text = test::bytes_of(path);
+    text.replace(text.find("reduction = 0.4"), 15, "reduction = 0");
+    std::ofstream(folder.file("sound.toml")) << text;
+    CHECK(refused(stages(folder.file("sound.toml"), ", role=\"other_fault\""))
+              .mentions("its other fault has the size 0"));
+    std::ofstream(folder.file("python.toml")) << test::bytes_of(path).replace(
+        test::bytes_of(path).find("[features]"), 10, "[features]\npython = [\"own.py\"]");
+    CHECK(refused(stages(folder.file("python.toml"), "")).mentions("remove features.python there"));
     std::ofstream(folder.file("nested.toml")) << test::bytes_of(path) << "\n[sensor.more]\n";
     CHECK(refused(stages(folder.file("nested.toml"), "")).mentions("its study has problems"));
     CHECK(program("lives " + kSmall + " " + stages(path, "")).mentions("bearings or stages"));

@@ -362,6 +362,7 @@ TEST_CASE("Studies without possible lives are refused with the key") {
               .mentions("\"sun_window_ratio\" needs"));
     CHECK(refused(" --set 'features.use=[\"own_te_rms\"]' --set life.record_turns=2")
               .mentions("\"own_te_rms\" averages the transmission error over the whole span"));
+    CHECK(refused(" --set life.record_s=20000").mentions("h between two records"));
     CHECK(refused(" --set life.first_depth_mm=4").mentions("is not below last_depth_mm"));
     CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts through the tooth"));
     CHECK(refused(" --set life.records=6").mentions("is not above monitoring.baseline_records"));
