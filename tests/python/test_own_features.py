@@ -380,14 +380,6 @@ class OwnFeatures(PythonStudyCase):
         self.program("features", record, record, "--study", study, "--csv", table)
         self.assertIn("broken: " + str(self.folder / "own.py") + ":2: ZeroDivisionError", self.output)
 
-    def test_lives_refuse_what_they_cannot_compute(self):
-        life = {"interval_h": 5, "first_depth_mm": 1, "last_depth_mm": 4, "depth_steps": 2,
-                "paris_factor": 5e-7, "paris_exponent": 2.25, "records": 40, "healthy_lives": 2}
-        options = [f"life.{key}={value}" for key, value in life.items()]
-        self.program("lives", self.study(TWINS, use='["sensor_rms"]'), "--set", *options,
-                     "--set", "sensor.noise_levels=[1]", code=2)
-        self.assertIn('"rms" is in Python', self.output)
-
     def test_sweeps_and_watching(self):
         study = self.study(TWINS)
         self.program("sweep", study, "--vary", "sensor.noise_m_s2=[1,2]", "--out", self.folder / "s",
