@@ -3,7 +3,6 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-
 #include <vector>
 
 #include "analysis/pod/hit_miss_pod.hpp"

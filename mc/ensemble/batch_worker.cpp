@@ -29,8 +29,7 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 RowShape row_shape(const Study& study) {
     const std::size_t meshes =
         teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
-    const std::size_t variants =
-        study.sensor.additional.size() + (has_other_fault(study) ? 1 : 0);
+    const std::size_t variants = study.sensor.additional.size() + (has_other_fault(study) ? 1 : 0);
     return {input_columns(study).size(), study.features.use.size(),
             study.sensor.noise_levels.size(), meshes, variants};
 }

@@ -12,8 +12,8 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/scene/feature_needs.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {

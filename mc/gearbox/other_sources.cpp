@@ -128,7 +128,8 @@ signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInpu
         .damping = bearing.damping};
 }
 
-Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realization& record) {
+Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realization& record,
+                          bool faulty) {
     const Scene& own = scene.stages()[stage];
     Realization gearbox = own.sampler().draw(id_in_stage(record.id));
     const InstanceInputs here = nominal_inputs(scene.study()), there = nominal_inputs(own.study());
@@ -136,12 +137,10 @@ Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realizati
     gearbox.inputs.torque_N_m *= torque;
     gearbox.inputs.fixed_shaft.load_torque_N_m *= torque;
     gearbox.inputs.speed_rad_s = there.speed_rad_s * record.inputs.speed_rad_s / here.speed_rad_s;
-    gearbox.inputs.fault_size = 0.0;
+    if (!faulty) {
+        gearbox.inputs.fault_size = 0.0;
+    }
     return gearbox;
-}
-
-double stage_fault_size(const Scene& scene, std::size_t stage, const GearboxId& id) {
-    return scene.stages()[stage].sampler().draw(id_in_stage(id)).inputs.fault_size;
 }
 
 void add_background(const Scene& scene, std::span<const Realization> realizations,
@@ -183,11 +182,10 @@ void add_other_fault(const Scene& scene, const Realization& realization, LaneSig
     const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
         if (stages[stage].role == SourceRole::other_fault) {  // in place of the healthy stage
-            const Realization healthy = stage_gearbox(scene, stage, realization);
-            Realization faulty = healthy;
-            faulty.inputs.fault_size = stage_fault_size(scene, stage, realization.id);
-            const StageRecord both[] = {{&realization, faulty, stages[stage].gain, &samples},
-                                        {&realization, healthy, -stages[stage].gain, &samples}};
+            const double gain = stages[stage].gain;
+            const StageRecord both[] = {
+                {&realization, stage_gearbox(scene, stage, realization, true), gain, &samples},
+                {&realization, stage_gearbox(scene, stage, realization), -gain, &samples}};
             add_stage(scene, stage, both);
         }
     }

@@ -13,12 +13,11 @@ namespace gearpod::mc {
 signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
                                           const Bearing& bearing);
 
-// Gearbox of stage number `stage` next to the study's gearbox of a record, without the stage's
-// fault. Torque and speed differ from their nominal values by the same factors as here. Next to a
-// nominal torque of 0 it has its own torque.
-Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realization& record);
-// Size of the stage's fault in records of another fault.
-double stage_fault_size(const Scene& scene, std::size_t stage, const GearboxId& id);
+// Gearbox of stage number `stage` next to the study's gearbox of a record, with the stage's fault
+// if `faulty`. Torque and speed differ from their nominal values by the same factors as here. Next
+// to a nominal torque of 0 it has its own torque.
+Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realization& record,
+                          bool faulty = false);
 
 // Adds the background sources to the samples of all sensors of records and folds them again. No
 // effect without samples. Samples count as evenly spaced even if the speed fluctuates. A record

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "mc/gearbox/record_samples.hpp"
@@ -55,15 +54,10 @@ std::vector<Meetings> meetings_in(const Study& study, int meshes) {
     return all;
 }
 
-double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain) {
-    return std::abs(drivetrain.mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) /
-           (2.0 * std::numbers::pi);
-}
-
 std::string record_conditions(const Study& study) {
     const auto drivetrain = make_drivetrain(study);
     const signals::SpanLayout span = drivetrain->span();
-    const double mesh_Hz = nominal_mesh_frequency_Hz(study, *drivetrain);
+    const double mesh_Hz = std::abs(nominal_mesh_frequency_Hz(study, *drivetrain));
     const RecordLength length = record_length(study);
     const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
     const int meshes = turns * span.planet_teeth;

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "lockstep/excitation/excitation_rows.hpp"
-#include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/realization_features.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/results/failure_text.hpp"

@@ -19,6 +19,11 @@ double mesh_frequency_Hz(const Scene& scene, double speed_rad_s) {
            (2.0 * std::numbers::pi);
 }
 
+// Length of a recording at this speed, s.
+double recording_s(const Scene& scene, const RecordSpan& record, double speed_rad_s) {
+    return record.turns * scene.span().planet_teeth / mesh_frequency_Hz(scene, speed_rad_s);
+}
+
 // Reason why a feature cannot be computed from superposed records; empty if it can.
 std::string feature_problem(const Scene& scene, const RecordSpan& record,
                             const features::Feature& feature) {
@@ -62,7 +67,7 @@ std::string record_text(const Scene& scene) {
     const RecordSpan record = record_span(scene, speed);
     const int teeth = scene.span().planet_teeth;
     std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
-                                   record.turns * teeth / mesh_frequency_Hz(scene, speed));
+                                   recording_s(scene, record, speed));
     if (record.recordings > 1) {
         text += fmt::format(", averaged over {} such recordings", record.recordings);
     }
@@ -106,9 +111,8 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     try {
         const RecordSpan record = record_span(scene, nominal_inputs(study).speed_rad_s);
         const RecordLength length = life_record_length(study);
-        const double hours = static_cast<double>(record.turns) * record.recordings *
-                             scene.span().planet_teeth /
-                             mesh_frequency_Hz(scene, nominal_inputs(study).speed_rad_s) / 3600.0;
+        const double hours = recording_s(scene, record, nominal_inputs(study).speed_rad_s) *
+                             record.recordings / 3600.0;
         if (length.given() && study.life.interval_h && hours > *study.life.interval_h) {
             problems.emplace_back(
                 length.section + "." + length.key(),

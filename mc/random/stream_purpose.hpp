@@ -24,9 +24,9 @@ enum class StreamPurpose : std::uint64_t {
     torque_noise = fnv1a("operation.torque_noise.knots"),
     speed_noise = fnv1a("operation.speed_noise.knots"),
     tone_phases = fnv1a("sensor.tones.phase"),
-    bearing_impulses = fnv1a("sensor.bearings."),       // and the number of a bearing
-    stage_start = fnv1a("sensor.stages."),  // position of a neighbouring stage; and its name
-    record_start = fnv1a("sensor.record.start"),        // tooth position at which a record begins
+    bearing_impulses = fnv1a("sensor.bearings."),  // and the number of a bearing
+    stage_start = fnv1a("sensor.stages."),         // position of a neighbouring stage; and its name
+    record_start = fnv1a("sensor.record.start"),   // tooth position at which a record begins
     assembled_teeth = fnv1a("gearbox.assembly.teeth"),  // of a baseline's assembly
     // Noise of records.
     sensor_noise = fnv1a("noise.sensor"),

@@ -8,9 +8,9 @@
 #include "lockstep/tile/excited_integrator.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/scene/stepping.hpp"
-#include "mc/study/other_sources.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -61,6 +61,11 @@ signals::SpanLayout FixedShaftDrivetrain::span() const {
                            : signals::SpanLayout{pinion_teeth_, gear_teeth_, 1};
 }
 
+double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain) {
+    return drivetrain.mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s) /
+           (2.0 * std::numbers::pi);
+}
+
 std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study) {
     if (study.gearbox.kind == GearboxKind::fixed_shaft) {
         return std::make_unique<const FixedShaftDrivetrain>(study);

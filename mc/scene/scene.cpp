@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -14,8 +13,6 @@
 
 namespace gearpod::mc {
 namespace {
-
-using std::numbers::pi;
 
 constexpr int kAllMeshes = std::numeric_limits<int>::max();
 
@@ -53,18 +50,18 @@ void check_steady(const NeighbourStage& stage) {
 
 // Turns per second of a shaft at the nominal speed of its study.
 double turns_Hz(const Study& study, Member shaft, const NeighbourStage& stage) {
-    const bool pair = study.gearbox.kind == GearboxKind::fixed_shaft;
-    if (pair != (shaft == Member::pinion || shaft == Member::gear)) {
+    if (!has_shaft(study.gearbox.kind, shaft)) {
         throw SceneError(
             kStages,
-            named(stage, fmt::format("a {} gearbox has no {}", pair ? "fixed-shaft" : "planetary",
+            named(stage, fmt::format("a {} gearbox has no {}",
+                                     study.gearbox.kind == GearboxKind::planetary ? "planetary"
+                                                                                  : "fixed-shaft",
                                      member_name(shaft))),
-            pair ? "use \"pinion\" or \"gear\"" : "use \"sun\", \"ring\" or \"carrier\"");
+            use_shafts_text(study.gearbox.kind));
     }
     const auto drivetrain = make_drivetrain(study);
-    const double turns =
-        drivetrain->shaft_turns_per_mesh(shaft) *
-        std::abs(drivetrain->mesh_frequency_rad_s(nominal_inputs(study).speed_rad_s)) / (2.0 * pi);
+    const double turns = drivetrain->shaft_turns_per_mesh(shaft) *
+                         std::abs(nominal_mesh_frequency_Hz(study, *drivetrain));
     if (turns == 0.0) {
         throw SceneError(kStages,
                          named(stage, fmt::format("the {} of its common shaft stands still",
@@ -152,8 +149,7 @@ Scene::Scene(Study study, SharedSampler sampler, std::shared_ptr<const Drivetrai
       stages_(stages ? std::move(stages)
                      : std::make_shared<const std::vector<Scene>>(make_stages(study_))),
       span_(drivetrain_->span()),
-      nominal_mesh_frequency_Hz_(
-          drivetrain_->mesh_frequency_rad_s(nominal_inputs(study_).speed_rad_s) / (2.0 * pi)),
+      nominal_mesh_frequency_Hz_(mc::nominal_mesh_frequency_Hz(study_, *drivetrain_)),
       signal_meshes_(mc::signal_meshes(study_, span_, std::abs(nominal_mesh_frequency_Hz_))),
       most_recorded_(most_recorded),
       max_meshes_(study_.effects.quasi_static()

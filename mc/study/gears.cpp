@@ -40,6 +40,15 @@ std::string_view member_name(Member member) {
     return "";
 }
 
+bool has_shaft(GearboxKind kind, Member shaft) {
+    return (kind == GearboxKind::fixed_shaft) == (shaft == Member::pinion || shaft == Member::gear);
+}
+
+std::string use_shafts_text(GearboxKind kind) {
+    return kind == GearboxKind::fixed_shaft ? "use \"pinion\" or \"gear\""
+                                            : "use \"sun\", \"ring\" or \"carrier\"";
+}
+
 std::span<const MeshMembers> meshes_of(GearboxKind kind) {
     if (kind == GearboxKind::fixed_shaft) {
         return kFixedShaftMeshes;

@@ -28,6 +28,10 @@ struct MeshMembers {
 // Meshes of a kind of gearbox: sun-planet and planet-ring, or pinion-gear.
 std::span<const MeshMembers> meshes_of(GearboxKind kind);
 
+// True if such a gearbox has that shaft, and which ones it has: "use "pinion" or "gear"".
+bool has_shaft(GearboxKind kind, Member shaft);
+std::string use_shafts_text(GearboxKind kind);
+
 // "sun-planet", "ring-planet", "pinion-gear".
 std::string mesh_name(const MeshMembers& mesh);
 

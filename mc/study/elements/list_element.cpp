@@ -134,14 +134,14 @@ std::optional<int> ListElement::choice(std::string_view name, std::span<const Ch
     return std::nullopt;
 }
 
-std::string ListElement::text(std::string_view name, bool required) const {
-    const Value* value = find(name, required);
+std::optional<std::string> ListElement::text(std::string_view name) const {
+    const Value* value = find(name, false);
     if (value == nullptr) {
-        return "";
+        return std::nullopt;
     }
     if (value->kind != Value::Kind::text) {
         reject(fmt::format("{} must be a string, but is {}", name, value->kind_name()), "");
-        return "";
+        return std::nullopt;
     }
     return value->text;
 }

@@ -44,8 +44,8 @@ class ListElement {
     // Value of one of the choices; empty if it is missing, which is rejected where it is required.
     std::optional<int> choice(std::string_view name, std::span<const ChoiceName> choices,
                               bool required) const;
-    // Text; "" if it is missing, which is rejected where it is required.
-    std::string text(std::string_view name, bool required) const;
+    // Text; empty if it is missing, or if it is no text, which is rejected.
+    std::optional<std::string> text(std::string_view name) const;
     // Required text of lower-case letters, digits and dashes; "" if it is rejected.
     std::string word(std::string_view name) const;
     // Member named by `name`, which is required: one of kShafts.

@@ -12,26 +12,29 @@
 namespace gearpod::mc {
 namespace {
 
-// Text of the study of a stage; `name` is that of its file in messages.
-std::string study_text(const ListElement& element, const Value& table, std::string& name) {
-    if (!element.first_of("study", "text")) {
-        name = "the study of a stage";
-        if (element.has("text") && element.text("text", false).empty()) {
-            element.reject("its study is empty", "");
-        }
-        return element.text("text", false);
+// Study of a stage: name in messages, and text.
+struct StageText {
+    std::string name, text;
+};
+
+// Empty if the study is missing or cannot be read, which is rejected.
+std::optional<StageText> stage_text(const ListElement& element, const Value& table) {
+    const bool in_file = element.first_of("study", "text");
+    const auto given = element.text(in_file ? "study" : "text");
+    if (!given) {
+        return std::nullopt;
+    }
+    if (!in_file) {
+        return StageText{"its study", *given};
     }
     const auto folder = std::filesystem::path(table.position.file).parent_path();
-    name = (folder / element.text("study", false)).lexically_normal().string();
+    StageText found{(folder / *given).lexically_normal().string(), ""};
     Problems problems;
-    std::string text = read_file(name, problems);
+    found.text = read_file(found.name, problems);
     for (const Problem& problem : problems) {
-        element.reject(name + ": " + problem.what, problem.remedy);
+        element.reject(found.name + ": " + problem.what, problem.remedy);
     }
-    if (problems.empty() && text.empty()) {
-        element.reject(name + " is empty", "name the study of that stage");
-    }
-    return problems.empty() ? text : "";
+    return problems.empty() ? std::optional(std::move(found)) : std::nullopt;
 }
 
 // True if the document gives that key.
@@ -41,9 +44,13 @@ bool gives(const Value& document, const char* section, const char* key) {
 }
 
 void read_stage_study(const ListElement& element, const Value& table, NeighbourStage& stage) {
-    std::string name;
-    const std::string text = study_text(element, table, name);
+    const auto found = stage_text(element, table);
+    if (!found) {
+        return;
+    }
+    const auto& [name, text] = *found;
     if (text.empty()) {
+        element.reject(name + " is empty", "name the study of that stage");
         return;
     }
     Problems of_text;

@@ -11,15 +11,15 @@ namespace {
 // Rejects a shaft that the gearbox does not have, or that stands still.
 void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member shaft) {
     const Study& study = draft.study;
-    const bool pair = study.gearbox.kind == GearboxKind::fixed_shaft,
-               of_pair = shaft == Member::pinion || shaft == Member::gear;
+    const GearboxKind kind = study.gearbox.kind;
     const std::string_view name = member_name(shaft);
-    if (draft.usable("gearbox.kind") && pair != of_pair) {
+    if (draft.usable("gearbox.kind") && !has_shaft(kind, shaft)) {
         draft.reject(
             key,
             fmt::format("number {}: this kind of gearbox has no {} (gearbox.kind)", number, name),
-            pair ? "use \"pinion\" or \"gear\"" : "use \"sun\", \"ring\" or \"carrier\"");
-    } else if (!pair && draft.usable("operation.fixed") && shaft == study.operation.fixed) {
+            use_shafts_text(kind));
+    } else if (kind != GearboxKind::fixed_shaft && draft.usable("operation.fixed") &&
+               shaft == study.operation.fixed) {
         draft.reject(key,
                      fmt::format("number {}: the {} stands still (operation.fixed)", number, name),
                      "use another shaft");

@@ -131,7 +131,7 @@ TEST_CASE("A stage's gearbox has the torque and the speed of the gearbox next to
     const mc::Realization other = mc::stage_gearbox(scene, 0, gearbox);
     CHECK(other.inputs.torque_N_m == Approx(0.9 * usual.inputs.torque_N_m).epsilon(1e-12));
     CHECK(other.inputs.speed_rad_s == Approx(1.1 * usual.inputs.speed_rad_s).epsilon(1e-12));
-    CHECK(mc::stage_fault_size(scene, 0, gearbox.id) == Approx(0.4));
+    CHECK(mc::stage_gearbox(scene, 0, gearbox, true).inputs.fault_size == Approx(0.4));
 }
 
 TEST_CASE("The common shaft sets the speed of a stage, and the sensor is that of the study") {
