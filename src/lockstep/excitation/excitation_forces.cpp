@@ -8,8 +8,8 @@
 namespace gearpod::lockstep {
 namespace {
 
-// Generalised forces per unit of each varying value (torque, gravity, rotation): one column per
-// value, in the order of ExcitationRows.
+// Generalised forces per unit of each varying value (torque, gravity, rotation, shafts): one
+// column per value, in the order of ExcitationRows.
 Eigen::MatrixXd columns_of(const IntegrationPlan& plan, const Excitation& excitation,
                            const dynamics::GearboxInputs& in) {
     const int degrees = dynamics::degrees_of_freedom(plan.layout);
@@ -25,6 +25,10 @@ Eigen::MatrixXd columns_of(const IntegrationPlan& plan, const Excitation& excita
     if (excitation.speed) {
         columns.col(c++) =
             dynamics::angular_acceleration_force(plan.layout, in, excitation.input_degree);
+    }
+    for (const ShaftEnd& shaft : excitation.shafts) {
+        columns.col(c).setZero();
+        columns(shaft.degree, c++) = shaft.turn_per_m;
     }
     return columns;
 }

@@ -15,8 +15,9 @@ namespace gearpod::lockstep {
 
 template <int W>
 struct ExcitationForces {
-    static constexpr int kMaxColumns = 4;  // torque, gravity along x and y, angular acceleration
-    static constexpr int kMaxEntries = 4 * (9 + 3 * dynamics::kMaxPlanets);
+    // torque, gravity along x and y, angular acceleration, shafts
+    static constexpr int kMaxColumns = 4 + kMostShafts;
+    static constexpr int kMaxEntries = 4 * (9 + 3 * dynamics::kMaxPlanets) + kMostShafts;
 
     int columns = 0;
     int first[kMaxColumns + 1] = {};  // entries of column c: first[c] <= e < first[c + 1]

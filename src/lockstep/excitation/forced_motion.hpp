@@ -1,15 +1,25 @@
 // Models under time-varying forces (excitation_forces.hpp): a base model plus these forces.
 #pragma once
 
+#include <memory>
+
 #include "lockstep/excitation/excitation_forces.hpp"
 #include "lockstep/integrators/implicit_lanes.hpp"
 
 namespace gearpod::lockstep {
 
+// Steps of a mesh period that one call of a kernel integrates, [first, last), and the workspace
+// that it keeps for the next ones; by default all steps. The first call must begin with step 0.
+struct MeshPart {
+    int first = 0, last = 0;  // 0: all
+    mutable std::shared_ptr<void> workspace;
+};
+
 // Lanes of a model together with the forces on them.
 template <class ModelLanes, int W>
 struct ForcedLanes : ModelLanes {
     ExcitationForces<W> excitation_forces;
+    MeshPart part = {};
 };
 
 // Explicitly integrated model (dynamics/*_motion.hpp) with time-varying forces, in double

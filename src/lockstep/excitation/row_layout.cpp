@@ -3,7 +3,8 @@
 namespace gearpod::lockstep {
 
 int columns_in(const Excitation& e) {
-    return (e.torque ? 1 : 0) + (e.gravity ? 2 : 0) + (e.speed ? 1 : 0);
+    return (e.torque ? 1 : 0) + (e.gravity ? 2 : 0) + (e.speed ? 1 : 0) +
+           static_cast<int>(e.shafts.size());
 }
 
 int values_in_row(const Excitation& e) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "lockstep/integrators/contact_rows.hpp"
 #include "lockstep/integrators/integration_state.hpp"
@@ -261,17 +262,31 @@ GEARPOD_INLINE void prefetch_step(const IntegrationPlan& plan, int step) {
     }
 }
 
-// Loop over the steps of a mesh period. In single precision the grid must have a step boundary on
+// Loop over the steps of a mesh period, or of a part of it (MeshPart). In single precision the grid must have a step boundary on
 // every sample.
 template <class Integrator, class Model, class State, class Filter>
 GEARPOD_INLINE void integrate_steps(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides,
                                     State& state, MeshRecord& record) {
+    using Stages = typename Integrator::template Stages<Model>;
     constexpr bool kInterpolates = std::is_same_v<State, TileState>;
-    typename Integrator::template Stages<Model> stages;
+    Stages of_call;
+    Stages* kept = &of_call;
     TileState before;
     const int steps = static_cast<int>(plan.grid.steps.size());
-    for (int i = 0; i < steps; ++i) {
+    int first = 0, last = steps;
+    if constexpr (requires { lanes.part; }) {
+        if (lanes.part.last > 0) {
+            first = lanes.part.first;
+            last = lanes.part.last;
+            if (first == 0) {
+                lanes.part.workspace = std::make_shared<Stages>();
+            }
+            kept = static_cast<Stages*>(lanes.part.workspace.get());
+        }
+    }
+    Stages& stages = *kept;
+    for (int i = first; i < last; ++i) {
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
         prefetch_step(plan, std::min(i + 4, steps - 1));
         if (step.sample >= 0) {
@@ -292,7 +307,7 @@ GEARPOD_INLINE void integrate_steps(const IntegrationPlan& plan, const typename 
             }
         }
     }
-    if (!record.step_states.empty()) {
+    if (last == steps && !record.step_states.empty()) {
         write_step_state<Integrator, Model>(plan, lanes, steps, state, record);
     }
 }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "dynamics/gearbox.hpp"
 #include "machine/lanes.hpp"
@@ -55,12 +56,25 @@ struct VaryingForces {
     bool repeat() const { return !torque && (!gravity || gravity->carrier_turns_per_mesh == 0.0); }
 };
 
+// End of a shaft at a gearbox: the degree of freedom that turns with it, and the rotation of the
+// shaft per motion there, rad/m. It is negative if the shaft's positive sense is opposite to that
+// of the gearbox.
+struct ShaftEnd {
+    int degree = 0;
+    double turn_per_m = 0.0;
+};
+
+// Largest number of shafts at a gearbox.
+inline constexpr int kMostShafts = 4;
+
 struct Excitation : VaryingForces {
     std::optional<Fluctuation> speed;
     // Used with `speed`: the degree of freedom at which the speed is imposed, and the train's
     // velocity along dynamics::rigid_rotation, [lane], m/s.
     int input_degree = 0;
     machine::AlignedVector rotation_m_s;
+    // Shafts whose torques, N m, become known only during the integration (step_integrator.hpp).
+    std::vector<ShaftEnd> shafts;
 
     // True if every mesh period has the same excitation as the first one.
     bool repeats() const { return !speed && repeat(); }

@@ -96,28 +96,39 @@ class IntegratedTile {
     // Integrates a mesh period, under the time-varying excitation if `excited`, and records the
     // mesh forces if the record holds the motion.
     void integrate(bool excited, int mesh, const MeshOverrides& overrides, MeshRecord& record) {
-        const bool sized = !record.step_states.empty();
-        const bool with_forces = !record.mesh_force.empty();
-        if (with_forces && !sized) {
-            record.step_states.swap(step_states_);
-            size_step_states(plan_, W, record);
-        }
+        const bool lends = lend_step_states(record);
         if (excited) {
             (*excited_integrator_)(mesh, overrides, state_, record);
         } else {
             (*mesh_integrator_)(overrides, state_, record);
         }
-        if (with_forces) {
+        finish_mesh(overrides, lends, record);
+        rotation_.remove(state_);
+    }
+
+    // Lends a record the step states that its mesh forces need, if it has none of its own. Returns
+    // true if it did.
+    bool lend_step_states(MeshRecord& record) {
+        const bool lends = !record.mesh_force.empty() && record.step_states.empty();
+        if (lends) {
+            record.step_states.swap(step_states_);
+            size_step_states(plan_, W, record);
+        }
+        return lends;
+    }
+
+    // Records the mesh forces of an integrated mesh period, and counts it.
+    void finish_mesh(const MeshOverrides& overrides, bool lent, MeshRecord& record) {
+        if (!record.mesh_force.empty()) {
             if (!mesh_forces_) {
                 mesh_forces_.emplace(plan_, tile_.gearboxes);
             }
             mesh_forces_->write(overrides, record);
-            if (!sized) {
+            if (lent) {
                 record.step_states.swap(step_states_);
             }
         }
         ++result_.integrated_meshes;
-        rotation_.remove(state_);
     }
 
     MeshRecord new_record(bool with_motion) const { return make_record(plan_, W, with_motion); }

@@ -100,6 +100,10 @@ class SpanTile : protected IntegratedTile<W> {
             }
         }
         keep_state();
+        mark_diverged_lanes(unused);
+    }
+
+    void mark_diverged_lanes(const LaneMask<W>& unused = {}) {
         for (int l = 0; l < W; ++l) {
             const auto lane = static_cast<std::size_t>(l);
             if (!unused[lane] && result_.status[lane] == LaneStatus::ok && diverged(l)) {
