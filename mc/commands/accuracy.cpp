@@ -7,6 +7,7 @@
 #include "mc/input/exception_text.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 
@@ -27,6 +28,14 @@ int accuracy_command(const AccuracyOptions& options) {
                          "a quasi-static study has no time integration, so there are no solver "
                          "settings to compare",
                          "choose a motion with inertia, e.g. \"translational-torsional\""}});
+        return kBadInput;
+    }
+    if (is_coupled(study)) {
+        print_problems({{options.study.path, 0, "sensor.stages",
+                         "stages that elastic shafts couple are integrated by one method only, so "
+                         "there are no solver settings to compare",
+                         "remove shaft_stiffness_N_m_rad, or compare the settings of each stage's "
+                         "own study"}});
         return kBadInput;
     }
     AccuracyRequest request;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mc/coupling/coupled_train.hpp"
 #include "mc/description/entries.hpp"
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/scene/instance_inputs.hpp"
@@ -33,15 +34,30 @@ std::string other_speed_text(const NeighbourStage& stage, const Scene& own) {
                              factor);
 }
 
-void print_stage(const NeighbourStage& stage, const Scene& own) {
+// What the shaft of a stage does, with the frequency of its twist.
+std::string shaft_text(const Scene& scene, std::size_t stage) {
+    const NeighbourStage& own = scene.study().sensor.stages[stage];
+    return own.coupled()
+               ? fmt::format(
+                     "the shaft twists by {:.3g} N m/rad: both gearboxes would turn against "
+                     "each other at {:.3g} Hz with a damping ratio of {:g}; it sets the "
+                     "torque of the stage",
+                     own.shaft_stiffness_N_m_rad, shaft_mode(scene, stage).frequency_Hz,
+                     own.shaft_damping_ratio)
+               : "the shaft transmits no vibration (no shaft_stiffness_N_m_rad)";
+}
+
+void print_stage(const Scene& scene, std::size_t number) {
+    const NeighbourStage& stage = scene.study().sensor.stages[number];
+    const Scene& own = scene.stages()[number];
     print_entry(
         "neighbouring stage",
         fmt::format(
-            "\"{}\": {}; its {} on the {}{}{}; meshes at {:.4g} Hz; gain x {:g}; the "
-            "shaft transmits no vibration{}",
-            stage.name, own.study().title, member_name(*stage.stage_shaft),
-            member_name(*stage.shaft), stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
+            "\"{}\": {}; its {} on the {}{}{}; meshes at {:.4g} Hz; gain x {:g}; {}{}", stage.name,
+            own.study().title, member_name(*stage.stage_shaft), member_name(*stage.shaft),
+            stage.of.empty() ? "" : fmt::format(" of \"{}\"", stage.of),
             other_speed_text(stage, own), std::abs(own.nominal_mesh_frequency_Hz()), stage.gain,
+            shaft_text(scene, number),
             stage.role == SourceRole::other_fault ? "; its fault is that of other_fault records"
             : stage.study->fault.kind != nullptr  ? "; its fault is left out"
                                                   : ""));
@@ -98,7 +114,7 @@ void print_sensors(const Scene& scene) {
         print_bearing(scene, bearing);
     }
     for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        print_stage(study.sensor.stages[i], scene.stages()[i]);
+        print_stage(scene, i);
     }
 }
 

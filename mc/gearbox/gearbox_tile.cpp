@@ -6,16 +6,13 @@
 #include <utility>
 
 #include "lockstep/kernels/built_kernels.hpp"
-#include "lockstep/steps/instability.hpp"
-#include "machine/thread_clock.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/integration_cache.hpp"
-#include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/mesh_time.hpp"
-#include "mc/gearbox/random_tooth_errors.hpp"
 #include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
+#include "mc/gearbox/tile_solution.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/housing.hpp"
 #include "mc/study/other_sources.hpp"
@@ -24,86 +21,6 @@
 #include "signals/windowing/folded_signal.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-// Returns the seconds since `start` and sets `start` to now.
-double lap(WallClock::time_point& start) {
-    const auto now = WallClock::now();
-    return std::chrono::duration<double>(now - std::exchange(start, now)).count();
-}
-
-lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realization> realizations) {
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
-    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
-    for (int c = 0; c < scene.fault().curves(); ++c) {
-        for (const Realization& realization : realizations) {
-            faults.curve[static_cast<std::size_t>(c)].push_back(
-                scene.fault().mesh(c, realization.inputs.fault_size));
-        }
-    }
-    if (!scene.fault().worn_pairs().empty()) {
-        for (const Realization& realization : realizations) {
-            faults.wear.push_back(realization.inputs.fault_size);
-        }
-    }
-    return faults;
-}
-
-// Solves the tile by the strategy that solution_of(loads) returns.
-template <class SolutionOf>
-void solve(const Scene& scene, SolutionOf solution_of, GearboxTile& tile) {
-    auto start = WallClock::now();
-    std::vector<dynamics::GearboxInputs> inputs;
-    for (const Realization& realization : tile.realizations) {
-        inputs.push_back(scene.inputs(realization.inputs));
-    }
-    const lockstep::FaultCurves faults = fault_curves(scene, tile.realizations);
-    TileLoads loads{draw_tooth_errors(scene, tile.realizations), std::nullopt};
-    tile.stiffness_s = lap(start);
-    loads.excitation = draw_excitation(scene, tile.realizations);
-    const lockstep::Solution solution = solution_of(loads);
-    const double processor_start = thread_processor_s();
-    tile.integration = with_lane_count(static_cast<int>(inputs.size()), [&](auto lanes) {
-        return lockstep::run_tile<lanes()>(scene.plan(), inputs, faults, solution);
-    });
-    tile.integration_s = lap(start);
-    tile.meshes = tile.integration.integrated_meshes;
-    if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
-        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
-        tile.superposition_fallbacks =
-            static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
-    }
-    tile.integration_cpu_s = thread_processor_s() - processor_start;
-}
-
-Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
-    const bool ok = status == lockstep::LaneStatus::ok;
-    const bool diverged = status == lockstep::LaneStatus::diverged;
-    if (scene.study().effects.quasi_static()) {
-        return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_converged;
-    }
-    if (ok) {
-        // A solution without excitation does not grow even if it is unstable.
-        return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
-                                              scene.mean_pairs())
-                   ? Status::supercritical
-                   : Status::ok;
-    }
-    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
-        case lockstep::Instability::rotating_frame:
-            return Status::supercritical;
-        case lockstep::Instability::parametric:
-            return Status::parametric;
-        case lockstep::Instability::step:
-            return Status::step_too_long;
-        case lockstep::Instability::none:
-            break;
-    }
-    return diverged ? Status::diverged : Status::not_converged;
-}
-
-}  // namespace
-
 namespace {
 
 GearboxTile tile_of(std::vector<Realization> realizations, int lanes) {
@@ -133,16 +50,24 @@ void add_status(const Scene& scene, GearboxTile& tile) {
     }
 }
 
-// Solves the tile and records its sensor signals meanwhile.
-void solve_and_record(const Scene& scene, const SensorPaths& path, int signal_meshes,
-                      GearboxTile& tile) {
-    TileSensorRecorder recorder(scene, path, tile.realizations, signal_meshes);
+// Solves the tile by the strategy of its study.
+void choose_and_solve(const Scene& scene, const lockstep::RecordOptions& records,
+                      const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
+    if (is_coupled(scene.study())) {
+        solve_coupled(scene, records, on_record, options.faulty_stage, tile);
+        return;
+    }
     solve(
         scene,
-        [&](const TileLoads& loads) {
-            return choose_solution(scene, loads, {}, std::ref(recorder));
-        },
+        [&](const TileLoads& loads) { return choose_solution(scene, loads, records, on_record); },
         tile);
+}
+
+// Solves the tile and records its sensor signals meanwhile.
+void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOptions& options,
+                      GearboxTile& tile) {
+    TileSensorRecorder recorder(scene, path, tile.realizations, options.signal_meshes);
+    choose_and_solve(scene, {}, std::ref(recorder), options, tile);
     tile.sensor_recorders = recorder.take_recorders();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
@@ -189,19 +114,18 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
 
 void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& options,
               GearboxTile& tile) {
-    const IntegrationCache* const cache = options.records ? nullptr : options.cache;
+    // The motion of coupled gearboxes depends on their neighbours, too.
+    const IntegrationCache* const cache =
+        options.records || is_coupled(scene.study()) ? nullptr : options.cache;
     auto start = WallClock::now();
     if (const auto before = cache != nullptr ? cache->find(tile.realizations) : nullptr) {
         tile.integration = *before;
         tile.integration_s = lap(start);
     } else if (records_during_integration(scene) && !options.records) {
-        solve_and_record(scene, path, options.signal_meshes, tile);
+        solve_and_record(scene, path, options, tile);
     } else {
-        const auto records = options.records.value_or(lockstep::RecordOptions{});
-        solve(
-            scene,
-            [&](const TileLoads& loads) { return choose_solution(scene, loads, records, nullptr); },
-            tile);
+        choose_and_solve(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
+                         options, tile);
         if (cache != nullptr) {
             cache->keep(tile.realizations, tile.integration);
         }

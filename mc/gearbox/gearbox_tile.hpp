@@ -31,6 +31,9 @@ struct LaneSignals {
     const LaneSignals* baseline = nullptr;
     std::size_t baselines = 0;
     double noise_m_s2 = 0.0;  // rms noise of the sensor in this record, at noise level 1
+    // Samples of each coupled stage at its own sensor, m/s^2, in the order and from the start that
+    // coupled_span() states.
+    std::vector<std::vector<double>> coupled;
     // Folded signals and samples of the additional sensors in this record; all else is the same.
     std::vector<LaneSignals> additional;
     // Window of a record that was cut from the signals (record_window.hpp): turns of the monitored
@@ -49,6 +52,8 @@ struct GearboxTile {
     signals::TileSignals views;
     SensorRecorders sensor_recorders;  // empty if the records were kept
     signals::Tones tones;              // interfering tones; may be empty
+    // LaneSignals::coupled by coupled stage and requested gearbox.
+    std::vector<std::vector<std::vector<double>>> coupled;
     // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox and where the housing
     // responds (has_housing).
     std::vector<machine::AlignedVector> folded;
@@ -74,6 +79,7 @@ struct TileOptions {
     // integration; -1 keeps all.
     int signal_meshes = -1;
     const IntegrationCache* cache = nullptr;  // earlier results, which are reused without `records`
+    std::optional<std::size_t> faulty_stage = {};  // coupled stage that has its fault
 };
 
 // Runs the gearboxes in `ids`, at most one per lane. The number of lanes is `fewest` (16, 8, 4 or

@@ -6,7 +6,7 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/other_sources.hpp"
-#include "mc/gearbox/record_samples.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/housing.hpp"
@@ -141,6 +141,11 @@ void complete(const Scene& scene, const GearboxTile& tile, std::size_t first, in
               std::span<LaneSignals> lanes) {
     for (std::size_t i = 0; i < lanes.size() && cuts_records(scene, meshes); ++i) {
         lanes[i].te = te_signal(scene, tile, static_cast<int>(first + i));
+    }
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        for (const auto& stage : tile.coupled) {
+            lanes[i].coupled.push_back(stage[first + i]);
+        }
     }
     add_background(scene, std::span(tile.realizations).subspan(first, lanes.size()), lanes);
 }

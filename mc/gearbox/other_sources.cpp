@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/random/uniform_01.hpp>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "machine/cancellation.hpp"
-#include "mc/gearbox/record_samples.hpp"
+#include "mc/coupling/coupled_train.hpp"
+#include "mc/gearbox/record_window.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
 #include "signals/spectra/periodic_interpolation.hpp"
 
 namespace gearpod::mc {
@@ -51,12 +54,21 @@ signals::PeriodicInterpolation& interpolation_of(std::size_t samples) {
     return *last;
 }
 
+// Adds `factor` times a vibration to samples, the first of which lies at position `start` among its
+// samples and the others each `step` further.
+void add_vibration(const std::vector<double>& vibration, double factor, double start, double step,
+                   std::vector<double>& samples) {
+    const signals::PeriodicSpline signal = interpolation_of(vibration.size()).spline(vibration);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] += factor * signal(start + step * static_cast<double>(i));
+    }
+}
+
 // Adds `factor` times the steady vibration of a stage's gearbox, from a random position on, to the
 // samples of a record.
 void add_stage_vibration(const Scene& scene, std::size_t stage, const Realization& realization,
                          const Realization& gearbox, const std::vector<double>& vibration,
                          double factor, std::vector<double>& samples) {
-    const signals::PeriodicSpline signal = interpolation_of(vibration.size()).spline(vibration);
     Philox engine = record_stream(
         scene.study(), realization.id,
         with_suffix(StreamPurpose::stage_start, scene.study().sensor.stages[stage].name));
@@ -64,8 +76,51 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
         boost::random::uniform_01<double>()(engine) * static_cast<double>(vibration.size());
     const double step =
         sample_s(scene, realization.inputs) / sample_s(scene.stages()[stage], gearbox.inputs);
+    add_vibration(vibration, factor, start, step, samples);
+}
+
+// Adds the vibration of the coupled stages of a record to its samples.
+void add_coupled_stages(const Scene& scene, const LaneSignals& record,
+                        std::vector<double>& samples) {
+    if (record.coupled.empty()) {
+        return;
+    }
+    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene));
+    for (std::size_t i = 0; i < span.stages.size(); ++i) {
+        const StageSpan& stage = span.stages[i];
+        const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
+        std::vector<double> vibration = record.coupled[i];
+        // Both ends lie outside of the record. They fade out, so that the vibration can be
+        // continued periodically.
+        const auto fade = static_cast<std::size_t>(per_mesh);
+        for (std::size_t k = 0; k < fade; ++k) {
+            const double weight = 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(k) /
+                                                       static_cast<double>(fade));
+            vibration[k] *= weight;
+            vibration[vibration.size() - 1 - k] *= weight;
+        }
+        add_vibration(vibration, scene.study().sensor.stages[stage.stage].gain,
+                      -stage.start / stage.period * per_mesh,
+                      per_mesh / stage.period / scene.samples_per_mesh(), samples);
+    }
+}
+
+// Adds to the samples of a record what the fault of a coupled stage changes in them: vibration of
+// that stage, and of the study's gearbox to which the shaft carries it. NaN if a gearbox fails.
+void add_coupled_fault(const Scene& scene, std::size_t stage, const Realization& realization,
+                       const LaneSignals& record, std::vector<double>& samples) {
+    const SensorPaths path = sensor_paths(scene);
+    const GearboxTile tile =
+        run_realizations(scene, path, {realization}, 1, {.faulty_stage = stage});
+    if (tile.status[0] != Status::ok) {
+        std::ranges::fill(samples, std::numeric_limits<double>::quiet_NaN());
+        return;
+    }
+    const std::vector<double> faulty =
+        lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
+    const auto first = static_cast<std::size_t>(record.first_mesh * scene.samples_per_mesh());
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        samples[i] += factor * signal(start + step * static_cast<double>(i));
+        samples[i] += faulty[first + i] - record.sensor[i];
     }
 }
 
@@ -133,7 +188,14 @@ Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realizati
     const Scene& own = scene.stages()[stage];
     Realization gearbox = own.sampler().draw(id_in_stage(record.id));
     const InstanceInputs here = nominal_inputs(scene.study()), there = nominal_inputs(own.study());
-    const double torque = here.torque_N_m != 0.0 ? record.inputs.torque_N_m / here.torque_N_m : 1.0;
+    double torque = here.torque_N_m != 0.0 ? record.inputs.torque_N_m / here.torque_N_m : 1.0;
+    if (const NeighbourStage& coupled = scene.study().sensor.stages[stage]; coupled.coupled()) {
+        const auto other = other_stage(scene.study(), stage);
+        const InstanceInputs inputs =
+            other ? stage_gearbox(scene, *other, record).inputs : record.inputs;
+        torque = -shaft_torque_N_m(other_end(scene, stage), *coupled.shaft, inputs) /
+                 shaft_torque_N_m(own, *coupled.stage_shaft, gearbox.inputs);
+    }
     gearbox.inputs.torque_N_m *= torque;
     gearbox.inputs.fixed_shaft.load_torque_N_m *= torque;
     gearbox.inputs.speed_rad_s = there.speed_rad_s * record.inputs.speed_rad_s / here.speed_rad_s;
@@ -156,8 +218,12 @@ void add_background(const Scene& scene, std::span<const Realization> realization
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(records[i].sensor.size(), 0.0);
         add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
+        add_coupled_stages(scene, records[i], samples[i]);
     }
     for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
+        if (sensor.stages[stage].coupled()) {
+            continue;
+        }
         std::vector<StageRecord> next;
         for (std::size_t i = 0; i < records.size(); ++i) {
             next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]),
@@ -181,7 +247,9 @@ void add_other_fault(const Scene& scene, const Realization& realization, LaneSig
     add_bearings(scene, realization, SourceRole::other_fault, samples);
     const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
-        if (stages[stage].role == SourceRole::other_fault) {  // in place of the healthy stage
+        if (stages[stage].role == SourceRole::other_fault && stages[stage].coupled()) {
+            add_coupled_fault(scene, stage, realization, record, samples);
+        } else if (stages[stage].role == SourceRole::other_fault) {  // in place of the healthy one
             const double gain = stages[stage].gain;
             const StageRecord both[] = {
                 {&realization, stage_gearbox(scene, stage, realization, true), gain, &samples},

@@ -6,7 +6,7 @@
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/mesh_time.hpp"
-#include "mc/gearbox/record_samples.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/noise.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/gearbox/record_samples.hpp"
+#include "mc/gearbox/record_window.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,7 +1,8 @@
-// Records that are shorter than the span: part of a gearbox's signals, from a random tooth
-// position.
+// Samples of a scene's records, which are folded over planet turns, and records that are shorter
+// than the span: part of a gearbox's signals, from a random tooth position.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,20 @@
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
+
+// Mean time between samples in a gearbox with these inputs, s.
+double sample_s(const Scene& scene, const InstanceInputs& inputs);
+
+// Samples in a turn of the monitored gear.
+std::size_t turn_samples(const Scene& scene);
+
+// Part of a signal that is folded: the record's turns, or the span. The signal may continue after
+// it.
+std::span<const double> folded_part(const Scene& scene, const LaneSignals& record,
+                                    std::span<const double> samples);
+
+// Folds a record's sensor samples again after a change.
+void fold_again(const Scene& scene, LaneSignals& record);
 
 // Mesh periods of a gearbox's signals that a record contains.
 struct RecordWindow {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <span>
 #include <stdexcept>
 
@@ -90,10 +92,9 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
     const LaneSignals all = lane_signals(scene, path, tile, 0, scene.signal_meshes());
     add_sensor(scene, realization, all, features, "sensor", rows, out);
     if (has_other_fault(scene.study())) {
-        LaneSignals other;
-        other.sensor.resize(all.sensor.size(), 0.0);
-        other.te = all.te;
+        LaneSignals other = all;
         add_other_fault(scene, realization, other);
+        std::ranges::transform(other.sensor, all.sensor, other.sensor.begin(), std::minus<>());
         std::vector<double> samples = drawn_record(scene, std::move(other), realization).sensor;
         samples.resize(rows);
         out.columns.push_back({kOtherFault, "m/s^2", std::move(samples)});

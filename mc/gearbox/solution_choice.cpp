@@ -5,6 +5,7 @@
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -14,11 +15,11 @@ const T* pointer_to(const std::optional<T>& value) {
     return value ? &*value : nullptr;
 }
 
-lockstep::Convergence convergence(const Scene& scene) {
+}  // namespace
+
+lockstep::Convergence convergence_of(const Scene& scene) {
     return {convergence_tolerance(scene.study()), scene.max_meshes()};
 }
-
-}  // namespace
 
 lockstep::Solution choose_solution(
     const Scene& scene, const TileLoads& loads, const lockstep::RecordOptions& options,
@@ -39,27 +40,28 @@ lockstep::Solution choose_solution(
         if (quasi_static) {
             return lockstep::QuasiStaticSolution{lockstep::StaticPattern{with_motion, gravity}};
         }
-        return lockstep::PeriodicSolution{convergence(scene), with_motion, gravity};
+        return lockstep::PeriodicSolution{convergence_of(scene), with_motion, gravity};
     }
     lockstep::RecordedSpan span{scene.recorded_meshes(), run_in_meshes(scene), options,
                                 std::move(on_record)};
     if (const Superposition use = superposition(scene); use.healthy) {
-        return lockstep::SuperposedSolution{*loads.tooth_errors, convergence(scene),
+        return lockstep::SuperposedSolution{*loads.tooth_errors, convergence_of(scene),
                                             std::move(span), use.faulty};
     }
-    return lockstep::FullSolution{convergence(scene), std::move(span),
+    return lockstep::FullSolution{convergence_of(scene), std::move(span),
                                   pointer_to(loads.tooth_errors), pointer_to(loads.excitation)};
 }
 
 lockstep::FaultPerturbation fault_perturbation(const Scene& scene, const TileLoads& loads,
                                                const lockstep::SpanStates& healthy) {
-    return {healthy, convergence(scene), pointer_to(loads.tooth_errors)};
+    return {healthy, convergence_of(scene), pointer_to(loads.tooth_errors)};
 }
 
 bool integrates_perturbation_only(const Scene& scene) {
     const Study& study = scene.study();
     return study.numerics.horizon != Horizon::periodic && !study.effects.quasi_static() &&
-           !has_variable_excitation(study) && scene.recorded_meshes() == scene.span_meshes();
+           !has_variable_excitation(study) && !is_coupled(study) &&
+           scene.recorded_meshes() == scene.span_meshes();
 }
 
 }  // namespace gearpod::mc

@@ -14,6 +14,9 @@ struct TileLoads {
     std::optional<lockstep::Excitation> excitation;
 };
 
+// Criterion for the convergence to a periodic orbit.
+lockstep::Convergence convergence_of(const Scene& scene);
+
 // `options` and `on_record` as in lockstep::RecordedSpan. `on_record` is used only if every mesh
 // period is integrated (records_during_integration).
 lockstep::Solution choose_solution(const Scene& scene, const TileLoads& loads,
@@ -26,7 +29,7 @@ lockstep::FaultPerturbation fault_perturbation(const Scene& scene, const TileLoa
                                                const lockstep::SpanStates& healthy);
 
 // True if only the perturbation from the healthy solution has to be integrated: every mesh period
-// of the span is integrated, under a constant excitation.
+// of the span is integrated, under a constant excitation and without coupled stages.
 bool integrates_perturbation_only(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -29,11 +29,12 @@ std::vector<double> path_exponents(std::span<const Realization> realizations, st
 }
 
 TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& path,
-                                       std::span<const Realization> realizations, int kept_meshes)
+                                       std::span<const Realization> realizations, int kept_meshes,
+                                       int meshes)
     : realizations_(realizations),
       has_gain_(has_gain(realizations)),
-      signal_meshes_(scene.signal_meshes()),
-      recorded_meshes_(scene.recorded_meshes()) {
+      signal_meshes_(meshes > 0 ? std::max(meshes, scene.span_meshes()) : scene.signal_meshes()),
+      recorded_meshes_(meshes > 0 ? signal_meshes_ : scene.recorded_meshes()) {
     // Tones do not pass the housing and are added to its response.
     const signals::Tones tones =
         has_housing(scene.study()) ? signals::Tones{} : draw_tones(scene, realizations);

@@ -24,8 +24,9 @@ class TileSensorRecorder {
   public:
     // Keeps the first `kept_meshes` mesh periods of sensor samples; -1 keeps all. `realizations`
     // has one entry per lane and must outlive the object. `path` must outlive the time integration.
+    // `meshes`: number of mesh periods that are recorded; 0 stands for those of the scene.
     TileSensorRecorder(const Scene& scene, const SensorPaths& path,
-                       std::span<const Realization> realizations, int kept_meshes);
+                       std::span<const Realization> realizations, int kept_meshes, int meshes = 0);
 
     // Takes the record of mesh period k; matches lockstep::RecordedSpan::on_record. If fewer mesh
     // periods are recorded than the signal has, the signal repeats them.

@@ -3,9 +3,11 @@
 #include <stdexcept>
 
 #include "lockstep/kernels/built_kernels.hpp"
+#include "mc/coupling/coupled_train.hpp"
 #include "mc/files/python/python_worker.hpp"
 #include "mc/scene/mesh_loads.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -25,6 +27,18 @@ void choose_numerics_of_stages(Study& study) {
         own.numerics = resolve_numerics(studies[i]).study.numerics;
         stage.text = resolved_text(own);
         stage.study = std::make_shared<const Study>(std::move(own));
+    }
+}
+
+// An elastic shaft sets the torque of its stage, so that the loads are in balance.
+void add_torque_notices(const Study& study, const std::string& name, Problems& notices) {
+    for (const NeighbourStage& stage : study.sensor.stages) {
+        if (stage.coupled() && stage.study->find_random("operation.torque_N_m") != nullptr) {
+            notices.push_back({name, 0, "sensor.stages",
+                               "the random torque of stage \"" + stage.name +
+                                   "\" is not used: its shaft sets the torque",
+                               ""});
+        }
     }
 }
 
@@ -52,12 +66,20 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                          "remove it, or build with all kernels (preset portable)"}});
     }
     try {
+        if (is_coupled(*reading.study) && reading.study->numerics.tolerance > 0.0) {
+            throw SceneError("numerics.tolerance",
+                             "cannot choose the numerics of stages that elastic shafts couple",
+                             "give numerics.integrator = \"central-difference\", precision = "
+                             "\"double\" and, if needed, steps_per_mesh");
+        }
         choose_numerics_of_stages(*reading.study);
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));
         StudyScene made{std::make_unique<const Scene>(resolved.study),
                         std::move(resolved.choice),
                         {},
                         std::move(reading.notices)};
+        check_coupling(*made.scene);
+        add_torque_notices(resolved.study, name, made.notices);
         for (Problem& warning : load_warnings(resolved.study, name)) {
             made.notices.push_back(std::move(warning));
         }

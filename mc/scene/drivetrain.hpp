@@ -15,6 +15,12 @@
 
 namespace gearpod::mc {
 
+// Degree of freedom that turns with a shaft, and its motion per rotation, m/rad.
+struct ShaftDegree {
+    int degree = 0;
+    double radius_m = 0.0;
+};
+
 class Drivetrain {
   public:
     virtual ~Drivetrain() = default;
@@ -31,6 +37,10 @@ class Drivetrain {
     // dynamics::rigid_rotation, m/s.
     virtual int input_degree_of_freedom(const dynamics::GearboxLayout& layout) const = 0;
     virtual double rotation_m_s(const InstanceInputs& instance) const = 0;
+    // End of a shaft that connects one of kShafts with another gearbox. At a fixed-shaft gearbox
+    // this is the outer end of the coupling, with the motor's or the load's inertia.
+    virtual ShaftDegree shaft_degree(const dynamics::GearboxLayout& layout,
+                                     Member member) const = 0;
     // Sets speed, mesh period and load of one gearbox.
     virtual void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const = 0;
     // Mean force along the line of action of one gear pair of mesh number `mesh` of
@@ -73,6 +83,7 @@ class PlanetaryDrivetrain : public Drivetrain {
     double shaft_turns_per_mesh(Member member) const override;
     int input_degree_of_freedom(const dynamics::GearboxLayout& layout) const override;
     double rotation_m_s(const InstanceInputs& instance) const override;
+    ShaftDegree shaft_degree(const dynamics::GearboxLayout& layout, Member member) const override;
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
     double mesh_force_N(const InstanceInputs& instance) const override;
     int pairs_per_mesh() const override { return train_.planets; }
@@ -117,6 +128,7 @@ class FixedShaftDrivetrain : public Drivetrain {
         return dynamics::u_m;
     }
     double rotation_m_s(const InstanceInputs& instance) const override;
+    ShaftDegree shaft_degree(const dynamics::GearboxLayout& layout, Member member) const override;
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
     double mesh_force_N(const InstanceInputs& instance) const override;
     int pairs_per_mesh() const override { return 1; }

@@ -23,6 +23,12 @@ double FixedShaftDrivetrain::rotation_m_s(const InstanceInputs& instance) const 
     return pinion_radius_m_ * instance.speed_rad_s;
 }
 
+ShaftDegree FixedShaftDrivetrain::shaft_degree(const dynamics::GearboxLayout&,
+                                               Member member) const {
+    return member == Member::pinion ? ShaftDegree{dynamics::u_m, pinion_radius_m_}
+                                    : ShaftDegree{dynamics::u_b, gear_radius_m_};
+}
+
 void FixedShaftDrivetrain::set(const InstanceInputs& instance,
                                dynamics::GearboxInputs& inputs) const {
     auto& out = std::get<dynamics::FixedShaftInputs>(inputs);

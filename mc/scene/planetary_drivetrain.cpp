@@ -109,6 +109,19 @@ double PlanetaryDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
                                                       : radius_m_.carrier * turning.carrier;
 }
 
+ShaftDegree PlanetaryDrivetrain::shaft_degree(const dynamics::GearboxLayout& layout,
+                                              Member member) const {
+    const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
+    switch (member) {
+        case Member::carrier:
+            return {planetary.rotation_index(dynamics::carrier), radius_m_.carrier};
+        case Member::ring:
+            return {planetary.rotation_index(dynamics::ring), radius_m_.ring};
+        default:
+            return {planetary.rotation_index(dynamics::sun), radius_m_.sun};
+    }
+}
+
 void PlanetaryDrivetrain::set(const InstanceInputs& instance,
                               dynamics::GearboxInputs& inputs) const {
     auto& out = std::get<dynamics::PlanetaryInputs>(inputs);

@@ -83,6 +83,9 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
             **speed *= factor;
         }
     }
+    if (stage.coupled() && !own.numerics.integrator) {
+        own.numerics.integrator = lockstep::Integrator::central_difference;
+    }
     own.sensor.low_pass_Hz = study.sensor.low_pass_Hz;
     own.sensor.sampling_Hz = std::max(own.sensor.sampling_Hz, study.sensor.sampling_Hz);
     own.sensor.record_s.reset();

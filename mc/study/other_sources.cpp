@@ -67,6 +67,10 @@ bool has_other_sources(const Study& study) {
     return !study.sensor.bearings.empty() || !study.sensor.stages.empty();
 }
 
+bool is_coupled(const Study& study) {
+    return std::ranges::any_of(study.sensor.stages, &NeighbourStage::coupled);
+}
+
 bool has_other_fault(const Study& study) {
     const auto is_fault = [](const auto& source) { return source.role == SourceRole::other_fault; };
     return std::ranges::any_of(study.sensor.bearings, is_fault) ||

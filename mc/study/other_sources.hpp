@@ -18,6 +18,8 @@ double load_turns_per_turn(const Bearing& bearing);
 
 // True if there are bearings or stages, which differ between the records of a gearbox.
 bool has_other_sources(const Study& study);
+// True if an elastic shaft couples a stage with the study's gearbox.
+bool is_coupled(const Study& study);
 // True if there are records of another fault than the study's.
 bool has_other_fault(const Study& study);
 

@@ -47,7 +47,8 @@ struct Bearing {
 };
 
 // Neighbouring stage, whose vibration reaches the sensor, too. A shaft connects it with the study's
-// gearbox; its elasticity is not modelled, so that both turn steadily.
+// gearbox. If the shaft has a stiffness, it twists and both gearboxes vibrate together; otherwise
+// both turn steadily.
 struct NeighbourStage {
     std::string name;
     std::string text;                          // its study, with all defaults
@@ -55,13 +56,19 @@ struct NeighbourStage {
     std::optional<Member> shaft, stage_shaft;  // the common shaft: here, and in that stage
     std::string of;     // `shaft` is that of this earlier stage; "": of the study's gearbox
     double gain = 1.0;  // factor on the vibration at that study's own sensor
+    double shaft_stiffness_N_m_rad = 0.0;  // 0: the shaft does not transmit vibration
+    // Damping ratio of the motion in which both gearboxes turn against each other as rigid bodies.
+    double shaft_damping_ratio = 0.02;
     // other_fault: the stage is healthy, and has its study's fault in records of another fault.
     SourceRole role = SourceRole::background;
+
+    bool coupled() const { return shaft_stiffness_N_m_rad > 0.0; }
 
     bool operator==(const NeighbourStage& other) const {
         return name == other.name && text == other.text && shaft == other.shaft &&
                stage_shaft == other.stage_shaft && of == other.of && gain == other.gain &&
-               role == other.role;
+               shaft_stiffness_N_m_rad == other.shaft_stiffness_N_m_rad &&
+               shaft_damping_ratio == other.shaft_damping_ratio && role == other.role;
     }
 };
 

@@ -86,6 +86,13 @@ NeighbourStage read_stage(const ListElement& element, const Value& table) {
     stage.stage_shaft = element.shaft("stage_shaft");
     stage.of = element.has("of") ? element.word("of") : "";
     stage.gain = element.number("gain", kAbove0, 1.0);
+    stage.shaft_stiffness_N_m_rad = element.number("shaft_stiffness_N_m_rad", {.low = 0.0}, 0.0);
+    stage.shaft_damping_ratio =
+        element.number("shaft_damping_ratio", {.low = 0.0, .high = 1.0, .low_open = true}, 0.02);
+    if (element.has("shaft_damping_ratio") && !element.has("shaft_stiffness_N_m_rad")) {
+        element.reject("shaft_damping_ratio has no effect without shaft_stiffness_N_m_rad",
+                       "give both, or neither");
+    }
     stage.role = static_cast<SourceRole>(element.choice("role", kSourceRoles, false).value_or(0));
     read_stage_study(element, table, stage);
     if (stage.study && stage.role == SourceRole::other_fault &&
@@ -115,17 +122,28 @@ std::vector<NeighbourStage> read_stages(const Value& list, const RejectElement& 
             element.reject("of: no earlier stage has the name \"" + stages[i].of + "\"",
                            "list the stages in the order of their shafts");
         }
+        const auto other = std::ranges::find(stages, stages[i].of, &NeighbourStage::name);
+        if (stages[i].coupled() && !stages[i].of.empty() && other != stages.end() &&
+            !other->coupled()) {
+            element.reject(
+                fmt::format("shaft_stiffness_N_m_rad: the shaft of stage \"{}\" has none",
+                            other->name),
+                "give it one, too: elastic shafts must lead to the study's gearbox");
+        }
     }
     return stages;
 }
 
 std::string stage_table(const NeighbourStage& stage) {
     return fmt::format(
-        "{{ name = \"{}\", text = {}, shaft = \"{}\", {}stage_shaft = \"{}\", gain = {}, role = "
+        "{{ name = \"{}\", text = {}, shaft = \"{}\", {}stage_shaft = \"{}\", gain = {}, {}role = "
         "\"{}\" }}",
         stage.name, quoted_text(stage.text), member_name(*stage.shaft),
         stage.of.empty() ? "" : fmt::format("of = \"{}\", ", stage.of),
         member_name(*stage.stage_shaft), stage.gain,
+        stage.coupled() ? fmt::format("shaft_stiffness_N_m_rad = {}, shaft_damping_ratio = {}, ",
+                                      stage.shaft_stiffness_N_m_rad, stage.shaft_damping_ratio)
+                        : "",
         kSourceRoles[static_cast<std::size_t>(stage.role)].text);
 }
 

@@ -18,6 +18,8 @@ inline constexpr TableField kStageFields[] = {
     {"stage_shaft", TableField::Kind::text, true, kShafts},
     {"of", TableField::Kind::word},
     {"gain"},
+    {"shaft_stiffness_N_m_rad"},
+    {"shaft_damping_ratio"},
     {"role", TableField::Kind::text, false, kSourceRoles}};
 // Problems name the stage by its position in the list. `study` is a file relative to the folder of
 // the study; `text` is such a file's content, as results store it.

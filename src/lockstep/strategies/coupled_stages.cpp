@@ -62,6 +62,33 @@ class StageTile : SpanTile<W> {
         return motion;
     }
 
+    // Common rotation of all stages. A stage's part in it is `part` times its own free rotation.
+    double inertia_kg(std::size_t lane) const { return this->rotation_.inertia_kg(lane); }
+    double rotation_m(std::size_t lane) const {
+        return this->rotation_.amount(this->state_.q, lane);
+    }
+    double rotation_m_s(std::size_t lane) const {
+        return this->rotation_.amount(this->state_.v, lane);
+    }
+    // Rotation of a shaft's end per unit of the free rotation, rad/m.
+    double turn_of(std::size_t shaft) const {
+        return shafts_[shaft].turn_per_m * this->rotation_.at(shafts_[shaft].degree);
+    }
+    // Subtracts rotation of a lane: `position_m` at the time of `first`, and `speed_m_s`.
+    void subtract_rotation(double position_m, double speed_m_s, std::size_t lane,
+                           const StageTile& first) {
+        const double later = (time_at(position_phase()) - first.time_at(first.position_phase())) *
+                             first.mesh_period_s_[lane];
+        this->rotation_.subtract(std::fma(later, speed_m_s, position_m), lane, this->state_.q);
+        this->rotation_.subtract(speed_m_s, lane, this->state_.v);
+        for (std::size_t shaft = 0; shaft < shafts_.size(); ++shaft) {
+            previous_m_s_[shaft * W + lane] -=
+                speed_m_s * this->rotation_.at(shafts_[shaft].degree);
+        }
+    }
+
+    bool begins_mesh() const { return step_ == 0; }
+
     // Torques of the next step, [shaft][lane].
     machine::AlignedVector& torques() { return step_integrator_->torques(); }
 
@@ -104,7 +131,7 @@ class StageTile : SpanTile<W> {
 
     void begin_mesh() {
         step_ = 0;
-        overrides_ = this->schedule_.all_overrides(mesh_ + stage_.first_mesh);
+        overrides_ = this->schedule_.all_overrides(mesh_);
         record_ = is_recorded() && !streamed() ? &this->add_record(mesh_) : &scratch_;
         if (counts_contact()) {
             record_->step_states.swap(contact_states_);
@@ -144,6 +171,50 @@ class StageTile : SpanTile<W> {
     MeshRecord* record_ = nullptr;  // of the current mesh period
     machine::AlignedVector contact_states_;
     bool lends_ = false;
+};
+
+// Free rotation of all stages together, which no spring holds. Like that of one gearbox
+// (RigidRotation) it is removed after every mesh period of the first stage.
+template <int W>
+class CommonRotation {
+  public:
+    // `columns`: two per shaft. Stages that no shaft connects with the first one have no part.
+    CommonRotation(std::span<const CouplingShaft> shafts, std::span<const std::size_t> columns,
+                   std::span<StageTile<W>* const> stages)
+        : part_(stages.size(), 0.0) {
+        part_[0] = 1.0;
+        for (std::size_t pass = 0; pass < shafts.size(); ++pass) {
+            for (std::size_t i = 0; i < shafts.size(); ++i) {
+                const auto& [a, b] = shafts[i].stage;
+                const double turn_a = stages[a]->turn_of(columns[2 * i]);
+                const double turn_b = stages[b]->turn_of(columns[2 * i + 1]);
+                if (part_[b] == 0.0) {
+                    part_[b] = part_[a] * turn_a / turn_b;
+                } else if (part_[a] == 0.0) {
+                    part_[a] = part_[b] * turn_b / turn_a;
+                }
+            }
+        }
+    }
+
+    void remove(std::span<StageTile<W>* const> stages) const {
+        for (std::size_t l = 0; l < W; ++l) {
+            double inertia = 0.0, position = 0.0, speed = 0.0;
+            for (std::size_t s = 0; s < stages.size(); ++s) {
+                const double weight = part_[s] * stages[s]->inertia_kg(l);
+                inertia += part_[s] * weight;
+                position += weight * stages[s]->rotation_m(l);
+                speed += weight * stages[s]->rotation_m_s(l);
+            }
+            for (std::size_t s = 0; s < stages.size(); ++s) {
+                stages[s]->subtract_rotation(part_[s] * position / inertia,
+                                             part_[s] * speed / inertia, l, *stages[0]);
+            }
+        }
+    }
+
+  private:
+    std::vector<double> part_;
 };
 
 // Shaft at two tiles: its column at each, and its twist at the start, [lane].
@@ -213,6 +284,7 @@ std::vector<TileResult> run_coupled_stages(std::span<const CoupledStage> stages,
         const std::size_t column[] = {columns[2 * i], columns[2 * i + 1]};
         torques.emplace_back(shafts[i], column, tiles, start);
     }
+    const CommonRotation<W> rotation(shafts, columns, tiles);
     while (!std::ranges::all_of(tiles, &StageTile<W>::finished)) {
         const auto behind = static_cast<std::size_t>(
             std::ranges::min_element(tiles, {}, &StageTile<W>::next) - tiles.begin());
@@ -220,6 +292,9 @@ std::vector<TileResult> run_coupled_stages(std::span<const CoupledStage> stages,
             torque.set(behind, tiles);
         }
         tiles[behind]->step();
+        if (behind == 0 && tiles[0]->begins_mesh() && !shafts.empty()) {
+            rotation.remove(tiles);
+        }
     }
     std::vector<TileResult> results;
     std::ranges::transform(owned, std::back_inserter(results),

@@ -22,8 +22,6 @@ struct CoupledStage {
     RecordedSpan span = {};
     // Mesh period of this stage over that of the first stage, the same for all lanes.
     double period = 1.0;
-    // Teeth in contact: mesh period k of the span is number k + first_mesh of the teeth's pattern.
-    int first_mesh = 0;
 };
 
 // Elastic shaft between two stages. Without vibration it transmits the torques that the loads of

@@ -12,20 +12,29 @@ RigidRotation::RigidRotation(const dynamics::GearboxLayout& layout,
     for (const dynamics::GearboxInputs& in : inputs) {
         const auto m = dynamics::assemble(layout, in, none);
         const Eigen::VectorXd weighted = m.mass * turn_;
-        weight_.emplace_back(weighted / weighted.dot(turn_));
+        inertia_kg_.push_back(weighted.dot(turn_));
+        weight_.emplace_back(weighted / inertia_kg_.back());
+    }
+}
+
+double RigidRotation::amount(const machine::AlignedVector& motion, std::size_t lane) const {
+    double rotation = 0.0;
+    for (Eigen::Index d = 0; d < turn_.size(); ++d) {
+        rotation += weight_[lane](d) * motion[static_cast<std::size_t>(d) * weight_.size() + lane];
+    }
+    return rotation;
+}
+
+void RigidRotation::subtract(double amount, std::size_t lane,
+                             machine::AlignedVector& motion) const {
+    for (Eigen::Index d = 0; d < turn_.size(); ++d) {
+        motion[static_cast<std::size_t>(d) * weight_.size() + lane] -= amount * turn_(d);
     }
 }
 
 void RigidRotation::remove(machine::AlignedVector& motion) const {
-    const std::size_t lanes = weight_.size();
-    for (std::size_t l = 0; l < lanes; ++l) {
-        double rotation = 0.0;
-        for (Eigen::Index d = 0; d < turn_.size(); ++d) {
-            rotation += weight_[l](d) * motion[static_cast<std::size_t>(d) * lanes + l];
-        }
-        for (Eigen::Index d = 0; d < turn_.size(); ++d) {
-            motion[static_cast<std::size_t>(d) * lanes + l] -= rotation * turn_(d);
-        }
+    for (std::size_t l = 0; l < weight_.size(); ++l) {
+        subtract(amount(motion, l), l, motion);
     }
 }
 

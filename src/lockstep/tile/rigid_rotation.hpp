@@ -20,12 +20,21 @@ class RigidRotation {
     // Removes the rotation from positions and velocities.
     void remove(TileState& state) const;
 
+    // Rotation that the motion of a lane contains, in units of phi = dynamics::rigid_rotation.
+    double amount(const machine::AlignedVector& motion, std::size_t lane) const;
+    void subtract(double amount, std::size_t lane, machine::AlignedVector& motion) const;
+    // Inertia of the rotation of a lane, phi M phi, kg.
+    double inertia_kg(std::size_t lane) const { return inertia_kg_[lane]; }
+    // phi at a degree of freedom.
+    double at(int degree) const { return turn_(degree); }
+
   private:
     void remove(machine::AlignedVector& motion) const;
 
     Eigen::VectorXd turn_;
     // per lane: phi M / phi M phi, projects a motion onto the rotation
     std::vector<Eigen::VectorXd> weight_;
+    std::vector<double> inertia_kg_;
 };
 
 // State with zero displacement and velocity, and the sensor's filter at rest.

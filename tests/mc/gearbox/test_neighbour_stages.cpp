@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mc/gearbox/other_sources.hpp"
-#include "mc/gearbox/record_samples.hpp"
+#include "mc/gearbox/record_window.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
 #include "tests/mc/study_file.hpp"

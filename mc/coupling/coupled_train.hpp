@@ -1,0 +1,58 @@
+// Stages that elastic shafts couple with the study's gearbox (sensor.stages with a shaft
+// stiffness): the data of their common integration.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lockstep/strategies/coupled_stages.hpp"
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+// External torque of a gearbox with these inputs on one of its shafts, N m, positive in the sense
+// in which this shaft turns.
+double shaft_torque_N_m(const Scene& gearbox, Member shaft, const InstanceInputs& inputs);
+// Inertia of the whole nominal gearbox as that shaft feels it while no spring deflects, kg m^2.
+double shaft_inertia_kg_m2(const Scene& gearbox, Member shaft);
+
+// Scene of the gearbox at the other end of a stage's shaft: an earlier stage, or the study's own.
+const Scene& other_end(const Scene& scene, std::size_t stage);
+// Index of that stage; empty for the study's gearbox.
+std::optional<std::size_t> other_stage(const Study& study, std::size_t stage);
+
+// Frequency at which the gearboxes at both ends of a stage's shaft would turn against each other as
+// rigid bodies, Hz, and the shaft's damping for the stage's damping ratio of that motion, N m
+// s/rad.
+struct ShaftMode {
+    double frequency_Hz = 0.0, damping_N_m_s_rad = 0.0;
+};
+ShaftMode shaft_mode(const Scene& scene, std::size_t stage);
+
+// One stage in the common integration, in mesh periods of its own except for the times.
+struct StageSpan {
+    std::size_t stage = 0;       // in Study::sensor.stages
+    double period = 0.0;         // its mesh period, mesh periods of the study's gearbox
+    int run_in = 0, meshes = 0;  // before the recorded ones, and recorded
+    double start = 0.0;          // of its record, mesh periods of the study's gearbox
+};
+// Common integration: run-in of the study's gearbox, and its stages. The records of the stages
+// begin before that of the study's gearbox and end after it, by kMarginMeshes at least.
+struct CoupledSpan {
+    int run_in = 0;
+    std::vector<StageSpan> stages;
+};
+inline constexpr int kMarginMeshes = 2;
+CoupledSpan coupled_span(const Scene& scene, int run_in_meshes);
+
+// Shafts in a tile of that many lanes; stage i + 1 of the integration is number i of
+// CoupledSpan::stages.
+std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const CoupledSpan& span,
+                                                     std::size_t lanes);
+
+// Throws SceneError unless the stages can be integrated together: all by the central difference
+// method in double precision with steps that are stable with the shafts, under steady loads that
+// are in balance at every shaft.
+void check_coupling(const Scene& scene);
+
+}  // namespace gearpod::mc

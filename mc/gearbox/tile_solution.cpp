@@ -1,0 +1,183 @@
+#include "mc/gearbox/tile_solution.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "lockstep/steps/instability.hpp"
+#include "machine/thread_clock.hpp"
+#include "mc/coupling/coupled_train.hpp"
+#include "mc/gearbox/lane_count.hpp"
+#include "mc/gearbox/other_sources.hpp"
+#include "mc/gearbox/random_tooth_errors.hpp"
+#include "mc/gearbox/tile_random_inputs.hpp"
+#include "mc/gearbox/tile_sensor_recorder.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realization> realizations) {
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
+    for (int c = 0; c < scene.fault().curves(); ++c) {
+        for (const Realization& realization : realizations) {
+            faults.curve[static_cast<std::size_t>(c)].push_back(
+                scene.fault().mesh(c, realization.inputs.fault_size));
+        }
+    }
+    if (!scene.fault().worn_pairs().empty()) {
+        for (const Realization& realization : realizations) {
+            faults.wear.push_back(realization.inputs.fault_size);
+        }
+    }
+    return faults;
+}
+
+// What the integration of the gearboxes of one study needs. Its parts refer to each other.
+struct SolutionInputs {
+    std::vector<Realization> realizations;  // [lane]
+    std::vector<dynamics::GearboxInputs> gearboxes;
+    lockstep::FaultCurves faults;
+    TileLoads loads;
+
+    SolutionInputs(const Scene& scene, std::vector<Realization> lanes)
+        : realizations(std::move(lanes)),
+          faults(fault_curves(scene, realizations)),
+          loads{draw_tooth_errors(scene, realizations), std::nullopt} {
+        for (const Realization& realization : realizations) {
+            gearboxes.push_back(scene.inputs(realization.inputs));
+        }
+    }
+    SolutionInputs(const SolutionInputs&) = delete;
+    SolutionInputs& operator=(const SolutionInputs&) = delete;
+
+    lockstep::CoupledStage stage(const Scene& scene, lockstep::RecordedSpan span,
+                                 double period) const {
+        return {{scene.plan(), gearboxes, faults},
+                loads.tooth_errors ? &*loads.tooth_errors : nullptr,
+                std::move(span),
+                period};
+    }
+};
+
+// A coupled stage next to the gearboxes of a tile, and its recorder.
+struct StageTask {
+    const Scene& scene;
+    const SensorPaths path;
+    const SolutionInputs inputs;
+    TileSensorRecorder recorder;
+
+    StageTask(const Scene& own, std::vector<Realization> realizations, int meshes)
+        : scene(own),
+          path(sensor_paths(own)),
+          inputs(own, std::move(realizations)),
+          recorder(own, path, inputs.realizations, meshes, meshes) {}
+};
+
+std::vector<lockstep::TileResult> run_coupled(int lanes,
+                                              std::span<const lockstep::CoupledStage> stages,
+                                              std::span<const lockstep::CouplingShaft> shafts,
+                                              const lockstep::Convergence& convergence) {
+    return with_lane_count(lanes, [&](auto count) -> std::vector<lockstep::TileResult> {
+        if constexpr (count() <= 8) {
+            return lockstep::run_coupled_stages<count()>(stages, shafts, convergence);
+        }
+        return {};  // excluded by check_coupling
+    });
+}
+
+}  // namespace
+
+void solve(const Scene& scene,
+           const std::function<lockstep::Solution(const TileLoads&)>& solution_of,
+           GearboxTile& tile) {
+    auto start = WallClock::now();
+    SolutionInputs inputs(scene, tile.realizations);
+    tile.stiffness_s = lap(start);
+    inputs.loads.excitation = draw_excitation(scene, tile.realizations);
+    const lockstep::Solution solution = solution_of(inputs.loads);
+    const double processor_start = thread_processor_s();
+    tile.integration = with_lane_count(static_cast<int>(tile.realizations.size()), [&](auto lanes) {
+        return lockstep::run_tile<lanes()>(scene.plan(), inputs.gearboxes, inputs.faults, solution);
+    });
+    tile.integration_s = lap(start);
+    tile.meshes = tile.integration.integrated_meshes;
+    if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
+        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
+        tile.superposition_fallbacks =
+            static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
+    }
+    tile.integration_cpu_s = thread_processor_s() - processor_start;
+}
+
+void solve_coupled(const Scene& scene, const lockstep::RecordOptions& options,
+                   const OnRecord& on_record, std::optional<std::size_t> faulty_stage,
+                   GearboxTile& tile) {
+    auto start = WallClock::now();
+    const std::size_t lanes = tile.realizations.size();
+    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene));
+    const SolutionInputs own(scene, tile.realizations);
+    std::vector<std::unique_ptr<StageTask>> tasks;
+    std::vector<lockstep::CoupledStage> stages{
+        own.stage(scene, {scene.recorded_meshes(), span.run_in, options, on_record}, 1.0)};
+    for (const StageSpan& stage : span.stages) {
+        std::vector<Realization> gearboxes;
+        for (const Realization& record : tile.realizations) {
+            gearboxes.push_back(
+                stage_gearbox(scene, stage.stage, record, faulty_stage == stage.stage));
+        }
+        tasks.push_back(std::make_unique<StageTask>(scene.stages()[stage.stage],
+                                                    std::move(gearboxes), stage.meshes));
+        StageTask& task = *tasks.back();
+        stages.push_back(task.inputs.stage(
+            task.scene, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}, stage.period));
+    }
+    tile.stiffness_s = lap(start);
+    const double processor_start = thread_processor_s();
+    std::vector<lockstep::TileResult> results =
+        run_coupled(static_cast<int>(lanes), stages, coupling_shafts(scene, span, lanes),
+                    convergence_of(scene));
+    tile.integration_s = lap(start);
+    tile.integration_cpu_s = thread_processor_s() - processor_start;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        const SensorRecorders recorders = tasks[i]->recorder.take_recorders();
+        tile.coupled.push_back(
+            recorders.front().front()->signals(tile.gearboxes, span.stages[i].meshes));
+        tile.meshes += results[i + 1].integrated_meshes;
+        // A gearbox fails if any of its stages does.
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            if (results[0].status[lane] == lockstep::LaneStatus::ok) {
+                results[0].status[lane] = results[i + 1].status[lane];
+            }
+        }
+    }
+    tile.integration = std::move(results[0]);
+    tile.meshes += tile.integration.integrated_meshes;
+}
+
+Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+    const bool ok = status == lockstep::LaneStatus::ok;
+    const bool diverged = status == lockstep::LaneStatus::diverged;
+    if (scene.study().effects.quasi_static()) {
+        return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_converged;
+    }
+    if (ok) {
+        // A solution without excitation does not grow even if it is unstable.
+        return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
+                                              scene.mean_pairs())
+                   ? Status::supercritical
+                   : Status::ok;
+    }
+    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+        case lockstep::Instability::rotating_frame:
+            return Status::supercritical;
+        case lockstep::Instability::parametric:
+            return Status::parametric;
+        case lockstep::Instability::step:
+            return Status::step_too_long;
+        case lockstep::Instability::none:
+            break;
+    }
+    return diverged ? Status::diverged : Status::not_converged;
+}
+
+}  // namespace gearpod::mc
