@@ -3,15 +3,19 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "mc/commands/commands.hpp"
+#include "mc/coupling/coupled_train.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/library/natural_frequencies.hpp"
+#include "mc/numerics/choice.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -30,13 +34,18 @@ struct Modes {
     std::vector<double> frequencies_Hz;
     std::vector<SpeedFrequencies> speeds;
     std::vector<CriticalSpeed> critical;
+    std::vector<double> train_Hz;  // with coupled stages; empty without
 };
 
 nlohmann::json json_of(const Study& study, const Modes& modes) {
     nlohmann::json json{{"kind", "modes"},
                         {"title", study.title},
                         {"frequencies_Hz", modes.frequencies_Hz},
+                        {"train_frequencies_Hz", nullptr},
                         {"campbell", nullptr}};
+    if (!modes.train_Hz.empty()) {
+        json["train_frequencies_Hz"] = modes.train_Hz;
+    }
     if (modes.speeds.empty()) {
         return json;
     }
@@ -60,8 +69,8 @@ nlohmann::json json_of(const Study& study, const Modes& modes) {
     return json;
 }
 
-void print_frequencies(const std::vector<double>& frequencies) {
-    fmt::print("natural frequencies at mean mesh stiffness, {} degrees of freedom\n",
+void print_frequencies(const std::string& of, const std::vector<double>& frequencies) {
+    fmt::print("natural frequencies{} at mean mesh stiffness, {} degrees of freedom\n", of,
                frequencies.size());
     fmt::print("{:>12}  {}\n", "Hz", "multiplicity");
     for (std::size_t i = 0; i < frequencies.size();) {
@@ -112,6 +121,9 @@ int modes_command(const ModesOptions& options) {
     try {
         modes.frequencies_Hz = natural_frequencies_Hz(*study);
         modes.speeds = frequencies_over_speed(*study, kHighestSpeed, kSpeeds);
+        if (is_coupled(*study)) {
+            modes.train_Hz = train_frequencies_Hz(Scene(resolve_numerics(*study).study));
+        }
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
         return kBadInput;
@@ -129,7 +141,11 @@ int modes_command(const ModesOptions& options) {
             return kDone;
         }
     }
-    print_frequencies(modes.frequencies_Hz);
+    print_frequencies(is_coupled(*study) ? " of the gearbox alone" : "", modes.frequencies_Hz);
+    if (!modes.train_Hz.empty()) {
+        fmt::print("\n");
+        print_frequencies(" of the train with its elastic shafts", modes.train_Hz);
+    }
     print_critical_speeds(*study, modes);
     if (!options.html.empty()) {
         fmt::print("\npage: {}\n", options.html);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -30,6 +31,18 @@ lockstep::ShaftEnd shaft_end(const Scene& gearbox, Member shaft) {
     const double turning = gearbox.drivetrain().rotation_m_s(nominal_inputs(gearbox.study())) *
                            dynamics::rigid_rotation(layout)(degree.degree);
     return {degree.degree, std::copysign(1.0 / degree.radius_m, turning)};
+}
+
+// Both ends of a stage's shaft. It bears opposite external torques there, so that the sense of the
+// stage follows from its torque.
+std::array<lockstep::ShaftEnd, 2> shaft_ends(const Scene& scene, std::size_t stage) {
+    const NeighbourStage& own = stage_of(scene, stage);
+    std::array<lockstep::ShaftEnd, 2> ends{shaft_end(other_end(scene, stage), *own.shaft),
+                                           shaft_end(scene.stages()[stage], *own.stage_shaft)};
+    if (is_mirrored(scene, stage)) {
+        ends[1].turn_per_m *= -1.0;
+    }
+    return ends;
 }
 
 double mesh_period_of(const Scene& gearbox) {
@@ -127,14 +140,12 @@ void check_balance(const Scene& scene, std::size_t stage) {
     const double torque = shaft_torque_N_m(other, *own.shaft, nominal_inputs(other.study()));
     const double torque_there =
         shaft_torque_N_m(there, *own.stage_shaft, nominal_inputs(there.study()));
-    if (!(torque * torque_there < 0.0)) {
+    if (torque == 0.0 || torque_there == 0.0) {
         throw SceneError(
             kStages,
-            fmt::format("stage \"{}\": the common shaft cannot transmit power, because {}",
-                        own.name,
-                        torque * torque_there > 0.0 ? "it drives both gearboxes or neither"
-                                                    : "one of them bears no torque"),
-            "let one gearbox drive the other: check operation.input, shaft and stage_shaft");
+            fmt::format("stage \"{}\": the common shaft bears no torque {}", own.name,
+                        torque == 0.0 ? "in the gearbox at its other end" : "in this stage"),
+            "give both a torque (operation.torque_N_m)");
     }
 }
 
@@ -144,6 +155,15 @@ double shaft_torque_N_m(const Scene& gearbox, Member shaft, const InstanceInputs
     const lockstep::ShaftEnd end = shaft_end(gearbox, shaft);
     return dynamics::torque_force(gearbox.plan().layout, gearbox.inputs(inputs))(end.degree) /
            end.turn_per_m;
+}
+
+bool is_mirrored(const Scene& scene, std::size_t stage) {
+    const NeighbourStage& own = stage_of(scene, stage);
+    const Scene& other = other_end(scene, stage);
+    const Scene& there = scene.stages()[stage];
+    return shaft_torque_N_m(other, *own.shaft, nominal_inputs(other.study())) *
+               shaft_torque_N_m(there, *own.stage_shaft, nominal_inputs(there.study())) >
+           0.0;
 }
 
 double shaft_inertia_kg_m2(const Scene& gearbox, Member shaft) {
@@ -178,6 +198,47 @@ ShaftMode shaft_mode(const Scene& scene, std::size_t stage) {
     const double inertia = a * b / (a + b), stiffness = own.shaft_stiffness_N_m_rad;
     return {std::sqrt(stiffness / inertia) / (2.0 * std::numbers::pi),
             2.0 * own.shaft_damping_ratio * std::sqrt(stiffness * inertia)};
+}
+
+std::vector<double> train_frequencies_Hz(const Scene& scene) {
+    std::vector<const Scene*> gearboxes{&scene};
+    std::vector<Eigen::Index> first{0}, first_of_stage(scene.stages().size(), 0);
+    const auto degrees = [](const Scene& gearbox) {
+        return Eigen::Index{dynamics::degrees_of_freedom(gearbox.plan().layout)};
+    };
+    Eigen::Index size = degrees(scene);
+    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
+        if (stage_of(scene, i).coupled()) {
+            gearboxes.push_back(&scene.stages()[i]);
+            first.push_back(size);
+            first_of_stage[i] = size;
+            size += degrees(scene.stages()[i]);
+        }
+    }
+    dynamics::GearboxMatrices train = dynamics::zero_matrices(static_cast<int>(size));
+    for (std::size_t g = 0; g < gearboxes.size(); ++g) {
+        const auto own =
+            dynamics::assemble(gearboxes[g]->plan().layout,
+                               gearboxes[g]->inputs(nominal_inputs(gearboxes[g]->study())),
+                               gearboxes[g]->mean_pairs());
+        const Eigen::Index n = own.mass.rows();
+        train.mass.block(first[g], first[g], n, n) = own.mass;
+        train.stiffness.block(first[g], first[g], n, n) = own.stiffness;
+    }
+    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
+        if (!stage_of(scene, i).coupled()) {
+            continue;
+        }
+        const auto other = other_stage(scene.study(), i);
+        const auto [here, there] = shaft_ends(scene, i);
+        dynamics::SpringDamper shaft;
+        shaft.row = Eigen::VectorXd::Zero(size);
+        shaft.row((other ? first_of_stage[*other] : 0) + here.degree) = here.turn_per_m;
+        shaft.row(first_of_stage[i] + there.degree) = -there.turn_per_m;
+        shaft.stiffness = stage_of(scene, i).shaft_stiffness_N_m_rad;
+        dynamics::add(train, shaft);
+    }
+    return dynamics::natural_frequencies_Hz(train);
 }
 
 CoupledSpan coupled_span(const Scene& scene, int run_in_meshes) {
@@ -219,8 +280,8 @@ std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const C
         lockstep::CouplingShaft shaft;
         shaft.stage[0] = other ? number_of(*other) : 0;
         shaft.stage[1] = number_of(of.stage);
-        shaft.end[0] = shaft_end(other_end(scene, of.stage), *own.shaft);
-        shaft.end[1] = shaft_end(scene.stages()[of.stage], *own.stage_shaft);
+        const auto ends = shaft_ends(scene, of.stage);
+        std::ranges::copy(ends, shaft.end);
         shaft.stiffness_N_m_rad.assign(lanes, own.shaft_stiffness_N_m_rad);
         shaft.damping_N_m_s_rad.assign(lanes, shaft_mode(scene, of.stage).damping_N_m_s_rad);
         shafts.push_back(std::move(shaft));

@@ -21,6 +21,11 @@ const Scene& other_end(const Scene& scene, std::size_t stage);
 // Index of that stage; empty for the study's gearbox.
 std::optional<std::size_t> other_stage(const Study& study, std::size_t stage);
 
+// True if the study of a stage lets the other side drive, so that its shaft would bear torques of
+// the same sense at both ends. The stage then is the mirror image of its study: everything turns
+// the other way, under the same forces.
+bool is_mirrored(const Scene& scene, std::size_t stage);
+
 // Frequency at which the gearboxes at both ends of a stage's shaft would turn against each other as
 // rigid bodies, Hz, and the shaft's damping for the stage's damping ratio of that motion, N m
 // s/rad.
@@ -28,6 +33,10 @@ struct ShaftMode {
     double frequency_Hz = 0.0, damping_N_m_s_rad = 0.0;
 };
 ShaftMode shaft_mode(const Scene& scene, std::size_t stage);
+
+// Natural frequencies of the whole train, all gearboxes that elastic shafts couple, at mean mesh
+// stiffness and without rotation of the carriers, Hz, ascending.
+std::vector<double> train_frequencies_Hz(const Scene& scene);
 
 // One stage in the common integration, in mesh periods of its own except for the times.
 struct StageSpan {
@@ -51,8 +60,8 @@ std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const C
                                                      std::size_t lanes);
 
 // Throws SceneError unless the stages can be integrated together: all by the central difference
-// method in double precision with steps that are stable with the shafts, under steady loads that
-// are in balance at every shaft.
+// method in double precision with steps that are stable with the shafts, under steady loads
+// of which every shaft bears a part.
 void check_coupling(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -41,9 +41,12 @@ std::string shaft_text(const Scene& scene, std::size_t stage) {
                ? fmt::format(
                      "the shaft twists by {:.3g} N m/rad: both gearboxes would turn against "
                      "each other at {:.3g} Hz with a damping ratio of {:g}; it sets the "
-                     "torque of the stage",
+                     "torque of the stage{}",
                      own.shaft_stiffness_N_m_rad, shaft_mode(scene, stage).frequency_Hz,
-                     own.shaft_damping_ratio)
+                     own.shaft_damping_ratio,
+                     is_mirrored(scene, stage)
+                         ? "; its study is mirrored, since it lets the other side drive"
+                         : "")
                : "the shaft transmits no vibration (no shaft_stiffness_N_m_rad)";
 }
 

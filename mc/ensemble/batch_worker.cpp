@@ -72,13 +72,19 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
     computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
+    const Study& study = task_.scene.study();
+    std::vector<LaneSignals> others(ids.size());
+    if (has_other_fault(study) && ids.front().group == Group::threshold) {
+        others = with_other_fault(task_.scene, std::span(computed.realizations).first(ids.size()),
+                                  signals);
+    }
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::throw_if_cancelled();
         // freed when the rows of this gearbox are done
-        const LaneSignals own = std::move(signals[lane]);
+        const LaneSignals own = std::move(signals[lane]), other = std::move(others[lane]);
         Realization& record = computed.realizations[lane];
         for (record.id.repeat = 0; record.id.repeat < records; ++record.id.repeat) {
-            add_row(record, computed, lane, own, rows);
+            add_row(record, computed, lane, own, other, rows);
         }
     }
     const double spent_s = seconds_since(start);
@@ -94,8 +100,8 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
                 computed.superposition_fallbacks};
 }
 
-std::vector<double> BatchWorker::variants_of(const Realization& record,
-                                             const LaneSignals& signals) {
+std::vector<double> BatchWorker::variants_of(const Realization& record, const LaneSignals& signals,
+                                             const LaneSignals& other) {
     const Study& study = task_.scene.study();
     std::vector<double> all;
     const auto add = [&](const std::vector<double>& values) {
@@ -107,8 +113,6 @@ std::vector<double> BatchWorker::variants_of(const Realization& record,
     }
     if (has_other_fault(study)) {
         if (record.id.group == Group::threshold) {
-            LaneSignals other = signals;
-            add_other_fault(task_.scene, record, other);
             add(features_.compute(other, record));
         } else {
             add(std::vector<double>(shape_.features * shape_.levels,
@@ -119,7 +123,7 @@ std::vector<double> BatchWorker::variants_of(const Realization& record,
 }
 
 void BatchWorker::add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
-                          const LaneSignals& signals, BatchRows& rows) {
+                          const LaneSignals& signals, const LaneSignals& other, BatchRows& rows) {
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 
@@ -130,7 +134,7 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
     if (status == Status::ok) {
         values = features_.compute(signals, record);
         noise_weight = features_.noise_weight();
-        variants = variants_of(record, signals);
+        variants = variants_of(record, signals, other);
     }
     append_random_inputs(task_.scene.study(), record, noise_weight, rows.values);
     rows.values.push_back(record.inputs.fault_size);

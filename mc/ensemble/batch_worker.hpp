@@ -64,12 +64,14 @@ class BatchWorker {
   private:
     void add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                   Seconds& seconds);
-    // Adds the row of one record of the gearbox in a lane.
+    // Adds the row of one record of the gearbox in a lane. `other`: the record with the other
+    // fault.
     void add_row(const Realization& record, const GearboxTile& computed, std::size_t lane,
-                 const LaneSignals& signals, BatchRows& rows);
+                 const LaneSignals& signals, const LaneSignals& other, BatchRows& rows);
 
     // Features of the variants of a record: additional sensors, another fault.
-    std::vector<double> variants_of(const Realization& record, const LaneSignals& signals);
+    std::vector<double> variants_of(const Realization& record, const LaneSignals& signals,
+                                    const LaneSignals& other);
 
     const BatchTask& task_;
     RealizationFeatures features_;

@@ -105,22 +105,24 @@ void add_coupled_stages(const Scene& scene, const LaneSignals& record,
     }
 }
 
-// Adds to the samples of a record what the fault of a coupled stage changes in them: vibration of
-// that stage, and of the study's gearbox to which the shaft carries it. NaN if a gearbox fails.
-void add_coupled_fault(const Scene& scene, std::size_t stage, const Realization& realization,
-                       const LaneSignals& record, std::vector<double>& samples) {
+// Adds to samples of records what the fault of a coupled stage changes in them: vibration of that
+// stage, and of the study's gearbox to which the shaft carries it. NaN if a gearbox fails.
+void add_coupled_fault(const Scene& scene, std::size_t stage,
+                       std::span<const Realization> realizations,
+                       std::span<const LaneSignals> records,
+                       std::vector<std::vector<double>>& samples) {
     const SensorPaths path = sensor_paths(scene);
     const GearboxTile tile =
-        run_realizations(scene, path, {realization}, 1, {.faulty_stage = stage});
-    if (tile.status[0] != Status::ok) {
-        std::ranges::fill(samples, std::numeric_limits<double>::quiet_NaN());
-        return;
-    }
-    const std::vector<double> faulty =
-        lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
-    const auto first = static_cast<std::size_t>(record.first_mesh * scene.samples_per_mesh());
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        samples[i] += faulty[first + i] - record.sensor[i];
+        run_realizations(scene, path, {realizations.begin(), realizations.end()},
+                         scene.study().numerics.lanes, {.faulty_stage = stage});
+    const std::vector<LaneSignals> faulty =
+        all_lane_signals(scene, path, tile, scene.signal_meshes());
+    for (std::size_t r = 0; r < samples.size(); ++r) {
+        for (std::size_t i = 0; i < samples[r].size(); ++i) {
+            samples[r][i] += tile.status[r] == Status::ok
+                                 ? faulty[r].sensor[i] - records[r].sensor[i]
+                                 : std::numeric_limits<double>::quiet_NaN();
+        }
     }
 }
 
@@ -193,8 +195,8 @@ Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realizati
         const auto other = other_stage(scene.study(), stage);
         const InstanceInputs inputs =
             other ? stage_gearbox(scene, *other, record).inputs : record.inputs;
-        torque = -shaft_torque_N_m(other_end(scene, stage), *coupled.shaft, inputs) /
-                 shaft_torque_N_m(own, *coupled.stage_shaft, gearbox.inputs);
+        torque = std::abs(shaft_torque_N_m(other_end(scene, stage), *coupled.shaft, inputs) /
+                          shaft_torque_N_m(own, *coupled.stage_shaft, gearbox.inputs));
     }
     gearbox.inputs.torque_N_m *= torque;
     gearbox.inputs.fixed_shaft.load_torque_N_m *= torque;
@@ -239,25 +241,41 @@ void add_background(const Scene& scene, std::span<const Realization> realization
     }
 }
 
-void add_other_fault(const Scene& scene, const Realization& realization, LaneSignals& record) {
-    if (record.sensor.empty() || !has_other_fault(scene.study())) {
-        return;
+std::vector<LaneSignals> with_other_fault(const Scene& scene,
+                                          std::span<const Realization> realizations,
+                                          std::span<const LaneSignals> records) {
+    std::vector<LaneSignals> other(records.begin(), records.end());
+    if (records.front().sensor.empty()) {
+        return other;
     }
-    std::vector<double> samples(record.sensor.size(), 0.0);
-    add_bearings(scene, realization, SourceRole::other_fault, samples);
+    std::vector<std::vector<double>> samples;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        samples.emplace_back(records[i].sensor.size(), 0.0);
+        add_bearings(scene, realizations[i], SourceRole::other_fault, samples[i]);
+    }
     const std::vector<NeighbourStage>& stages = scene.study().sensor.stages;
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
-        if (stages[stage].role == SourceRole::other_fault && stages[stage].coupled()) {
-            add_coupled_fault(scene, stage, realization, record, samples);
-        } else if (stages[stage].role == SourceRole::other_fault) {  // in place of the healthy one
-            const double gain = stages[stage].gain;
-            const StageRecord both[] = {
-                {&realization, stage_gearbox(scene, stage, realization, true), gain, &samples},
-                {&realization, stage_gearbox(scene, stage, realization), -gain, &samples}};
-            add_stage(scene, stage, both);
+        if (stages[stage].role != SourceRole::other_fault) {
+            continue;
         }
+        if (stages[stage].coupled()) {
+            add_coupled_fault(scene, stage, realizations, records, samples);
+            continue;
+        }
+        std::vector<StageRecord> next;  // the faulty stage in place of the healthy one
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const double gain = stages[stage].gain;
+            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i], true),
+                            gain, &samples[i]});
+            next.push_back({&realizations[i], stage_gearbox(scene, stage, realizations[i]), -gain,
+                            &samples[i]});
+        }
+        add_stage(scene, stage, next);
     }
-    add_samples(scene, samples, record);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        add_samples(scene, samples[i], other[i]);
+    }
+    return other;
 }
 
 }  // namespace gearpod::mc

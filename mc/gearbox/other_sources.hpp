@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/study/other_sources.hpp"
@@ -26,8 +27,10 @@ Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realizati
 // record next to whose gearbox a stage fails becomes NaN.
 void add_background(const Scene& scene, std::span<const Realization> realizations,
                     std::span<LaneSignals> records);
-// Adds the other fault to the samples of the first sensor, likewise. The record must hold the
-// background.
-void add_other_fault(const Scene& scene, const Realization& realization, LaneSignals& record);
+// The whole records of these gearboxes, with their background, and with the other fault in the
+// samples of the first sensor. Requires has_other_fault(study).
+std::vector<LaneSignals> with_other_fault(const Scene& scene,
+                                          std::span<const Realization> realizations,
+                                          std::span<const LaneSignals> records);
 
 }  // namespace gearpod::mc

@@ -92,8 +92,8 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
     const LaneSignals all = lane_signals(scene, path, tile, 0, scene.signal_meshes());
     add_sensor(scene, realization, all, features, "sensor", rows, out);
     if (has_other_fault(scene.study())) {
-        LaneSignals other = all;
-        add_other_fault(scene, realization, other);
+        LaneSignals other =
+            with_other_fault(scene, std::span(&realization, 1), std::span(&all, 1)).front();
         std::ranges::transform(other.sensor, all.sensor, other.sensor.begin(), std::minus<>());
         std::vector<double> samples = drawn_record(scene, std::move(other), realization).sensor;
         samples.resize(rows);

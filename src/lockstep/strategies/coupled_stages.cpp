@@ -56,8 +56,8 @@ class StageTile : SpanTile<W> {
         const double* v = this->state_.v.data() + end.degree * W;
         const double* previous = previous_m_s_.data() + shaft * W;
         for (std::size_t l = 0; l < W; ++l) {
-            motion.turn[l] = end.turn_per_m * std::fma(ahead * mesh_period_s_[l], v[l], q[l]);
-            motion.rate[l] = end.turn_per_m * std::fma(part, v[l] - previous[l], v[l]);
+            motion.turn[l] = end.turn_per_m * (q[l] + ahead * mesh_period_s_[l] * v[l]);
+            motion.rate[l] = end.turn_per_m * (v[l] + part * (v[l] - previous[l]));
         }
         return motion;
     }
@@ -79,7 +79,7 @@ class StageTile : SpanTile<W> {
                            const StageTile& first) {
         const double later = (time_at(position_phase()) - first.time_at(first.position_phase())) *
                              first.mesh_period_s_[lane];
-        this->rotation_.subtract(std::fma(later, speed_m_s, position_m), lane, this->state_.q);
+        this->rotation_.subtract(position_m + later * speed_m_s, lane, this->state_.q);
         this->rotation_.subtract(speed_m_s, lane, this->state_.v);
         for (std::size_t shaft = 0; shaft < shafts_.size(); ++shaft) {
             previous_m_s_[shaft * W + lane] -=
@@ -241,8 +241,8 @@ class ShaftTorque {
         double* torque = stages[stage]->torques().data() + column_[side] * W;
         for (std::size_t l = 0; l < W; ++l) {
             const double twist = a.turn[l] - b.turn[l] - twist_[l];
-            torque[l] = sign * std::fma(shaft_.stiffness_N_m_rad[l], twist,
-                                        shaft_.damping_N_m_s_rad[l] * (a.rate[l] - b.rate[l]));
+            torque[l] = sign * (shaft_.stiffness_N_m_rad[l] * twist +
+                                shaft_.damping_N_m_s_rad[l] * (a.rate[l] - b.rate[l]));
         }
     }
 

@@ -12,6 +12,7 @@
 #include "mc/gearbox/record_window.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
+#include "tests/mc/gearbox/stage_files.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_neighbour_stages {
@@ -20,31 +21,10 @@ using namespace gearpod;
 using test::Folder;
 using test::kSmall;
 using test::program;
+using test::stage_file;
+using test::stages;
 
 namespace {
-
-// Sun speed of the stage's study, rpm: its sun is on the carrier's shaft of the small gearbox.
-constexpr double kSunRpm = 60.0;
-
-// The small gearbox with its sun on the carrier's shaft, and a fault of the stage.
-std::string stage_file(const Folder& folder, const std::string& name, double sun_rpm = kSunRpm) {
-    std::string text = test::bytes_of(kSmall);
-    const auto replace = [&](const std::string& old, const std::string& by) {
-        const std::size_t at = text.find(old);
-        REQUIRE(at != std::string::npos);
-        text.replace(at, old.size(), by);
-    };
-    replace("carrier_speed_rpm = 60", "carrier_speed_rpm = " + std::to_string(sun_rpm * 13 / 48));
-    replace("reduction = 0", "reduction = 0.4");
-    const std::string path = folder.file(name);
-    std::ofstream(path) << text;
-    return path;
-}
-
-std::string stages(const std::string& path, const std::string& more) {
-    return "--set 'sensor.stages=[{name=\"slow\", study=\"" + path +
-           "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]' ";
-}
 
 // Study of the small gearbox next to that stage.
 mc::Study small_study(const std::string& path, const std::string& more) {
