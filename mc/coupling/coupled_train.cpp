@@ -18,8 +18,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr const char* kStages = "sensor.stages";
-
 const NeighbourStage& stage_of(const Scene& scene, std::size_t stage) {
     return scene.study().sensor.stages[stage];
 }
@@ -95,7 +93,7 @@ void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
     const std::string of = stage ? fmt::format("stage \"{}\": ", stage_of(scene, *stage).name) : "";
     const char* where = stage ? "in the study of that stage" : "here";
     if (!lockstep::supports_steps(gearbox.plan())) {
-        throw SceneError(kStages,
+        throw SceneError(kStagesKey,
                          of + "a shaft with a stiffness needs the central difference method in "
                               "double precision",
                          fmt::format("give numerics.integrator = \"central-difference\" and "
@@ -103,18 +101,18 @@ void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
                                      where));
     }
     if (has_variable_excitation(study)) {
-        throw SceneError(kStages,
+        throw SceneError(kStagesKey,
                          of + "a shaft with a stiffness needs a steady torque and speed without "
                               "gravity",
                          fmt::format("remove fluctuations and effects.gravity {}", where));
     }
     if (stage && has_housing(study)) {
-        throw SceneError(kStages, of + "a coupled stage cannot have a housing of its own",
+        throw SceneError(kStagesKey, of + "a coupled stage cannot have a housing of its own",
                          "remove it there; the gain of the stage stands for its path");
     }
     const auto shafts = shafts_at(scene, stage);
     if (shafts.size() > lockstep::kMostShafts) {
-        throw SceneError(kStages,
+        throw SceneError(kStagesKey,
                          fmt::format("{}{} elastic shafts at one gearbox; at most {} can be "
                                      "computed",
                                      of, shafts.size(), lockstep::kMostShafts),
@@ -124,7 +122,7 @@ void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
     const auto steps = static_cast<double>(gearbox.plan().grid.steps.size());
     if (steps < needed) {
         throw SceneError(
-            kStages,
+            kStagesKey,
             fmt::format("{}with its shafts the gearbox needs {:.0f} steps per mesh period to be "
                         "stable, and has {:.0f}",
                         of, std::ceil(needed), steps),
@@ -142,7 +140,7 @@ void check_balance(const Scene& scene, std::size_t stage) {
         shaft_torque_N_m(there, *own.stage_shaft, nominal_inputs(there.study()));
     if (torque == 0.0 || torque_there == 0.0) {
         throw SceneError(
-            kStages,
+            kStagesKey,
             fmt::format("stage \"{}\": the common shaft bears no torque {}", own.name,
                         torque == 0.0 ? "in the gearbox at its other end" : "in this stage"),
             "give both a torque (operation.torque_N_m)");

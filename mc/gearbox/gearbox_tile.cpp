@@ -50,16 +50,30 @@ void add_status(const Scene& scene, GearboxTile& tile) {
     }
 }
 
-// Solves the tile by the strategy of its study.
-void choose_and_solve(const Scene& scene, const lockstep::RecordOptions& records,
-                      const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
-    if (is_coupled(scene.study())) {
-        solve_coupled(scene, records, on_record, options.faulty_stage, tile);
-        return;
+void keep_solution(TileSolution solved, GearboxTile& tile) {
+    tile.integration = std::move(solved.integration);
+    tile.coupled = std::move(solved.coupled);
+    tile.stiffness_s = solved.stiffness_s;
+    tile.integration_s = solved.integration_s;
+    tile.integration_cpu_s = solved.integration_cpu_s;
+    tile.meshes = solved.meshes;
+    if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
+        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
+        tile.superposition_fallbacks =
+            static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
     }
-    solve(
-        scene,
-        [&](const TileLoads& loads) { return choose_solution(scene, loads, records, on_record); },
+}
+
+// Solves the tile by the strategy of its study.
+void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
+                     const OnRecord& on_record, const TileOptions& options, GearboxTile& tile) {
+    keep_solution(
+        is_coupled(scene.study())
+            ? solve_coupled(scene, tile.realizations, records, on_record, options.faulty_stage)
+            : solve(scene, tile.realizations,
+                    [&](const TileLoads& loads) {
+                        return choose_solution(scene, loads, records, on_record);
+                    }),
         tile);
 }
 
@@ -67,7 +81,7 @@ void choose_and_solve(const Scene& scene, const lockstep::RecordOptions& records
 void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOptions& options,
                       GearboxTile& tile) {
     TileSensorRecorder recorder(scene, path, tile.realizations, options.signal_meshes);
-    choose_and_solve(scene, {}, std::ref(recorder), options, tile);
+    solve_by_choice(scene, {}, std::ref(recorder), options, tile);
     tile.sensor_recorders = recorder.take_recorders();
     tile.integration_s -= recorder.spent_s();
     tile.integration_cpu_s -= recorder.spent_s();
@@ -124,8 +138,8 @@ void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& op
     } else if (records_during_integration(scene) && !options.records) {
         solve_and_record(scene, path, options, tile);
     } else {
-        choose_and_solve(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
-                         options, tile);
+        solve_by_choice(scene, options.records.value_or(lockstep::RecordOptions{}), nullptr,
+                        options, tile);
         if (cache != nullptr) {
             cache->keep(tile.realizations, tile.integration);
         }
@@ -284,8 +298,9 @@ GearboxTile run_realizations(const Scene& scene, const SensorPaths& path,
 GearboxTile run_fault_perturbations(const Scene& scene, std::vector<Realization> realizations,
                                     int lanes, const lockstep::SpanStates& healthy) {
     GearboxTile tile = tile_of(std::move(realizations), lanes);
-    solve(
-        scene, [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); },
+    keep_solution(
+        solve(scene, tile.realizations,
+              [&](const TileLoads& loads) { return fault_perturbation(scene, loads, healthy); }),
         tile);
     add_status(scene, tile);
     return tile;

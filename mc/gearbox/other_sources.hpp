@@ -14,13 +14,6 @@ namespace gearpod::mc {
 signals::BearingImpulses bearing_impulses(const Scene& scene, const InstanceInputs& inputs,
                                           const Bearing& bearing);
 
-// Gearbox of stage number `stage` next to the study's gearbox of a record, with the stage's fault
-// if `faulty`. Torque and speed differ from their nominal values by the same factors as here; the
-// torque of a coupled stage balances that of its shaft. Next to a nominal torque of 0 it has its
-// own torque.
-Realization stage_gearbox(const Scene& scene, std::size_t stage, const Realization& record,
-                          bool faulty = false);
-
 // Adds the background sources to the samples of all sensors of records and folds them again. No
 // effect without samples. Coupled stages have vibrated with the gearbox (LaneSignals::coupled);
 // other stages are integrated here. Samples count as evenly spaced even if the speed fluctuates. A

@@ -6,8 +6,8 @@
 #include "lockstep/steps/instability.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/coupling/coupled_train.hpp"
+#include "mc/coupling/stage_gearbox.hpp"
 #include "mc/gearbox/lane_count.hpp"
-#include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
@@ -87,41 +87,37 @@ std::vector<lockstep::TileResult> run_coupled(int lanes,
 
 }  // namespace
 
-void solve(const Scene& scene,
-           const std::function<lockstep::Solution(const TileLoads&)>& solution_of,
-           GearboxTile& tile) {
+TileSolution solve(const Scene& scene, std::span<const Realization> realizations,
+                   const std::function<lockstep::Solution(const TileLoads&)>& solution_of) {
     auto start = WallClock::now();
-    SolutionInputs inputs(scene, tile.realizations);
-    tile.stiffness_s = lap(start);
-    inputs.loads.excitation = draw_excitation(scene, tile.realizations);
+    TileSolution solved;
+    SolutionInputs inputs(scene, {realizations.begin(), realizations.end()});
+    solved.stiffness_s = lap(start);
+    inputs.loads.excitation = draw_excitation(scene, realizations);
     const lockstep::Solution solution = solution_of(inputs.loads);
     const double processor_start = thread_processor_s();
-    tile.integration = with_lane_count(static_cast<int>(tile.realizations.size()), [&](auto lanes) {
+    solved.integration = with_lane_count(static_cast<int>(realizations.size()), [&](auto lanes) {
         return lockstep::run_tile<lanes()>(scene.plan(), inputs.gearboxes, inputs.faults, solution);
     });
-    tile.integration_s = lap(start);
-    tile.meshes = tile.integration.integrated_meshes;
-    if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
-        tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
-        tile.superposition_fallbacks =
-            static_cast<std::ptrdiff_t>(tile.gearboxes) - tile.superposed;
-    }
-    tile.integration_cpu_s = thread_processor_s() - processor_start;
+    solved.integration_s = lap(start);
+    solved.meshes = solved.integration.integrated_meshes;
+    solved.integration_cpu_s = thread_processor_s() - processor_start;
+    return solved;
 }
 
-void solve_coupled(const Scene& scene, const lockstep::RecordOptions& options,
-                   const OnRecord& on_record, std::optional<std::size_t> faulty_stage,
-                   GearboxTile& tile) {
+TileSolution solve_coupled(const Scene& scene, std::span<const Realization> realizations,
+                           const lockstep::RecordOptions& options, const OnRecord& on_record,
+                           std::optional<std::size_t> faulty_stage) {
     auto start = WallClock::now();
-    const std::size_t lanes = tile.realizations.size();
+    TileSolution solved;
     const CoupledSpan span = coupled_span(scene, run_in_meshes(scene));
-    const SolutionInputs own(scene, tile.realizations);
+    const SolutionInputs own(scene, {realizations.begin(), realizations.end()});
     std::vector<std::unique_ptr<StageTask>> tasks;
     std::vector<lockstep::CoupledStage> stages{
         own.stage(scene, {scene.recorded_meshes(), span.run_in, options, on_record}, 1.0)};
     for (const StageSpan& stage : span.stages) {
         std::vector<Realization> gearboxes;
-        for (const Realization& record : tile.realizations) {
+        for (const Realization& record : realizations) {
             gearboxes.push_back(
                 stage_gearbox(scene, stage.stage, record, faulty_stage == stage.stage));
         }
@@ -131,27 +127,28 @@ void solve_coupled(const Scene& scene, const lockstep::RecordOptions& options,
         stages.push_back(task.inputs.stage(
             task.scene, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}, stage.period));
     }
-    tile.stiffness_s = lap(start);
+    solved.stiffness_s = lap(start);
     const double processor_start = thread_processor_s();
+    const std::size_t lanes = realizations.size();
     std::vector<lockstep::TileResult> results =
         run_coupled(static_cast<int>(lanes), stages, coupling_shafts(scene, span, lanes),
                     convergence_of(scene));
-    tile.integration_s = lap(start);
-    tile.integration_cpu_s = thread_processor_s() - processor_start;
+    solved.integration_s = lap(start);
+    solved.integration_cpu_s = thread_processor_s() - processor_start;
+    solved.integration = std::move(results[0]);
+    solved.meshes = solved.integration.integrated_meshes;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         const SensorRecorders recorders = tasks[i]->recorder.take_recorders();
-        tile.coupled.push_back(
-            recorders.front().front()->signals(tile.gearboxes, span.stages[i].meshes));
-        tile.meshes += results[i + 1].integrated_meshes;
+        solved.coupled.push_back(recorders.front().front()->signals(lanes, span.stages[i].meshes));
+        solved.meshes += results[i + 1].integrated_meshes;
         // A gearbox fails if any of its stages does.
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            if (results[0].status[lane] == lockstep::LaneStatus::ok) {
-                results[0].status[lane] = results[i + 1].status[lane];
+            if (solved.integration.status[lane] == lockstep::LaneStatus::ok) {
+                solved.integration.status[lane] = results[i + 1].status[lane];
             }
         }
     }
-    tile.integration = std::move(results[0]);
-    tile.meshes += tile.integration.integrated_meshes;
+    return solved;
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {

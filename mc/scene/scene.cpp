@@ -10,6 +10,7 @@
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -28,20 +29,18 @@ bool differ_only_in_convergence_tolerance(Numerics a, const Numerics& b) {
     return a == b;
 }
 
-constexpr const char* kStages = "sensor.stages";
-
 std::string named(const NeighbourStage& stage, const std::string& what) {
     return fmt::format("stage \"{}\": {}", stage.name, what);
 }
 
 void check_steady(const NeighbourStage& stage) {
     if (speed_fluctuates(*stage.study) || has_random_fluctuations(*stage.study)) {
-        throw SceneError(kStages, named(stage, "its torque or speed fluctuates within a record"),
+        throw SceneError(kStagesKey, named(stage, "its torque or speed fluctuates within a record"),
                          "give it a steady torque and speed");
     }
     for (const RandomInput& input : stage.study->random) {
         if (input.key.starts_with("operation.") && input.key.find("speed") != std::string::npos) {
-            throw SceneError(kStages,
+            throw SceneError(kStagesKey,
                              named(stage, input.key + " is random, but the common shaft sets it"),
                              "remove it from [random] there");
         }
@@ -52,7 +51,7 @@ void check_steady(const NeighbourStage& stage) {
 double turns_Hz(const Study& study, Member shaft, const NeighbourStage& stage) {
     if (!has_shaft(study.gearbox.kind, shaft)) {
         throw SceneError(
-            kStages,
+            kStagesKey,
             named(stage, fmt::format("a {} gearbox has no {}",
                                      study.gearbox.kind == GearboxKind::planetary ? "planetary"
                                                                                   : "fixed-shaft",
@@ -63,7 +62,7 @@ double turns_Hz(const Study& study, Member shaft, const NeighbourStage& stage) {
     const double turns = drivetrain->shaft_turns_per_mesh(shaft) *
                          std::abs(nominal_mesh_frequency_Hz(study, *drivetrain));
     if (turns == 0.0) {
-        throw SceneError(kStages,
+        throw SceneError(kStagesKey,
                          named(stage, fmt::format("the {} of its common shaft stands still",
                                                   member_name(shaft))),
                          "name shafts that turn");
@@ -106,7 +105,7 @@ std::vector<Scene> make_stages(const Study& study) {
         try {
             scenes.emplace_back(studies[i]);
         } catch (const SceneError& error) {
-            throw SceneError(kStages, named(stage, error.key() + ": " + error.what()),
+            throw SceneError(kStagesKey, named(stage, error.key() + ": " + error.what()),
                              error.remedy(), error.kind());
         }
         const InstanceInputs nominal = nominal_inputs(studies[i]);
@@ -114,7 +113,7 @@ std::vector<Scene> make_stages(const Study& study) {
             std::ranges::none_of(studies[i].random, [](const RandomInput& input) {
                 return input.key.starts_with("fault.");
             })) {
-            throw SceneError(kStages, named(stage, "its other fault has the size 0"),
+            throw SceneError(kStagesKey, named(stage, "its other fault has the size 0"),
                              "give its [fault] a size");
         }
     }

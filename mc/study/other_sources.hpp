@@ -16,6 +16,8 @@ double impulses_per_turn(const Bearing& bearing);
 // Turns of the faulty part through the load zone per turn of the shaft; 0 for a constant load.
 double load_turns_per_turn(const Bearing& bearing);
 
+inline constexpr const char* kStagesKey = "sensor.stages";
+
 // True if there are bearings or stages, which differ between the records of a gearbox.
 bool has_other_sources(const Study& study);
 // True if an elastic shaft couples a stage with the study's gearbox.

@@ -286,13 +286,13 @@ std::vector<TileResult> run_coupled_stages(std::span<const CoupledStage> stages,
     }
     const CommonRotation<W> rotation(shafts, columns, tiles);
     while (!std::ranges::all_of(tiles, &StageTile<W>::finished)) {
-        const auto behind = static_cast<std::size_t>(
+        const auto earliest = static_cast<std::size_t>(
             std::ranges::min_element(tiles, {}, &StageTile<W>::next) - tiles.begin());
         for (const ShaftTorque<W>& torque : torques) {
-            torque.set(behind, tiles);
+            torque.set(earliest, tiles);
         }
-        tiles[behind]->step();
-        if (behind == 0 && tiles[0]->begins_mesh() && !shafts.empty()) {
+        tiles[earliest]->step();
+        if (earliest == 0 && tiles[0]->begins_mesh() && !shafts.empty()) {
             rotation.remove(tiles);
         }
     }

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "mc/coupling/coupled_train.hpp"
-#include "mc/gearbox/other_sources.hpp"
+#include "mc/coupling/stage_gearbox.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "tests/mc/gearbox/stage_files.hpp"
 #include "tests/mc/study_file.hpp"

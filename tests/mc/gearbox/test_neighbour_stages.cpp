@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "mc/coupling/stage_gearbox.hpp"
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/results/results_file.hpp"
