@@ -86,7 +86,7 @@ std::vector<dynamics::SpringDamper> shafts_at(const Scene& scene,
     return shafts;
 }
 
-// `name`: of the gearbox in messages, "" for the study's own.
+// Checks that a gearbox, the study's own without `stage`, can be integrated with its shafts.
 void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
     const Scene& gearbox = stage ? scene.stages()[*stage] : scene;
     const Study& study = gearbox.study();
@@ -290,6 +290,16 @@ std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const C
 void check_coupling(const Scene& scene) {
     if (!is_coupled(scene.study())) {
         return;
+    }
+    if (scene.study().effects.quasi_static()) {
+        throw SceneError("effects.motion",
+                         "an elastic shaft to another stage needs gears with inertia",
+                         "choose another motion than quasi-static");
+    }
+    if (scene.study().numerics.verify) {
+        throw SceneError("numerics.verify",
+                         "would repeat gearboxes with finer steps of the study's own stage only",
+                         "remove it; compare runs with another numerics.steps_per_mesh");
     }
     if (scene.study().numerics.horizon == Horizon::periodic) {
         throw SceneError("numerics.horizon",

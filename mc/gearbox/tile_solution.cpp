@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "lockstep/steps/instability.hpp"
 #include "machine/thread_clock.hpp"
@@ -81,7 +82,7 @@ std::vector<lockstep::TileResult> run_coupled(int lanes,
         if constexpr (count() <= 8) {
             return lockstep::run_coupled_stages<count()>(stages, shafts, convergence);
         }
-        return {};  // excluded by check_coupling
+        throw std::invalid_argument("coupled stages need at most eight lanes");
     });
 }
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/ranking/combined_detector.hpp"
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/learned_sum.hpp"
 #include "features/feature.hpp"
 #include "features/statistics/median.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -109,6 +111,41 @@ std::vector<double> deviations(const Results& results, const FeatureResult& feat
     return all;
 }
 
+// Gives the features of all sensors in one value, which is positive towards the alarm.
+void set_joint(std::vector<double> values, FeatureResult& feature) {
+    feature.values = std::move(values);
+    feature.unit = "1";
+    feature.alarm = analysis::Alarm::high;
+}
+
+// All sensors in one value: the sum of their deviations with learned weights. Empty if there
+// are too few gearboxes.
+std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) {
+    OneSensor all{"learned sum of all", sensors.front().results};
+    analysis::LearningSample sample;
+    std::size_t number[2] = {0, 0};
+    for (std::size_t row = 0; row < all.results.group.size(); ++row) {
+        const bool graded = all.results.group[row] != static_cast<int>(Group::threshold);
+        const auto records =
+            static_cast<std::size_t>(graded ? 1 : all.results.request.threshold_records);
+        const std::size_t gearbox = number[graded ? 1 : 0]++ / records;
+        sample.half.push_back(analysis::in_training_half(gearbox) ? 1 : 0);
+        sample.faulty.push_back(graded && all.results.parameters[0].values[row] > 0.0);
+    }
+    for (std::size_t f = 0; f < all.results.features.size(); ++f) {
+        sample.values.clear();
+        for (const OneSensor& sensor : sensors) {
+            sample.values.push_back(deviations(sensor.results, sensor.results.features[f]));
+        }
+        auto sums = analysis::learned_sum(sample);
+        if (!sums) {
+            return std::nullopt;
+        }
+        set_joint(*std::move(sums), all.results.features[f]);
+    }
+    return all;
+}
+
 // All sensors in one value: their mean deviation or the largest.
 OneSensor all_sensors(const std::vector<OneSensor>& sensors, bool largest) {
     OneSensor all{largest ? "largest of all" : "mean of all", sensors.front().results};
@@ -129,9 +166,7 @@ OneSensor all_sensors(const std::vector<OneSensor>& sensors, bool largest) {
                                        : joint[row] + own[row] / n;
             }
         }
-        feature.values = std::move(joint);
-        feature.unit = "1";
-        feature.alarm = analysis::Alarm::high;
+        set_joint(std::move(joint), feature);
     }
     return all;
 }
@@ -240,6 +275,9 @@ std::vector<SensorDetection> sensor_detections(const Results& frame, const RowSo
     const std::vector<OneSensor> alone = sensors;
     sensors.push_back(all_sensors(alone, false));
     sensors.push_back(all_sensors(alone, true));
+    if (auto learned = learned_sensors(alone)) {
+        sensors.push_back(*std::move(learned));
+    }
     std::vector<SensorDetection> found;
     for (OneSensor& sensor : sensors) {
         found.push_back(detection_of(sensor));
@@ -274,11 +312,14 @@ analysis::Section sensors_section(const Results& frame,
         fmt::format(
             "Each sensor alone, and all together, at noise x {}, with features of the "
             "acceleration. Values of all sensors are the mean and the largest of their "
-            "deviations from healthy gearboxes. The noise of the sensors is independent. Changes "
+            "deviations from healthy gearboxes{}. The noise of the sensors is independent. Changes "
             "are those from the first sensor, "
             "in the same gearboxes, each with its own best feature; a dash where one of both has "
             "no curve.",
-            noise));
+            noise,
+            sensors.back().name.starts_with("learned")
+                ? ", and their sum with weights that are learned in the other half of the gearboxes"
+                : ""));
     analysis::Table table{
         "sensors",
         fmt::format("Smallest fault found with 90 % probability at {} "

@@ -15,7 +15,8 @@ namespace gearpod::mc {
 // A sensor, or a value of all sensors, at the noise level that a report shows first. Only features
 // of the acceleration count.
 struct SensorDetection {
-    std::string name;  // "first", the name of an additional one, "mean of all", "largest of all"
+    std::string name;  // "first", the name of an additional one, "mean of all", "largest of all",
+                       // "learned sum of all"
     std::optional<analysis::SmallestFault> smallest;
     std::string feature;  // of the smallest fault, or else the best ranked one
     // Change from the first sensor with its own feature, in the same gearboxes; empty for the

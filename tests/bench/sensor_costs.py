@@ -2,10 +2,11 @@
 """What each sensor, each part of the background and a stage cost: whole runs on one thread.
 
     tests/bench/sensor_costs.py [--rounds 5] [--instances 64] [--study studies/planet-crack-ideal.toml]
-                                [--program build/gearpod]
+                                [--program build/gearpod] [--shafts]
 
 A round runs the study without any of them, then with each, in turn. Prints the median over the
-rounds of the processor time relative to the same round's study without any.
+rounds of the processor time relative to the same round's study without any. With --shafts, for
+studies that integrate every mesh period, it measures stages with and without an elastic shaft.
 """
 import argparse
 import resource
@@ -17,7 +18,7 @@ import tempfile
 BEARING = ('sensor.bearings=[{fault="inner", shaft="sun", elements=9, diameter_ratio=0.2, '
            'amplitude_m_s2=2, resonance_Hz=600, role="%s"}]')
 STAGE = ('sensor.stages=[{name="first", study="studies/first-stage.toml", shaft="sun", '
-         'stage_shaft="carrier", gain=0.3, role="%s"}]')
+         'stage_shaft="carrier", gain=0.3, role="%s"%s}]')
 ADDED = {
     "two tones": ['sensor.tones=[{frequency_Hz=50, amplitude_m_s2=0.1}, '
                   '{shaft="sun", order=2, amplitude_m_s2=0.1}]'],
@@ -33,10 +34,20 @@ ADDED = {
                             "sensor.response_phase_deg=[0, 90]"],
     "a bearing in the background": [BEARING % "background"],
     "a bearing as another fault": [BEARING % "other_fault"],
-    "a neighbouring stage": [STAGE % "background"],
-    "a stage as another fault": [STAGE % "other_fault"],
+    "a neighbouring stage": [STAGE % ("background", "")],
+    "a stage as another fault": [STAGE % ("other_fault", "")],
     "a background by its spectrum": ["sensor.background_Hz=[20, 1000]",
                                      "sensor.background_density_m_s2_per_sqrt_Hz=[0.01, 0.001]"],
+}
+
+DOUBLE = 'numerics.precision="double"'
+ELASTIC = ", shaft_stiffness_N_m_rad=1.2e4"
+SHAFTS = {
+    "double precision": [DOUBLE],
+    "a neighbouring stage": [STAGE % ("background", "")],
+    "a stage as another fault": [STAGE % ("other_fault", "")],
+    "a stage with an elastic shaft": [DOUBLE, STAGE % ("background", ELASTIC)],
+    "that as another fault": [DOUBLE, STAGE % ("other_fault", ELASTIC)],
 }
 
 
@@ -56,8 +67,10 @@ def main() -> None:
     parser.add_argument("--instances", type=int, default=64)
     parser.add_argument("--study", default="studies/planet-crack-ideal.toml")
     parser.add_argument("--program", default="build/gearpod")
+    parser.add_argument("--shafts", action="store_true", help="stages with and without elastic shafts only")
     options = parser.parse_args()
-    ratios: dict[str, list[float]] = {name: [] for name in ADDED}
+    parts = SHAFTS if options.shafts else ADDED
+    ratios: dict[str, list[float]] = {name: [] for name in parts}
     alone = []
     with tempfile.TemporaryDirectory() as folder:
         command = [options.program, "run", options.study, "--quiet", "--force",
@@ -66,7 +79,7 @@ def main() -> None:
                    "--set", "numerics.threads=1"]
         for _ in range(options.rounds):
             alone.append(processor_s(command))
-            for name, settings in ADDED.items():
+            for name, settings in parts.items():
                 added = [text for setting in settings for text in ("--set", setting)]
                 ratios[name].append(processor_s(command + added) / alone[-1])
     print(f"{options.study}: {2 * options.instances} gearboxes, "

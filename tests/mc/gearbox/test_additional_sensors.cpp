@@ -148,17 +148,19 @@ TEST_CASE("The mean of two sensors has the area under the ROC that theory gives"
         results.variants[0].features[0].values.push_back(3.0 + 0.2 * (unit(engine) + shift));
     }
     const auto found = sensor_detections(results, mc::ColumnRows(results));
-    REQUIRE(found.size() == 4);
+    REQUIRE(found.size() == 5);
     CHECK(found[0].name == "first");
     CHECK(found[1].name == "side");
     CHECK(found[2].name == "mean of all");
     CHECK(found[3].name == "largest of all");
+    CHECK(found[4].name == "learned sum of all");
     REQUIRE(found[2].change);
     const double alone = analysis::normal_cdf(kShift / std::sqrt(2.0)),
                  together = analysis::normal_cdf(kShift);
     CHECK(found[2].change->auc.a == Approx(alone).margin(0.015));
     CHECK(found[2].change->auc.b == Approx(together).margin(0.015));
     CHECK(found[2].change->auc.bounds.lower > 0.0);
+    CHECK(found[4].change->auc.b == Approx(together).margin(0.015));
     CHECK(std::abs(found[1].change->auc.difference()) < 0.02);
 }
 
