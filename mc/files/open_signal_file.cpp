@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "mc/files/formats/file_content.hpp"
+#include "mc/files/formats/uff_file.hpp"
 #include "mc/files/isolated_signal.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/input_file.hpp"
@@ -52,7 +53,7 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (kind == ".tdms") {
         return isolated_signal(path, [&] { return open_signal_tdms(path); });
     }
-    if (is_kind_among(kind, {".uff", ".unv", ".uf58", ".uf", ".ufb"})) {
+    if (std::ranges::count(kUffEndings, kind) > 0) {
         return open_signal_uff(path);
     }
     throw SignalError(path +

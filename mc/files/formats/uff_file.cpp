@@ -228,8 +228,6 @@ class UffReader {
         const std::size_t width = type == 2 || type == 5 ? 4 : 8;
         if (!binary.empty()) {
             read_bytes(values, width, binary, function);
-        } else if (function.complex) {
-            skip();
         } else {
             read_text(values, width, function);
         }
@@ -265,20 +263,32 @@ class UffReader {
 
     // E13.5 for single precision and abscissae, E20.12 for double precision.
     void read_text(std::size_t count, std::size_t width, UffFunction& function) {
-        std::vector<std::size_t> widths{std::size_t{width == 4 ? 13U : 20U}};
+        std::vector<std::size_t> widths(function.complex ? 2 : 1, width == 4 ? 13 : 20);
         if (!function.even) {
             widths.insert(widths.begin(), 13);
         }
         std::size_t read = 0;
         for (std::string line; read < count * widths.size();) {
             if (!next(line) || without_outer_blanks(line) == "-1") {
-                refuse(
-                    fmt::format("only {} of {} values are present", read / widths.size(), count));
+                const std::string problem =
+                    fmt::format("only {} of {} values are present", read / widths.size(), count);
+                if (!function.complex) {
+                    refuse(problem);
+                }
+                // Complex functions do not decide whether time histories are accepted.
+                function.unreadable = problem;
+                function.values.clear();
+                function.abscissae.clear();
+                function.imaginary.clear();
+                return;
             }
             for (const double value : numbers(line, widths)) {
                 if (read < count * widths.size()) {
-                    const bool abscissa = widths.size() == 2 && read % 2 == 0;
-                    (abscissa ? function.abscissae : function.values).push_back(value);
+                    const std::size_t place = read % widths.size() + (function.even ? 1 : 0);
+                    (place == 0   ? function.abscissae
+                     : place == 1 ? function.values
+                                  : function.imaginary)
+                        .push_back(value);
                     ++read;
                 }
             }
@@ -312,7 +322,7 @@ class UffReader {
                 "its values are DEC VMS numbers of double precision or in reverse byte order, "
                 "which are not supported";
         }
-        if (!function.unreadable.empty() || function.complex) {
+        if (!function.unreadable.empty()) {
             return;
         }
         const auto value_at = [&](std::size_t at, std::size_t size) {
@@ -331,6 +341,9 @@ class UffReader {
                 function.abscissae.push_back(value_at(i * row, abscissa_width));
             }
             function.values.push_back(value_at(i * row + abscissa_width, width));
+            if (function.complex) {
+                function.imaginary.push_back(value_at(i * row + abscissa_width + width, width));
+            }
         }
     }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gearpod::mc {
@@ -25,12 +26,16 @@ struct UffFunction {
     bool even = true;                       // false: `abscissae` has a value for each of `values`
     double first = 0.0, step = 0.0;         // abscissa of an even function
     double step_rounding = 0.0;             // half a unit of the last written digit of the step
-    std::vector<double> values, abscissae;  // both empty if `unreadable` is set, or if complex
+    std::vector<double> values, abscissae;  // both empty if `unreadable` is set
+    std::vector<double> imaginary;          // of complex values, of which `values` is the real part
     std::string unreadable;                 // reason why the values cannot be interpreted
     // Number of the file's units of length in a metre (dataset 164), if stated before the function,
     // or else anywhere in the file.
     std::optional<double> lengths_per_metre;
 };
+
+// Endings of the names of universal files, in lower case.
+inline constexpr std::string_view kUffEndings[] = {".uff", ".unv", ".uf58", ".uf", ".ufb"};
 
 // Functions in the order of the file. Throws SignalError (signal_error.hpp) if there are none, or
 // if the file is damaged.

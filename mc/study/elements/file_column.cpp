@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
+#include "mc/files/formats/file_content.hpp"
+#include "mc/files/formats/uff_file.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_table.hpp"
+#include "mc/study/elements/uff_response.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -27,7 +31,10 @@ std::optional<FileColumn> file_column(const Value& value) {
                                                 : std::nullopt;
 }
 
-Value list_of(const FileColumn& source, const Position& position, std::size_t most) {
+namespace {
+
+// Numbers of a column of a text table.
+std::vector<double> table_column(const FileColumn& source) {
     const TextTable table = read_text_table(source.file);
     const auto column = table.find(source.column);
     if (!column) {
@@ -37,20 +44,33 @@ Value list_of(const FileColumn& source, const Position& position, std::size_t mo
     if (table.rows.empty()) {
         throw SignalError(source.file + ": has no row below its header");
     }
-    Value list;
-    list.kind = Value::Kind::array;
-    list.position = position;
-    const std::size_t rows = table.rows.size();
-    const std::size_t every = rows > most ? (rows + most - 1) / most : 1;
-    for (std::size_t row = 0; row < rows; row += every) {
+    std::vector<double> all;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
         const auto number = table.number(row, *column);
         if (!number) {
             throw SignalError(fmt::format("{}:{}: {}", source.file, table.lines[row],
                                           table.no_number_text(row, *column)));
         }
+        all.push_back(*number);
+    }
+    return all;
+}
+
+}  // namespace
+
+Value list_of(const FileColumn& source, const Position& position, std::size_t most) {
+    const bool uff = std::ranges::count(kUffEndings, lower_extension(source.file)) > 0;
+    const std::vector<double> numbers =
+        uff ? uff_response_column(source.file, source.column) : table_column(source);
+    Value list;
+    list.kind = Value::Kind::array;
+    list.position = position;
+    const std::size_t rows = numbers.size();
+    const std::size_t every = rows > most ? (rows + most - 1) / most : 1;
+    for (std::size_t row = 0; row < rows; row += every) {
         Value element;
         element.kind = Value::Kind::number;
-        element.number = *number;
+        element.number = numbers[row];
         element.position = position;
         list.elements.push_back(std::move(element));
     }

@@ -1,4 +1,5 @@
-// Lists of numbers read from a column of a file: { file = "F.csv", column = "NAME" }.
+// Lists of numbers read from a column of a text table, { file = "F.csv", column = "NAME" }, or of a
+// frequency response in a universal file (uff_response.hpp).
 #pragma once
 
 #include <limits>
