@@ -59,36 +59,40 @@ struct Stage {
     }
 };
 
-// Two stages: the load of the first one drives the second one.
+// Stages in a row: the load of each drives the next one. `meshes`: recorded ones of each stage.
 struct Train {
     static constexpr double kStiffness_N_m_rad = 3e4, kDamping_N_m_s_rad = 2.0;
-    static constexpr int kRunIn = 960, kMeshes = 48, kSecondMeshes = 19;
-    Stage first{1.0 / 570.0, 2e8, 0.2};
-    Stage second{48.0 / 19.0 / 570.0, 3e8, 0.3};
+    static constexpr int kRunIns = 20;  // length of the run-in, in recorded lengths
+    std::vector<Stage> stages;
+    std::vector<int> meshes;
 
-    CouplingShaft shaft(double stiffness = kStiffness_N_m_rad,
-                        double damping = kDamping_N_m_s_rad) const {
-        CouplingShaft shaft;
-        shaft.stage[1] = 1;
-        shaft.end[0] = {dynamics::u_b, 1.0 / first.layout.base_radius_m[dynamics::gear]};
-        shaft.end[1] = {dynamics::u_m, 1.0 / second.layout.base_radius_m[dynamics::pinion]};
-        shaft.stiffness_N_m_rad = {stiffness};
-        shaft.damping_N_m_s_rad = {damping};
-        return shaft;
-    }
+    double period(std::size_t stage) const { return double(meshes[0]) / meshes[stage]; }
 
-    // Transmission error of both stages at the samples of their last mesh periods.
+    // Transmission error of every stage at the samples of its last mesh periods.
     std::vector<std::vector<double>> integrated(int steps) const {
-        const IntegrationPlan plans[] = {first.plan(steps), second.plan(steps * 48 / 19)};
-        const CoupledStage stages[] = {
-            {{plans[0], first.lanes, first.no_fault}, nullptr, {kMeshes, kRunIn}},
-            {{plans[1], second.lanes, second.no_fault},
-             nullptr,
-             {kSecondMeshes, kRunIn * kSecondMeshes / kMeshes},
-             48.0 / 19.0}};
-        const CouplingShaft shafts[] = {shaft()};
+        std::vector<IntegrationPlan> plans;
+        for (std::size_t s = 0; s < stages.size(); ++s) {
+            plans.push_back(stages[s].plan(steps * meshes[0] / meshes[s]));
+        }
+        std::vector<CoupledStage> coupled;
+        std::vector<CouplingShaft> shafts;
+        for (std::size_t s = 0; s < stages.size(); ++s) {
+            coupled.push_back({{plans[s], stages[s].lanes, stages[s].no_fault},
+                               nullptr,
+                               {meshes[s], kRunIns * meshes[s]},
+                               period(s)});
+            if (s > 0) {
+                CouplingShaft& shaft = shafts.emplace_back();
+                shaft.stage[0] = s - 1;
+                shaft.stage[1] = s;
+                shaft.end[0] = {dynamics::u_b, 1.0 / stages[s - 1].layout.base_radius_m[1]};
+                shaft.end[1] = {dynamics::u_m, 1.0 / stages[s].layout.base_radius_m[0]};
+                shaft.stiffness_N_m_rad = {kStiffness_N_m_rad};
+                shaft.damping_N_m_s_rad = {kDamping_N_m_s_rad};
+            }
+        }
         std::vector<std::vector<double>> te;
-        for (const TileResult& result : run_coupled_stages<1>(stages, shafts, {})) {
+        for (const TileResult& result : run_coupled_stages<1>(coupled, shafts, {})) {
             te.emplace_back();
             for (const int content : result.content) {
                 const MeshRecord& record = result.records[static_cast<std::size_t>(content)];
@@ -99,52 +103,61 @@ struct Train {
     }
 };
 
-// Integrates the equations of both stages and their shaft as one system by the classical
+Train two_stages() {
+    return {{{1.0 / 570.0, 2e8, 0.2}, {48.0 / 19.0 / 570.0, 3e8, 0.3}}, {48, 19}};
+}
+Train three_stages() {
+    return {{{1.0 / 570.0, 2e8, 0.2}, {2.0 / 570.0, 3e8, 0.3}, {3.0 / 570.0, 1e8, 0.3}},
+            {48, 24, 16}};
+}
+
+// Integrates the equations of all stages and their shafts as one system by the classical
 // Runge-Kutta method.
 class WholeTrain {
   public:
     explicit WholeTrain(const Train& train) : train_(train) {
-        const Stage* stages[] = {&train.first, &train.second};
-        mass_ = damping_ = stiffness_ = Eigen::MatrixXd::Zero(2 * kOne, 2 * kOne);
-        force_ = Eigen::VectorXd::Zero(2 * kOne);
-        for (int s = 0; s < 2; ++s) {
-            const auto m = dynamics::assemble(stages[s]->layout, stages[s]->in, {0.0});
-            const int at = s * kOne;
-            mesh_[s] = Eigen::VectorXd::Zero(2 * kOne);
-            mesh_[s].segment(at, kOne) = dynamics::mesh_row(stages[s]->layout);
+        const auto size = static_cast<Eigen::Index>(train.stages.size()) * kOne;
+        mass_ = damping_ = stiffness_ = Eigen::MatrixXd::Zero(size, size);
+        force_ = Eigen::VectorXd::Zero(size);
+        for (std::size_t s = 0; s < train.stages.size(); ++s) {
+            const Stage& stage = train.stages[s];
+            const auto m = dynamics::assemble(stage.layout, stage.in, {0.0});
+            const auto at = static_cast<Eigen::Index>(s) * kOne;
+            mesh_.push_back(Eigen::VectorXd::Zero(size));
+            mesh_[s].segment(at, kOne) = dynamics::mesh_row(stage.layout);
             mass_.block(at, at, kOne, kOne) = m.mass;
             damping_.block(at, at, kOne, kOne) = m.damping;
             stiffness_.block(at, at, kOne, kOne) = m.stiffness;
             force_.segment(at, kOne) = m.force;
+            if (s > 0) {
+                Eigen::VectorXd twist = Eigen::VectorXd::Zero(size);
+                twist(at - kOne + dynamics::u_b) =
+                    1.0 / train.stages[s - 1].layout.base_radius_m[dynamics::gear];
+                twist(at + dynamics::u_m) = -1.0 / stage.layout.base_radius_m[dynamics::pinion];
+                stiffness_ += Train::kStiffness_N_m_rad * twist * twist.transpose();
+                damping_ += Train::kDamping_N_m_s_rad * twist * twist.transpose();
+            }
         }
-        Eigen::VectorXd twist = Eigen::VectorXd::Zero(2 * kOne);
-        twist(dynamics::u_b) = 1.0 / train.first.layout.base_radius_m[dynamics::gear];
-        twist(kOne + dynamics::u_m) = -1.0 / train.second.layout.base_radius_m[dynamics::pinion];
-        stiffness_ += Train::kStiffness_N_m_rad * twist * twist.transpose();
-        damping_ += Train::kDamping_N_m_s_rad * twist * twist.transpose();
     }
 
-    std::vector<std::vector<double>> te(int steps_per_mesh) {
-        const double h = train_.first.period_s / steps_per_mesh;
-        Eigen::VectorXd q = Eigen::VectorXd::Zero(2 * kOne), v = q;
-        std::vector<std::vector<double>> te(2);
-        const long steps = long{Train::kRunIn + Train::kMeshes} * steps_per_mesh;
-        const long first = long{Train::kRunIn} * steps_per_mesh;
-        for (long i = 0; i < steps; ++i) {
-            for (int s = 0; s < 2; ++s) {
-                const long each = steps_per_mesh * (s == 0 ? 19 : 48) / 19 / 8;
-                if (i >= first && (i - first) % each == 0) {
-                    te[static_cast<std::size_t>(s)].push_back(te_of(q, s));
+    // `steps`: per mesh period of the first stage.
+    std::vector<std::vector<double>> te(int steps) const {
+        const double h = train_.stages[0].period_s / steps;
+        Eigen::VectorXd q = Eigen::VectorXd::Zero(force_.size()), v = q;
+        std::vector<std::vector<double>> te(train_.stages.size());
+        const long recorded = long{train_.meshes[0]} * steps, first = Train::kRunIns * recorded;
+        for (long i = 0; i < first + recorded; ++i) {
+            for (std::size_t s = 0; s < te.size() && i >= first; ++s) {
+                if ((i - first) % (recorded / train_.meshes[s] / 8) == 0) {
+                    te[s].push_back(te_of(q, static_cast<Eigen::Index>(s)));
                 }
             }
             const double t = static_cast<double>(i) * h;
-            const auto a = [&](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) {
-                return acceleration(time, x, dx);
-            };
-            const Eigen::VectorXd a1 = a(t, q, v), v2 = v + h / 2 * a1;
-            const Eigen::VectorXd a2 = a(t + h / 2, q + h / 2 * v, v2), v3 = v + h / 2 * a2;
-            const Eigen::VectorXd a3 = a(t + h / 2, q + h / 2 * v2, v3), v4 = v + h * a3;
-            const Eigen::VectorXd a4 = a(t + h, q + h * v3, v4);
+            const Eigen::VectorXd a1 = acceleration(t, q, v), v2 = v + h / 2 * a1;
+            const Eigen::VectorXd a2 = acceleration(t + h / 2, q + h / 2 * v, v2),
+                                  v3 = v + h / 2 * a2;
+            const Eigen::VectorXd a3 = acceleration(t + h / 2, q + h / 2 * v2, v3), v4 = v + h * a3;
+            const Eigen::VectorXd a4 = acceleration(t + h, q + h * v3, v4);
             q += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
             v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
         }
@@ -152,25 +165,26 @@ class WholeTrain {
     }
 
   private:
-    static constexpr int kOne = dynamics::fixed_shaft_motions;
+    static constexpr Eigen::Index kOne = dynamics::fixed_shaft_motions;
 
     Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& q,
                                  const Eigen::VectorXd& v) const {
-        const Stage* stages[] = {&train_.first, &train_.second};
         Eigen::VectorXd f = force_ - damping_ * v - stiffness_ * q;
-        for (int s = 0; s < 2; ++s) {
-            f -= stages[s]->stiffness(t / stages[s]->period_s) * mesh_[s].dot(q) * mesh_[s];
+        for (std::size_t s = 0; s < mesh_.size(); ++s) {
+            const Stage& stage = train_.stages[s];
+            f -= stage.stiffness(t / stage.period_s) * mesh_[s].dot(q) * mesh_[s];
         }
         return mass_.diagonal().cwiseInverse().asDiagonal() * f;
     }
-    double te_of(const Eigen::VectorXd& q, int s) const {
+    static double te_of(const Eigen::VectorXd& q, Eigen::Index s) {
         const double radius = TianGearbox::instance().pinion.base_radius();
         return (q(s * kOne + dynamics::u_1) - q(s * kOne + dynamics::u_2)) / radius;
     }
 
     const Train& train_;
     Eigen::MatrixXd mass_, damping_, stiffness_;
-    Eigen::VectorXd force_, mesh_[2];
+    Eigen::VectorXd force_;
+    std::vector<Eigen::VectorXd> mesh_;
 };
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -189,21 +203,24 @@ double range(const std::vector<double>& a) {
 }  // namespace
 
 TEST_CASE("A coupled train agrees with one integration of all its equations", "[coupled]") {
-    const Train train;
-    const auto exact = WholeTrain(train).te(19 * 8 * 20);
-    const auto coarse = train.integrated(19 * 8 * 4), fine = train.integrated(19 * 8 * 8);
-    for (const std::size_t stage : {0u, 1u}) {
-        const double size = range(exact[stage]);
-        const double error = largest_difference(fine[stage], exact[stage]) / size;
-        CHECK(error < 2e-4);
-        CHECK(largest_difference(coarse[stage], exact[stage]) / size > 3.0 * error);
+    for (const Train& train : {two_stages(), three_stages()}) {
+        const int steps = train.stages.size() == 2 ? 19 * 8 * 4 : 600;
+        const auto exact = WholeTrain(train).te(5 * steps);
+        const auto coarse = train.integrated(steps), fine = train.integrated(2 * steps);
+        for (std::size_t stage = 0; stage < train.stages.size(); ++stage) {
+            INFO(train.stages.size() << " stages, stage " << stage);
+            const double size = range(exact[stage]);
+            const double error = largest_difference(fine[stage], exact[stage]) / size;
+            CHECK(error < 2e-4);
+            CHECK(largest_difference(coarse[stage], exact[stage]) / size > 3.0 * error);
+        }
     }
 }
 
 TEST_CASE("A shaft carries the vibration of a stage to the other one", "[coupled]") {
-    const Train train;
-    Train alone;
-    alone.second.variation = 0.0;
+    const Train train = two_stages();
+    Train alone = train;
+    alone.stages[1].variation = 0.0;
     const auto both = train.integrated(19 * 8 * 4), one = alone.integrated(19 * 8 * 4);
     // The second stage vibrates although its own stiffness is constant; the first one differs by
     // the vibration of the second one.
@@ -221,7 +238,8 @@ TEST_CASE("Stages without shafts have the bits of single stages", "[coupled]") {
     for (int l = 0; l < 8; ++l) {
         inputs.emplace_back(liang.inputs(20.0, 1e8 * (1.0 + 0.1 * l)));
     }
-    const FaultCurves faults = liang.ring_side_cracks({0.0, 1e-3, 2e-3, 4e-3, 0.0, 3e-3, 0.0, 1e-3});
+    const FaultCurves faults =
+        liang.ring_side_cracks({0.0, 1e-3, 2e-3, 4e-3, 0.0, 3e-3, 0.0, 1e-3});
     const FullSolution full{{}, {5, 3}};
     const TileResult expected = run_tile<8>(plan, inputs, faults, full);
     const CoupledStage stages[] = {{{plan, inputs, faults}, nullptr, full.span},
