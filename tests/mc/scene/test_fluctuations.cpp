@@ -122,7 +122,7 @@ struct BadScene {
 const BadScene kBadScenes[] = {
     {{"effects.gravity=true", "numerics.integrator=newmark"},
      "numerics.integrator",
-     "gravity is supported by rk4 and sdirk3, not by newmark"},
+     "gravity is supported by rk4, sdirk3 and central-difference, not by newmark"},
     {{"effects.gravity=true", "numerics.precision=single"},
      "numerics.precision",
      "gravity needs double precision"},
