@@ -183,14 +183,18 @@ Problems load_warnings(const Study& study, const std::string& file) {
                          kMostContact_Pa / kMegapascal, kMostRoot_Pa / kMegapascal),
              "check the unit (N m, not N mm), the member that it acts on, module and face width"});
     } else if (shortfall(study, *least) < 1.0) {
-        const std::string errors =
-            least->error_m > 0.0 ? ", tooth errors " + micrometres(least->error_m) : std::string();
+        std::string details = stress_list(*least);
+        if (least->error_m > 0.0) {
+            details += (details.empty() ? "tooth errors " : ", tooth errors ") +
+                       micrometres(least->error_m);
+        }
         warnings.push_back(
             {file, 0, key,
-             fmt::format("{} leaves the teeth of the {} mesh nearly unloaded ({}{}), so that real "
+             fmt::format("{} leaves the teeth of the {} mesh nearly unloaded{}, so that real "
                          "teeth lose contact; loaded gears have a contact stress of several "
                          "hundred N/mm2",
-                         torque_of(study), mesh_name(least->members), stress_list(*least), errors),
+                         torque_of(study), mesh_name(least->members),
+                         details.empty() ? "" : " (" + details + ")"),
              "check the unit (N m, not kN m), the member that it acts on, module and face width"});
     }
     return warnings;

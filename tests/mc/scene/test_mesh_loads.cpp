@@ -70,6 +70,9 @@ TEST_CASE("a torque 1,000 times too large or too small is noticed in every shipp
         REQUIRE(little.size() == 1);
         CHECK(little[0].what.find("nearly unloaded") != std::string::npos);
         CHECK(little[0].remedy.find("not kN m") != std::string::npos);
+        const mc::Problems none = warnings_with(study, 0.0);
+        REQUIRE(none.size() == 1);
+        CHECK(none[0].what.find("()") == std::string::npos);
     }
 }
 
