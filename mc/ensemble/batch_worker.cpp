@@ -74,7 +74,8 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     computed.sensor_recorders.clear();  // frees memory: `signals` holds copies
     const Study& study = task_.scene.study();
     std::vector<LaneSignals> others(ids.size());
-    if (has_other_fault(study) && ids.front().group == Group::threshold) {
+    const bool any_threshold = std::ranges::count(ids, Group::threshold, &GearboxId::group) > 0;
+    if (has_other_fault(study) && any_threshold) {
         others = with_other_fault(task_.scene, std::span(computed.realizations).first(ids.size()),
                                   signals);
     }
