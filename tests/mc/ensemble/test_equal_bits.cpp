@@ -9,6 +9,7 @@
 #include "mc/ensemble/batch_worker.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/other_sources.hpp"
 #include "tests/mc/gearbox_bits.hpp"
 #include "tests/mc/study_file.hpp"
 #include "tests/shipped_studies.hpp"
@@ -133,9 +134,10 @@ void check_simulation(const std::string& name) {
            test::bits_of(std::span(row.values).subspan(first, simulation.features.size()))));
 }
 
-// Kernels of few lanes for variable excitation exist in a portable build only.
+// Kernels of few lanes for variable excitation and for coupled stages exist in a portable build
+// only.
 bool any_width(const mc::Study& study) {
-    return GEARPOD_PORTABLE || !mc::has_variable_excitation(study);
+    return GEARPOD_PORTABLE || (!mc::has_variable_excitation(study) && !mc::is_coupled(study));
 }
 
 }  // namespace
