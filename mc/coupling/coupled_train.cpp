@@ -1,23 +1,19 @@
 #include "mc/coupling/coupled_train.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <boost/random/uniform_01.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/varying_forces.hpp"
-#include "lockstep/steps/step_limit.hpp"
-#include "lockstep/tile/step_integrator.hpp"
-#include "mc/study/fluctuations.hpp"
-#include "mc/study/housing.hpp"
-#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
 
+constexpr std::uint64_t kSharedPositions = 8;  // gearboxes; the most lanes of a tile
 const NeighbourStage& stage_of(const Scene& scene, std::size_t stage) {
     return scene.study().sensor.stages[stage];
 }
@@ -31,120 +27,8 @@ lockstep::ShaftEnd shaft_end(const Scene& gearbox, Member shaft) {
     return {degree.degree, std::copysign(1.0 / degree.radius_m, turning)};
 }
 
-// Both ends of a stage's shaft. It bears opposite external torques there, so that the sense of the
-// stage follows from its torque.
-std::array<lockstep::ShaftEnd, 2> shaft_ends(const Scene& scene, std::size_t stage) {
-    const NeighbourStage& own = stage_of(scene, stage);
-    std::array<lockstep::ShaftEnd, 2> ends{shaft_end(other_end(scene, stage), *own.shaft),
-                                           shaft_end(scene.stages()[stage], *own.stage_shaft)};
-    if (is_mirrored(scene, stage)) {
-        ends[1].turn_per_m *= -1.0;
-    }
-    return ends;
-}
-
 double mesh_period_of(const Scene& gearbox) {
     return 1.0 / std::abs(gearbox.nominal_mesh_frequency_Hz());
-}
-
-// Steps per mesh period that the nominal gearbox needs with its shafts held at their other ends.
-double needed_steps(const Scene& gearbox, const std::vector<dynamics::SpringDamper>& shafts) {
-    const auto inputs = gearbox.inputs(nominal_inputs(gearbox.study()));
-    auto matrices = dynamics::assemble(gearbox.plan().layout, inputs, gearbox.stiffest_pairs());
-    for (const dynamics::SpringDamper& shaft : shafts) {
-        dynamics::add(matrices, shaft);
-    }
-    return dynamics::mesh_period_s(inputs) /
-           lockstep::longest_stable_step(matrices, gearbox.plan().integrator);
-}
-
-// Shafts at one gearbox of the train: the study's own without `stage`.
-std::vector<dynamics::SpringDamper> shafts_at(const Scene& scene,
-                                              std::optional<std::size_t> stage) {
-    const Scene& gearbox = stage ? scene.stages()[*stage] : scene;
-    std::vector<dynamics::SpringDamper> shafts;
-    const auto add = [&](std::size_t of, Member member) {
-        const lockstep::ShaftEnd end = shaft_end(gearbox, member);
-        dynamics::SpringDamper spring;
-        spring.row = Eigen::VectorXd::Zero(dynamics::degrees_of_freedom(gearbox.plan().layout));
-        spring.row(end.degree) = end.turn_per_m;
-        spring.stiffness = stage_of(scene, of).shaft_stiffness_N_m_rad;
-        spring.damping = shaft_mode(scene, of).damping_N_m_s_rad;
-        shafts.push_back(std::move(spring));
-    };
-    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        if (!stage_of(scene, i).coupled()) {
-            continue;
-        }
-        if (stage == i) {
-            add(i, *stage_of(scene, i).stage_shaft);
-        }
-        if (stage == other_stage(scene.study(), i)) {
-            add(i, *stage_of(scene, i).shaft);
-        }
-    }
-    return shafts;
-}
-
-// Checks that a gearbox, the study's own without `stage`, can be integrated with its shafts.
-void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
-    const Scene& gearbox = stage ? scene.stages()[*stage] : scene;
-    const Study& study = gearbox.study();
-    const std::string of = stage ? fmt::format("stage \"{}\": ", stage_of(scene, *stage).name) : "";
-    const char* where = stage ? "in the study of that stage" : "here";
-    if (!lockstep::supports_steps(gearbox.plan())) {
-        throw SceneError(kStagesKey,
-                         of + "a shaft with a stiffness needs the central difference method in "
-                              "double precision",
-                         fmt::format("give numerics.integrator = \"central-difference\" and "
-                                     "numerics.precision = \"double\" {}",
-                                     where));
-    }
-    if (has_variable_excitation(study)) {
-        throw SceneError(kStagesKey,
-                         of + "a shaft with a stiffness needs a steady torque and speed without "
-                              "gravity",
-                         fmt::format("remove fluctuations and effects.gravity {}", where));
-    }
-    if (stage && has_housing(study)) {
-        throw SceneError(kStagesKey, of + "a coupled stage cannot have a housing of its own",
-                         "remove it there; the gain of the stage stands for its path");
-    }
-    const auto shafts = shafts_at(scene, stage);
-    if (shafts.size() > lockstep::kMostShafts) {
-        throw SceneError(kStagesKey,
-                         fmt::format("{}{} elastic shafts at one gearbox; at most {} can be "
-                                     "computed",
-                                     of, shafts.size(), lockstep::kMostShafts),
-                         "couple fewer stages");
-    }
-    const double needed = needed_steps(gearbox, shafts);
-    const auto steps = static_cast<double>(gearbox.plan().grid.steps.size());
-    if (steps < needed) {
-        throw SceneError(
-            kStagesKey,
-            fmt::format("{}with its shafts the gearbox needs {:.0f} steps per mesh period to be "
-                        "stable, and has {:.0f}",
-                        of, std::ceil(needed), steps),
-            fmt::format("give numerics.steps_per_mesh = {:.0f} {}, or a softer shaft",
-                        std::ceil(1.05 * needed), where));
-    }
-}
-
-void check_balance(const Scene& scene, std::size_t stage) {
-    const NeighbourStage& own = stage_of(scene, stage);
-    const Scene& other = other_end(scene, stage);
-    const Scene& there = scene.stages()[stage];
-    const double torque = shaft_torque_N_m(other, *own.shaft, nominal_inputs(other.study()));
-    const double torque_there =
-        shaft_torque_N_m(there, *own.stage_shaft, nominal_inputs(there.study()));
-    if (torque == 0.0 || torque_there == 0.0) {
-        throw SceneError(
-            kStagesKey,
-            fmt::format("stage \"{}\": the common shaft bears no torque {}", own.name,
-                        torque == 0.0 ? "in the gearbox at its other end" : "in this stage"),
-            "give both a torque (operation.torque_N_m)");
-    }
 }
 
 }  // namespace
@@ -162,6 +46,16 @@ bool is_mirrored(const Scene& scene, std::size_t stage) {
     return shaft_torque_N_m(other, *own.shaft, nominal_inputs(other.study())) *
                shaft_torque_N_m(there, *own.stage_shaft, nominal_inputs(there.study())) >
            0.0;
+}
+
+std::array<lockstep::ShaftEnd, 2> shaft_ends(const Scene& scene, std::size_t stage) {
+    const NeighbourStage& own = stage_of(scene, stage);
+    std::array<lockstep::ShaftEnd, 2> ends{shaft_end(other_end(scene, stage), *own.shaft),
+                                           shaft_end(scene.stages()[stage], *own.stage_shaft)};
+    if (is_mirrored(scene, stage)) {
+        ends[1].turn_per_m *= -1.0;
+    }
+    return ends;
 }
 
 double shaft_inertia_kg_m2(const Scene& gearbox, Member shaft) {
@@ -239,25 +133,50 @@ std::vector<double> train_frequencies_Hz(const Scene& scene) {
     return dynamics::natural_frequencies_Hz(train);
 }
 
-CoupledSpan coupled_span(const Scene& scene, int run_in_meshes) {
-    CoupledSpan span;
+bool share_positions(const GearboxId& a, const GearboxId& b) {
+    return a.group == b.group && a.record == b.record && a.baseline == b.baseline &&
+           a.index / kSharedPositions == b.index / kSharedPositions;
+}
+
+double coupled_run_in(const Scene& scene, int run_in_meshes) {
     const double own = mesh_period_of(scene);
     double run_in = run_in_meshes;
+    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
+        if (stage_of(scene, i).coupled()) {
+            const double rate_1_s = 2.0 * std::numbers::pi * shaft_mode(scene, i).frequency_Hz *
+                                    stage_of(scene, i).shaft_damping_ratio;
+            const double decay_s = -std::log(convergence_tolerance(scene.study())) / rate_1_s;
+            run_in = std::max({run_in, decay_s / own,
+                               (kMarginMeshes + 1) * mesh_period_of(scene.stages()[i]) / own});
+        }
+    }
+    return std::ceil(run_in);
+}
+
+CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id) {
+    CoupledSpan span;
+    span.run_in = static_cast<int>(coupled_run_in(scene, run_in_meshes));
+    GearboxId shared = id;
+    shared.index -= id.index % kSharedPositions;
+    shared.exchanged = {};
     for (std::size_t i = 0; i < scene.stages().size(); ++i) {
         if (!stage_of(scene, i).coupled()) {
             continue;
         }
-        const ShaftMode mode = shaft_mode(scene, i);
-        const double rate_1_s =
-            2.0 * std::numbers::pi * mode.frequency_Hz * stage_of(scene, i).shaft_damping_ratio;
-        run_in = std::max(run_in, -std::log(convergence_tolerance(scene.study())) / rate_1_s / own);
-        span.stages.push_back({i, mesh_period_of(scene.stages()[i]) / own});
-        run_in = std::max(run_in, (kMarginMeshes + 1) * span.stages.back().period);
-    }
-    span.run_in = static_cast<int>(std::ceil(run_in));
-    for (StageSpan& stage : span.stages) {
+        const Scene& own = scene.stages()[i];
+        Philox engine =
+            record_stream(scene.study(), shared,
+                          with_suffix(StreamPurpose::stage_start, stage_of(scene, i).name));
+        StageSpan& stage = span.stages.emplace_back();
+        stage.stage = i;
+        stage.period = mesh_period_of(own) / mesh_period_of(scene);
+        stage.lead = boost::random::uniform_01<double>()(engine);
+        // The path repeats with the carrier.
+        const int turns = std::max(1, own.span_meshes() / own.path_meshes());
+        stage.first_mesh =
+            own.path_meshes() * boost::random::uniform_int_distribution<int>(0, turns - 1)(engine);
         stage.run_in = static_cast<int>(span.run_in / stage.period) - kMarginMeshes;
-        stage.start = stage.run_in * stage.period - span.run_in;
+        stage.start = (stage.run_in - stage.lead) * stage.period - span.run_in;
         stage.meshes = static_cast<int>(
             std::ceil((scene.signal_meshes() - stage.start) / stage.period) + kMarginMeshes);
     }
@@ -285,34 +204,6 @@ std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const C
         shafts.push_back(std::move(shaft));
     }
     return shafts;
-}
-
-void check_coupling(const Scene& scene) {
-    if (!is_coupled(scene.study())) {
-        return;
-    }
-    if (scene.study().effects.quasi_static()) {
-        throw SceneError("effects.motion",
-                         "an elastic shaft to another stage needs gears with inertia",
-                         "choose another motion than quasi-static");
-    }
-    if (scene.study().numerics.verify) {
-        throw SceneError("numerics.verify",
-                         "would repeat gearboxes with finer steps of the study's own stage only",
-                         "remove it; compare runs with another numerics.steps_per_mesh");
-    }
-    if (scene.study().numerics.horizon == Horizon::periodic) {
-        throw SceneError("numerics.horizon",
-                         "with an elastic shaft to another stage no mesh period repeats another",
-                         "use \"full\"");
-    }
-    check_gearbox(scene, std::nullopt);
-    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        if (stage_of(scene, i).coupled()) {
-            check_gearbox(scene, i);
-            check_balance(scene, i);
-        }
-    }
 }
 
 }  // namespace gearpod::mc

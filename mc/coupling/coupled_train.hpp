@@ -2,6 +2,7 @@
 // stiffness): the data of their common integration.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,10 @@ std::optional<std::size_t> other_stage(const Study& study, std::size_t stage);
 // the other way, under the same forces.
 bool is_mirrored(const Scene& scene, std::size_t stage);
 
+// Both ends of a stage's shaft. It bears opposite external torques there, so that the sense of the
+// stage follows from its torque.
+std::array<lockstep::ShaftEnd, 2> shaft_ends(const Scene& scene, std::size_t stage);
+
 // Frequency at which the gearboxes at both ends of a stage's shaft would turn against each other as
 // rigid bodies, Hz, and the shaft's damping for the stage's damping ratio of that motion, N m
 // s/rad.
@@ -38,12 +43,18 @@ ShaftMode shaft_mode(const Scene& scene, std::size_t stage);
 // stiffness and without rotation of the carriers, Hz, ascending.
 std::vector<double> train_frequencies_Hz(const Scene& scene);
 
+// Mesh periods of the run-in: at least that many, and until the motion of the gearboxes against
+// each other has decayed.
+double coupled_run_in(const Scene& scene, int run_in_meshes);
+
 // One stage in the common integration, in mesh periods of its own except for the times.
 struct StageSpan {
     std::size_t stage = 0;       // in Study::sensor.stages
     double period = 0.0;         // its mesh period, mesh periods of the study's gearbox
     int run_in = 0, meshes = 0;  // before the recorded ones, and recorded
     double start = 0.0;          // of its record, mesh periods of the study's gearbox
+    double lead = 0.0;           // by which it begins earlier than the study's gearbox, 0 to 1
+    int first_mesh = 0;          // of its record in the pattern of its teeth
 };
 // Common integration: run-in of the study's gearbox, and its stages. The records of the stages
 // begin before that of the study's gearbox and end after it, by kMarginMeshes at least.
@@ -52,16 +63,15 @@ struct CoupledSpan {
     std::vector<StageSpan> stages;
 };
 inline constexpr int kMarginMeshes = 2;
-CoupledSpan coupled_span(const Scene& scene, int run_in_meshes);
+// Every record has stages at random positions of their teeth and of their carriers. Lanes of a tile
+// share them: eight gearboxes with consecutive numbers have the same position in the same record.
+CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id);
+// True if two records have stages at the same positions.
+bool share_positions(const GearboxId& a, const GearboxId& b);
 
 // Shafts in a tile of that many lanes; stage i + 1 of the integration is number i of
 // CoupledSpan::stages.
 std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const CoupledSpan& span,
                                                      std::size_t lanes);
-
-// Throws SceneError unless the stages can be integrated together: all by the central difference
-// method in double precision with steps that are stable with the shafts, under steady loads
-// of which every shaft bears a part.
-void check_coupling(const Scene& scene);
 
 }  // namespace gearpod::mc

@@ -5,6 +5,7 @@
 
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/coupling/coupled_train.hpp"
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"
@@ -55,8 +56,13 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
                                Seconds& seconds) {
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
-    for (std::size_t first = 0; first < ids.size(); first += lanes) {
-        add_rows(ids.subspan(first, std::min(lanes, ids.size() - first)), records, rows, seconds);
+    while (!ids.empty()) {
+        std::size_t count = std::min(lanes, ids.size());
+        while (is_coupled(task_.scene.study()) && !share_positions(ids[count - 1], ids[0])) {
+            --count;
+        }
+        add_rows(ids.first(count), records, rows, seconds);
+        ids = ids.subspan(count);
     }
     return rows;
 }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "lockstep/kernels/built_kernels.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/coupling/coupled_train.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/solution_choice.hpp"
@@ -198,17 +199,37 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
     const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
     const auto lanes =
         static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest));
+    // Order in which they are computed: those with coupled stages at the same positions follow each
+    // other.
+    std::vector<std::size_t> order(earlier.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const bool coupled = is_coupled(scene.study());
+    if (coupled) {
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return earlier[i].baseline; });
+    }
     GearboxTile all;
-    for (std::size_t first = 0; first < earlier.size(); first += lanes) {
-        GearboxTile tile = run_records(
-            scene, path, std::span(earlier).subspan(first, std::min(lanes, earlier.size() - first)),
-            fewest, {.signal_meshes = meshes, .cache = cache});
+    all.baseline.resize(earlier.size());
+    all.status.resize(earlier.size());
+    for (std::size_t first = 0; first < order.size();) {
+        std::vector<GearboxId> some;
+        while (some.size() < lanes && first + some.size() < order.size()) {
+            const GearboxId& next = earlier[order[first + some.size()]];
+            if (coupled && !some.empty() && !share_positions(next, some.front())) {
+                break;
+            }
+            some.push_back(next);
+        }
+        GearboxTile tile =
+            run_records(scene, path, some, fewest, {.signal_meshes = meshes, .cache = cache});
         auto start = WallClock::now();
-        std::ranges::move(all_lane_signals(scene, path, tile, meshes),
-                          std::back_inserter(all.baseline));
+        std::vector<LaneSignals> signals = all_lane_signals(scene, path, tile, meshes);
         tile.signals_s += lap(start);
-        all.status.insert(all.status.end(), tile.status.begin(), tile.status.end());
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            all.baseline[order[first + i]] = std::move(signals[i]);
+            all.status[order[first + i]] = tile.status[i];
+        }
         add_costs(tile, all);
+        first += some.size();
     }
     return all;
 }
@@ -263,7 +284,7 @@ GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     const std::size_t records = 1 + computed_baselines(scene.study());
-    if (records * ids.size() <= static_cast<std::size_t>(lanes)) {
+    if (!is_coupled(scene.study()) && records * ids.size() <= static_cast<std::size_t>(lanes)) {
         return run_side_by_side(scene, path, ids, lanes, options);
     }
     GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);

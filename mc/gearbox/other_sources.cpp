@@ -72,16 +72,20 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
 }
 
 // Adds the vibration of the coupled stages of a record to its samples.
-void add_coupled_stages(const Scene& scene, const LaneSignals& record,
-                        std::vector<double>& samples) {
+void add_coupled_stages(const Scene& scene, const Realization& realization,
+                        const LaneSignals& record, std::vector<double>& samples) {
     if (record.coupled.empty()) {
         return;
     }
-    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene));
+    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene), realization.id);
     for (std::size_t i = 0; i < span.stages.size(); ++i) {
         const StageSpan& stage = span.stages[i];
         const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
         std::vector<double> vibration = record.coupled[i];
+        if (!std::ranges::all_of(vibration, [](double value) { return std::isfinite(value); })) {
+            std::ranges::fill(samples, std::numeric_limits<double>::quiet_NaN());
+            return;  // a gearbox of the train has failed
+        }
         // Both ends lie outside of the record. They fade out, so that the vibration can be
         // continued periodically.
         const auto fade = static_cast<std::size_t>(per_mesh);
@@ -190,7 +194,7 @@ void add_background(const Scene& scene, std::span<const Realization> realization
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(records[i].sensor.size(), 0.0);
         add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
-        add_coupled_stages(scene, records[i], samples[i]);
+        add_coupled_stages(scene, realizations[i], records[i], samples[i]);
     }
     for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
         if (sensor.stages[stage].coupled()) {

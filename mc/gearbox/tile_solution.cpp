@@ -51,12 +51,10 @@ struct SolutionInputs {
     SolutionInputs(const SolutionInputs&) = delete;
     SolutionInputs& operator=(const SolutionInputs&) = delete;
 
-    lockstep::CoupledStage stage(const Scene& scene, lockstep::RecordedSpan span,
-                                 double period) const {
+    lockstep::CoupledStage stage(const Scene& scene, lockstep::RecordedSpan span) const {
         return {{scene.plan(), gearboxes, faults},
                 loads.tooth_errors ? &*loads.tooth_errors : nullptr,
-                std::move(span),
-                period};
+                std::move(span)};
     }
 };
 
@@ -111,11 +109,17 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
                            std::optional<std::size_t> faulty_stage) {
     auto start = WallClock::now();
     TileSolution solved;
-    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene));
+    const GearboxId& first = realizations.front().id;
+    for (const Realization& record : realizations) {
+        if (!share_positions(record.id, first)) {
+            throw std::logic_error("records of a coupled tile have stages at other positions");
+        }
+    }
+    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene), first);
     const SolutionInputs own(scene, {realizations.begin(), realizations.end()});
     std::vector<std::unique_ptr<StageTask>> tasks;
     std::vector<lockstep::CoupledStage> stages{
-        own.stage(scene, {scene.recorded_meshes(), span.run_in, options, on_record}, 1.0)};
+        own.stage(scene, {scene.recorded_meshes(), span.run_in, options, on_record})};
     for (const StageSpan& stage : span.stages) {
         std::vector<Realization> gearboxes;
         for (const Realization& record : realizations) {
@@ -125,8 +129,11 @@ TileSolution solve_coupled(const Scene& scene, std::span<const Realization> real
         tasks.push_back(std::make_unique<StageTask>(scene.stages()[stage.stage],
                                                     std::move(gearboxes), stage.meshes));
         StageTask& task = *tasks.back();
-        stages.push_back(task.inputs.stage(
-            task.scene, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}, stage.period));
+        lockstep::CoupledStage& added = stages.emplace_back(task.inputs.stage(
+            task.scene, {stage.meshes, stage.run_in, {}, std::ref(task.recorder)}));
+        added.period = stage.period;
+        added.lead = stage.lead;
+        added.first_mesh = stage.first_mesh;
     }
     solved.stiffness_s = lap(start);
     const double processor_start = thread_processor_s();

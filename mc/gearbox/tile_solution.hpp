@@ -41,7 +41,7 @@ TileSolution solve(const Scene& scene, std::span<const Realization> realizations
 using OnRecord = std::function<void(int, const lockstep::MeshRecord&)>;
 
 // Solves a tile together with the coupled stages next to its gearboxes. The gearboxes of stage
-// `faulty_stage` have their fault. Requires check_coupling(scene).
+// `faulty_stage` have their fault. Requires check_stages(scene).
 TileSolution solve_coupled(const Scene& scene, std::span<const Realization> realizations,
                            const lockstep::RecordOptions& options, const OnRecord& on_record,
                            std::optional<std::size_t> faulty_stage);

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "lockstep/kernels/built_kernels.hpp"
-#include "mc/coupling/coupled_train.hpp"
+#include "mc/coupling/coupling_checks.hpp"
 #include "mc/files/python/python_worker.hpp"
 #include "mc/scene/mesh_loads.hpp"
 #include "mc/study/gears.hpp"
@@ -78,7 +78,7 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                         std::move(resolved.choice),
                         {},
                         std::move(reading.notices)};
-        check_coupling(*made.scene);
+        check_stages(*made.scene);
         add_torque_notices(resolved.study, name, made.notices);
         for (Problem& warning : load_warnings(resolved.study, name)) {
             made.notices.push_back(std::move(warning));

@@ -118,8 +118,8 @@ void set_joint(std::vector<double> values, FeatureResult& feature) {
     feature.alarm = analysis::Alarm::high;
 }
 
-// All sensors in one value: the sum of their deviations with learned weights. Empty if there
-// are too few gearboxes.
+// All sensors in one value: the sum of their deviations with learned weights. A feature without
+// weights has no values. Empty if no feature has weights, because there are too few gearboxes.
 std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) {
     OneSensor all{"learned sum of all", sensors.front().results};
     analysis::LearningSample sample;
@@ -132,18 +132,20 @@ std::optional<OneSensor> learned_sensors(const std::vector<OneSensor>& sensors) 
         sample.half.push_back(analysis::in_training_half(gearbox) ? 1 : 0);
         sample.faulty.push_back(graded && all.results.parameters[0].values[row] > 0.0);
     }
+    bool any = false;
     for (std::size_t f = 0; f < all.results.features.size(); ++f) {
         sample.values.clear();
         for (const OneSensor& sensor : sensors) {
             sample.values.push_back(deviations(sensor.results, sensor.results.features[f]));
         }
         auto sums = analysis::learned_sum(sample);
-        if (!sums) {
-            return std::nullopt;
-        }
-        set_joint(*std::move(sums), all.results.features[f]);
+        any = any || sums;
+        set_joint(sums ? *std::move(sums)
+                       : std::vector<double>(sample.half.size(),
+                                             std::numeric_limits<double>::quiet_NaN()),
+                  all.results.features[f]);
     }
-    return all;
+    return any ? std::optional(std::move(all)) : std::nullopt;
 }
 
 // All sensors in one value: their mean deviation or the largest.

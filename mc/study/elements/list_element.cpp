@@ -76,8 +76,7 @@ std::vector<double> ListElement::numbers(std::string_view name, const Range& ran
         try {
             column = list_of(*source, value->position);
         } catch (const SignalError& error) {
-            reject(fmt::format("{}: {}", name, error.what()),
-                   "name a CSV file and one of its columns");
+            reject(fmt::format("{}: {}", name, error.what()), "name a file and one of its columns");
             return {};
         }
         value = &column;

@@ -41,7 +41,7 @@ double unit_ratio(const std::string& path, const UffFunction& function) {
     if (!is_of_type(above, kAcceleration) || !is_of_type(below, kAcceleration)) {
         refuse();
     }
-    if (above.unit == below.unit) {
+    if (above.unit.empty() && below.unit.empty()) {
         return 1.0;
     }
     const auto a = unit_factor(Quantity::acceleration, above.unit),

@@ -49,7 +49,7 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     try {
         values.value = list_of(*source, at, kMostElements);
     } catch (const SignalError& error) {
-        reject(draft, entry, key.path(), error.what(), "name a CSV file and one of its columns");
+        reject(draft, entry, key.path(), error.what(), "name a file and one of its columns");
         draft.bad.insert(key.path());
     }
     const auto known = std::ranges::find(draft.random_files, source->file);

@@ -78,7 +78,7 @@ class ValueReader {
                 ValueReader(draft_, key_,
                             {std::string(key_.name), list_of(*source, at_), at_})(access);
             } catch (const SignalError& error) {
-                reject(error.what(), "name a CSV file and one of its columns");
+                reject(error.what(), "name a file and one of its columns");
             }
             return;
         }

@@ -1,18 +1,18 @@
 // Models under time-varying forces (excitation_forces.hpp): a base model plus these forces.
 #pragma once
 
-#include <memory>
-
 #include "lockstep/excitation/excitation_forces.hpp"
 #include "lockstep/integrators/implicit_lanes.hpp"
 
 namespace gearpod::lockstep {
 
-// Steps of a mesh period that one call of a kernel integrates, [first, last), and the workspace
-// that it keeps for the next ones; by default all steps. The first call must begin with step 0.
+// Steps of a mesh period that one call of a kernel integrates, [first, last); by default all. The
+// first call must begin with step 0. It makes a workspace, which it keeps for the next calls;
+// whoever makes the calls must release it at the end.
 struct MeshPart {
     int first = 0, last = 0;  // 0: all
-    mutable std::shared_ptr<void> workspace;
+    mutable void* workspace = nullptr;
+    mutable void (*release)(void*) = nullptr;
 };
 
 // Lanes of a model together with the forces on them.

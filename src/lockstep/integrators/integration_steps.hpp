@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "lockstep/integrators/contact_rows.hpp"
 #include "lockstep/integrators/integration_state.hpp"
@@ -262,8 +261,8 @@ GEARPOD_INLINE void prefetch_step(const IntegrationPlan& plan, int step) {
     }
 }
 
-// Loop over the steps of a mesh period, or of a part of it (MeshPart). In single precision the grid must have a step boundary on
-// every sample.
+// Loop over the steps of a mesh period, or of a part of it (MeshPart). In single precision the grid
+// must have a step boundary on every sample.
 template <class Integrator, class Model, class State, class Filter>
 GEARPOD_INLINE void integrate_steps(const IntegrationPlan& plan, const typename Model::Lanes& lanes,
                                     const Filter& filter, const MeshOverrides& overrides,
@@ -280,9 +279,15 @@ GEARPOD_INLINE void integrate_steps(const IntegrationPlan& plan, const typename 
             first = lanes.part.first;
             last = lanes.part.last;
             if (first == 0) {
-                lanes.part.workspace = std::make_shared<Stages>();
+                if (lanes.part.workspace != nullptr) {
+                    lanes.part.release(lanes.part.workspace);
+                }
+                lanes.part.workspace = new Stages;
+                lanes.part.release = [](void* workspace) {
+                    delete static_cast<Stages*>(workspace);
+                };
             }
-            kept = static_cast<Stages*>(lanes.part.workspace.get());
+            kept = static_cast<Stages*>(lanes.part.workspace);
         }
     }
     Stages& stages = *kept;

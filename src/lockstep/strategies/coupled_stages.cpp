@@ -120,7 +120,7 @@ class StageTile : SpanTile<W> {
     const Step& next_step() const { return plan_.grid.steps[static_cast<std::size_t>(step_)]; }
 
     double time_at(double phase) const {
-        return start_ + stage_.period * (mesh_ + span_.run_in_meshes + phase);
+        return start_ + stage_.period * (mesh_ + span_.run_in_meshes - stage_.lead + phase);
     }
 
     // Phase of the positions; velocities are those at the start of the next step.
@@ -131,7 +131,7 @@ class StageTile : SpanTile<W> {
 
     void begin_mesh() {
         step_ = 0;
-        overrides_ = this->schedule_.all_overrides(mesh_);
+        overrides_ = this->schedule_.all_overrides(mesh_ + stage_.first_mesh);
         record_ = is_recorded() && !streamed() ? &this->add_record(mesh_) : &scratch_;
         if (counts_contact()) {
             record_->step_states.swap(contact_states_);

@@ -22,6 +22,10 @@ struct CoupledStage {
     RecordedSpan span = {};
     // Mesh period of this stage over that of the first stage, the same for all lanes.
     double period = 1.0;
+    // Mesh periods of its own by which the stage begins earlier than the first one, 0 to 1.
+    double lead = 0.0;
+    // Mesh period k of the span is number k + first_mesh of the teeth's pattern.
+    int first_mesh = 0;
 };
 
 // Elastic shaft between two stages. Without vibration it transmits the torques that the loads of
@@ -33,9 +37,9 @@ struct CouplingShaft {
     machine::AlignedVector stiffness_N_m_rad, damping_N_m_s_rad;  // [lane]
 };
 
-// Integrates all stages from the same moment, at which the run-in of the first stage begins, until
-// the span of every one is complete. Stage i records mesh period k of its span from
-//     start + (k + run-in of i) times its period,
+// Integrates all stages from the moment at which the run-in of the first stage begins, until the
+// span of every one is complete. Stage i records mesh period k of its span from
+//     start + (k + run-in of i - lead of i) times its period,
 // where start is minus the run-in of the first stage and time counts mesh periods of the first
 // stage from its first recorded one. Without shafts, every stage has the bits of a FullSolution.
 // Throws std::invalid_argument for plans that supports_steps() excludes.

@@ -25,6 +25,14 @@ class StepKernelIntegrator final : public StepIntegrator<W> {
         lanes_.excitation_forces.nodes_per_step = 0;  // one row for all steps
     }
 
+    StepKernelIntegrator(const StepKernelIntegrator&) = delete;
+    StepKernelIntegrator& operator=(const StepKernelIntegrator&) = delete;
+    ~StepKernelIntegrator() override {
+        if (lanes_.part.workspace != nullptr) {
+            lanes_.part.release(lanes_.part.workspace);
+        }
+    }
+
     machine::AlignedVector& torques() override { return torques_; }
 
     void operator()(int step, const MeshOverrides& overrides, TileState& state,

@@ -202,6 +202,26 @@ TEST_CASE("The fault of a coupled stage raises gear alarms of its own", "[couple
     }
 }
 
+// A stage that is as loud as the gearbox. Records at the same positions of its teeth and carrier
+// would differ from their baselines by nothing.
+TEST_CASE("Coupled stages have other positions in every record", "[coupled-train]") {
+    const Folder folder;
+    const mc::Results results =
+        test::run_small(folder, "r.h5",
+                        kOptions + stages(stage_file(folder, "stage.toml"), shaft(2e3)) +
+                            "--set 'features.use=[\"sensor_rms\",\"change_sensor_rms\"]' ");
+    const auto& all = results.features[0].values;
+    const auto& changes = results.features[1].values;
+    for (std::size_t row = 0; row < 20; ++row) {  // healthy gearboxes
+        CHECK(changes[row] > 0.2 * all[row]);
+    }
+    CHECK(std::abs(changes[0] / changes[8] - 1.0) > 0.02);
+    const mc::GearboxId first{mc::Group::graded, 7};
+    CHECK(mc::share_positions(first, {mc::Group::graded, 0}));
+    CHECK(!mc::share_positions(first, {mc::Group::graded, 8}));
+    CHECK(!mc::share_positions(first, {mc::Group::graded, 7, mc::Record::baseline}));
+}
+
 TEST_CASE("Shafts that cannot be computed are refused with what would be right",
           "[coupled-train]") {
     const Folder folder;
@@ -217,6 +237,16 @@ TEST_CASE("Shafts that cannot be computed are refused with what would be right",
     CHECK(refused(stages(path, shaft(2e4)) + "--set numerics.horizon=full")
               .mentions("give numerics.integrator = \"central-difference\""));
     CHECK(refused(kOptions + stages(path, shaft(1e12))).mentions("steps per mesh period"));
+    CHECK(refused(kOptions + stages(path, shaft(1e7))).mentions("steps per mesh period"));
+    CHECK(refused(kOptions + stages(path, shaft(1e-4))).mentions("to decay"));
+    CHECK(refused(kOptions + "--set 'sensor.stages=[{name=\"a\", study=\"" + path +
+                  "\", shaft=\"carrier\", stage_shaft=\"sun\"" + shaft(2e3) +
+                  "}, {name=\"b\", study=\"" + path + "\", shaft=\"carrier\", stage_shaft=\"sun\"" +
+                  shaft(2e3) + "}]'")
+              .mentions("two elastic shafts end at the carrier"));
+    CHECK(refused(stages(path, "") +
+                  "--set 'operation.carrier_speed_rpm={distribution=\"uniform\", low=5, high=70}'")
+              .mentions("next to the slowest gearbox"));
     CHECK(refused(kOptions + stages(path, ", shaft_damping_ratio=0.1"))
               .mentions("has no effect without shaft_stiffness_N_m_rad"));
     CHECK(refused(kOptions + stages(path, shaft(2e4)) + "--set effects.gravity=true")
