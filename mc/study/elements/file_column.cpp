@@ -58,8 +58,14 @@ std::vector<double> table_column(const FileColumn& source) {
 
 }  // namespace
 
-Value list_of(const FileColumn& source, const Position& position, std::size_t most) {
+Value list_of(const FileColumn& source, std::string_view key, const Position& position,
+              std::size_t most) {
     const bool uff = std::ranges::count(kUffEndings, lower_extension(source.file)) > 0;
+    if (uff && key.find("response_") == std::string_view::npos) {
+        throw SignalError(fmt::format(
+            "{}: of universal files only frequency responses are read, but {} takes other values",
+            source.file, key));
+    }
     const std::vector<double> numbers =
         uff ? uff_response_column(source.file, source.column) : table_column(source);
     Value list;

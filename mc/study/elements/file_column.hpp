@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "mc/input/document.hpp"
 
@@ -18,8 +19,9 @@ struct FileColumn {
 std::optional<FileColumn> file_column(const Value& value);
 
 // The column's numbers as a list at `position`. Of more than `most` rows every n-th one is used.
-// Throws SignalError (mc/files/signal_file.hpp) with the problem.
-Value list_of(const FileColumn& source, const Position& position,
+// Universal files are read only for keys of a frequency response ("response_"). Throws SignalError
+// (mc/files/signal_file.hpp) with the problem.
+Value list_of(const FileColumn& source, std::string_view key, const Position& position,
               std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace gearpod::mc

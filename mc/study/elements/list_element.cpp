@@ -74,7 +74,7 @@ std::vector<double> ListElement::numbers(std::string_view name, const Range& ran
     Value column;
     if (const auto source = file_column(*value)) {
         try {
-            column = list_of(*source, value->position);
+            column = list_of(*source, name, value->position);
         } catch (const SignalError& error) {
             reject(fmt::format("{}: {}", name, error.what()), "name a file and one of its columns");
             return {};

@@ -47,7 +47,7 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     const Position at = entry.position;
     Entry values{"values", {}, at}, rows{"rows", {}, at};
     try {
-        values.value = list_of(*source, at, kMostElements);
+        values.value = list_of(*source, key.path(), at, kMostElements);
     } catch (const SignalError& error) {
         reject(draft, entry, key.path(), error.what(), "name a file and one of its columns");
         draft.bad.insert(key.path());

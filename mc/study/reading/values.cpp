@@ -75,8 +75,9 @@ class ValueReader {
                 }
             }
             try {
-                ValueReader(draft_, key_,
-                            {std::string(key_.name), list_of(*source, at_), at_})(access);
+                ValueReader(
+                    draft_, key_,
+                    {std::string(key_.name), list_of(*source, key_.name, at_), at_})(access);
             } catch (const SignalError& error) {
                 reject(error.what(), "name a file and one of its columns");
             }

@@ -135,6 +135,10 @@ TEST_CASE("A study reads its housing from a universal file") {
     INFO(outcome.output);
     CHECK(outcome.code == 0);
     CHECK(outcome.mentions("measured at 5 frequencies from 0 to 320 Hz"));
+    const auto density = test::program("describe " + test::kSmall + " --set 'sensor.background_Hz" +
+                                       column("frequency"));
+    CHECK(density.code == 2);
+    CHECK(density.mentions("only frequency responses are read"));
 }
 
 }  // namespace test_uff_response
