@@ -57,9 +57,10 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
     while (!ids.empty()) {
-        std::size_t count = std::min(lanes, ids.size());
-        while (is_coupled(task_.scene.study()) && !share_positions(ids[count - 1], ids[0])) {
-            --count;
+        std::size_t count = 1;
+        while (count < std::min(lanes, ids.size()) &&
+               (!is_coupled(task_.scene.study()) || share_positions(ids[count], ids[0]))) {
+            ++count;
         }
         add_rows(ids.first(count), records, rows, seconds);
         ids = ids.subspan(count);
