@@ -9,14 +9,12 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/varying_forces.hpp"
+#include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 constexpr std::uint64_t kSharedPositions = 8;  // gearboxes; the most lanes of a tile
-const NeighbourStage& stage_of(const Scene& scene, std::size_t stage) {
-    return scene.study().sensor.stages[stage];
-}
 
 // End of a shaft at a gearbox. The shaft's positive sense is that in which it turns.
 lockstep::ShaftEnd shaft_end(const Scene& gearbox, Member shaft) {
@@ -32,6 +30,10 @@ double mesh_period_of(const Scene& gearbox) {
 }
 
 }  // namespace
+
+const NeighbourStage& stage_of(const Scene& scene, std::size_t stage) {
+    return scene.study().sensor.stages[stage];
+}
 
 double shaft_torque_N_m(const Scene& gearbox, Member shaft, const InstanceInputs& inputs) {
     const lockstep::ShaftEnd end = shaft_end(gearbox, shaft);
@@ -136,6 +138,18 @@ std::vector<double> train_frequencies_Hz(const Scene& scene) {
 bool share_positions(const GearboxId& a, const GearboxId& b) {
     return a.group == b.group && a.record == b.record && a.baseline == b.baseline &&
            a.index / kSharedPositions == b.index / kSharedPositions;
+}
+
+std::size_t shared_records(const Study& study, std::span<const GearboxId> ids, std::size_t most) {
+    most = std::min(most, ids.size());
+    if (!is_coupled(study)) {
+        return most;
+    }
+    std::size_t count = 1;
+    while (count < most && share_positions(ids[count], ids[0])) {
+        ++count;
+    }
+    return count;
 }
 
 double coupled_run_in(const Scene& scene, int run_in_meshes) {

@@ -4,12 +4,16 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lockstep/strategies/coupled_stages.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
+
+// Stage of that number in the study of the scene.
+const NeighbourStage& stage_of(const Scene& scene, std::size_t stage);
 
 // External torque of a gearbox with these inputs on one of its shafts, N m, positive in the sense
 // in which this shaft turns.
@@ -68,6 +72,8 @@ inline constexpr int kMarginMeshes = 2;
 CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id);
 // True if two records have stages at the same positions.
 bool share_positions(const GearboxId& a, const GearboxId& b);
+// Number of records, from the first and at most that many, that one tile may hold.
+std::size_t shared_records(const Study& study, std::span<const GearboxId> ids, std::size_t most);
 
 // Shafts in a tile of that many lanes; stage i + 1 of the integration is number i of
 // CoupledSpan::stages.

@@ -23,10 +23,6 @@ constexpr double kLongestRunIn = 10.0;
 // frequency of its twist is then correct to 1 %.
 constexpr double kMostPhase = 0.2;
 
-const NeighbourStage& stage_at(const Scene& scene, std::size_t stage) {
-    return scene.study().sensor.stages[stage];
-}
-
 // Inverse of the inertia of the member alone at which a shaft ends, 1/(kg m^2).
 double inverse_inertia(const Scene& gearbox, const lockstep::ShaftEnd& end) {
     const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(gearbox.plan().layout)),
@@ -50,92 +46,87 @@ double slowest_period(const Scene& scene) {
     return slowest;
 }
 
-// Shafts at one gearbox of the train: the study's own without `stage`.
-std::vector<dynamics::SpringDamper> shafts_at(const Scene& scene,
-                                              std::optional<std::size_t> stage) {
-    const Scene& gearbox = stage ? scene.stages()[*stage] : scene;
-    std::vector<dynamics::SpringDamper> shafts;
-    const auto add = [&](std::size_t of, std::size_t side) {
-        const lockstep::ShaftEnd end = shaft_ends(scene, of)[side];
-        dynamics::SpringDamper spring;
-        spring.row = Eigen::VectorXd::Zero(dynamics::degrees_of_freedom(gearbox.plan().layout));
-        spring.row(end.degree) = end.turn_per_m;
-        spring.stiffness = stage_at(scene, of).shaft_stiffness_N_m_rad;
-        spring.damping = shaft_mode(scene, of).damping_N_m_s_rad;
-        shafts.push_back(std::move(spring));
-    };
+// End of the shaft of stage `of`: side 0 at the gearbox at its other end, side 1 at the stage.
+struct ShaftSide {
+    std::size_t of = 0, side = 0;
+};
+
+// Elastic shafts that end at one gearbox of the train, the study's own without `stage`.
+std::vector<ShaftSide> shafts_at(const Scene& scene, std::optional<std::size_t> stage) {
+    std::vector<ShaftSide> shafts;
     for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        if (!stage_at(scene, i).coupled()) {
+        if (!stage_of(scene, i).coupled()) {
             continue;
         }
         if (stage == i) {
-            add(i, 1);
+            shafts.push_back({i, 1});
         }
         if (stage == other_stage(scene.study(), i)) {
-            add(i, 0);
+            shafts.push_back({i, 0});
         }
     }
     return shafts;
 }
 
+const Scene& gearbox_at(const Scene& scene, std::optional<std::size_t> stage) {
+    return stage ? scene.stages()[*stage] : scene;
+}
+
+// "stage "second": " for messages; "" for the study's own gearbox.
+std::string named(const Scene& scene, std::optional<std::size_t> stage) {
+    return stage ? fmt::format("stage \"{}\": ", stage_of(scene, *stage).name) : "";
+}
+
 // Checks that each member of a gearbox has one elastic shaft at most: it sets the torque there.
 void check_members(const Scene& scene, std::optional<std::size_t> stage) {
     std::vector<Member> members;
-    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        const NeighbourStage& own = stage_at(scene, i);
-        if (own.coupled() && stage == i) {
-            members.push_back(*own.stage_shaft);
-        }
-        if (own.coupled() && stage == other_stage(scene.study(), i)) {
-            members.push_back(*own.shaft);
-        }
+    for (const auto& [of, side] : shafts_at(scene, stage)) {
+        const NeighbourStage& own = stage_of(scene, of);
+        members.push_back(side == 1 ? *own.stage_shaft : *own.shaft);
     }
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        if (std::ranges::count(members, members[i]) > 1) {
+    for (const Member member : members) {
+        if (std::ranges::count(members, member) > 1) {
             throw SceneError(
                 kStagesKey,
-                fmt::format(
-                    "{}two elastic shafts end at the {}, and each would bear its whole "
-                    "torque",
-                    stage ? fmt::format("stage \"{}\": ", stage_at(scene, *stage).name) : "",
-                    member_name(members[i])),
+                fmt::format("{}two elastic shafts end at the {}, and each would bear its whole "
+                            "torque",
+                            named(scene, stage), member_name(member)),
                 "couple one stage with each member");
         }
     }
 }
 
-// Steps per mesh period that the nominal gearbox needs with its shafts held at their other ends,
-// and to resolve how they twist and how their dampers act between the members at both ends.
-double steps_with_shafts(const Scene& scene, const Scene& gearbox,
-                         const std::vector<dynamics::SpringDamper>& shafts,
-                         std::optional<std::size_t> stage) {
+// Steps per mesh period that the nominal gearbox needs to be stable with its elastic shafts held at
+// their other ends, and to resolve how these twist and how their dampers act between the members at
+// both ends.
+double needed_steps(const Scene& scene, std::optional<std::size_t> stage) {
+    const Scene& gearbox = gearbox_at(scene, stage);
     const auto inputs = gearbox.inputs(nominal_inputs(gearbox.study()));
     auto matrices = dynamics::assemble(gearbox.plan().layout, inputs, gearbox.stiffest_pairs());
-    for (const dynamics::SpringDamper& shaft : shafts) {
+    double fastest_1_s = 0.0;
+    for (const auto& [of, side] : shafts_at(scene, stage)) {
+        const auto ends = shaft_ends(scene, of);
+        dynamics::SpringDamper shaft;
+        shaft.row = Eigen::VectorXd::Zero(matrices.mass.rows());
+        shaft.row(ends[side].degree) = ends[side].turn_per_m;
+        shaft.stiffness = stage_of(scene, of).shaft_stiffness_N_m_rad;
+        shaft.damping = shaft_mode(scene, of).damping_N_m_s_rad;
         dynamics::add(matrices, shaft);
+        const double inverse = inverse_inertia(other_end(scene, of), ends[0]) +
+                               inverse_inertia(scene.stages()[of], ends[1]);
+        fastest_1_s =
+            std::max({fastest_1_s, std::sqrt(shaft.stiffness * inverse), shaft.damping * inverse});
     }
     const double period = dynamics::mesh_period_s(inputs);
-    double steps = period / lockstep::longest_stable_step(matrices, gearbox.plan().integrator);
-    for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        if (!stage_at(scene, i).coupled() ||
-            (stage != i && stage != other_stage(scene.study(), i))) {
-            continue;
-        }
-        const auto ends = shaft_ends(scene, i);
-        const double inverse = inverse_inertia(other_end(scene, i), ends[0]) +
-                               inverse_inertia(scene.stages()[i], ends[1]);
-        const double twist_1_s = std::sqrt(stage_at(scene, i).shaft_stiffness_N_m_rad * inverse),
-                     damper_1_s = shaft_mode(scene, i).damping_N_m_s_rad * inverse;
-        steps = std::max(steps, period * std::max(twist_1_s, damper_1_s) / kMostPhase);
-    }
-    return steps;
+    return std::max(period / lockstep::longest_stable_step(matrices, gearbox.plan().integrator),
+                    period * fastest_1_s / kMostPhase);
 }
 
 // Checks that a gearbox, the study's own without `stage`, can be integrated with its shafts.
-void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
-    const Scene& gearbox = stage ? scene.stages()[*stage] : scene;
+void check_gearbox(const Scene& scene, double slowest, std::optional<std::size_t> stage) {
+    const Scene& gearbox = gearbox_at(scene, stage);
     const Study& study = gearbox.study();
-    const std::string of = stage ? fmt::format("stage \"{}\": ", stage_at(scene, *stage).name) : "";
+    const std::string of = named(scene, stage);
     const char* where = stage ? "in the study of that stage" : "here";
     if (!lockstep::supports_steps(gearbox.plan())) {
         throw SceneError(kStagesKey,
@@ -160,15 +151,7 @@ void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
                          "remove it there");
     }
     check_members(scene, stage);
-    const auto shafts = shafts_at(scene, stage);
-    if (shafts.size() > lockstep::kMostShafts) {
-        throw SceneError(kStagesKey,
-                         fmt::format("{}{} elastic shafts at one gearbox; at most {} can be "
-                                     "computed",
-                                     of, shafts.size(), lockstep::kMostShafts),
-                         "couple fewer stages");
-    }
-    const double needed = slowest_period(scene) * steps_with_shafts(scene, gearbox, shafts, stage);
+    const double needed = slowest * needed_steps(scene, stage);
     const auto steps = static_cast<double>(gearbox.plan().grid.steps.size());
     if (steps < needed) {
         throw SceneError(
@@ -181,8 +164,9 @@ void check_gearbox(const Scene& scene, std::optional<std::size_t> stage) {
     }
 }
 
+// Checks that the shaft of a stage bears a torque at both ends.
 void check_balance(const Scene& scene, std::size_t stage) {
-    const NeighbourStage& own = stage_at(scene, stage);
+    const NeighbourStage& own = stage_of(scene, stage);
     const Scene& other = other_end(scene, stage);
     const Scene& there = scene.stages()[stage];
     const double torque = shaft_torque_N_m(other, *own.shaft, nominal_inputs(other.study()));
@@ -191,30 +175,25 @@ void check_balance(const Scene& scene, std::size_t stage) {
     if (torque == 0.0 || torque_there == 0.0) {
         throw SceneError(
             kStagesKey,
-            fmt::format("stage \"{}\": the common shaft bears no torque {}", own.name,
+            fmt::format("{}the common shaft bears no torque {}", named(scene, stage),
                         torque == 0.0 ? "in the gearbox at its other end" : "in this stage"),
             "give both a torque (operation.torque_N_m)");
     }
 }
 
 // Checks that the steps of an uncoupled stage are stable next to the slowest gearbox of the study.
-void check_steps(const Scene& scene, std::size_t stage) {
+void check_steps(const Scene& scene, double slowest, std::size_t stage) {
     const Scene& own = scene.stages()[stage];
     if (!lockstep::is_explicit(own.plan().integrator)) {
         return;
     }
-    const auto inputs = own.inputs(nominal_inputs(own.study()));
-    const double needed = slowest_period(scene) * dynamics::mesh_period_s(inputs) /
-                          lockstep::longest_stable_step(
-                              dynamics::assemble(own.plan().layout, inputs, own.stiffest_pairs()),
-                              own.plan().integrator);
+    const double needed = slowest * needed_steps(scene, stage);
     if (static_cast<double>(own.plan().grid.steps.size()) < needed) {
         throw SceneError(
             kStagesKey,
-            fmt::format("stage \"{}\": next to the slowest gearbox it needs {:.0f} steps per mesh "
+            fmt::format("{}next to the slowest gearbox it needs {:.0f} steps per mesh "
                         "period, and has {}",
-                        stage_at(scene, stage).name, std::ceil(needed),
-                        own.plan().grid.steps.size()),
+                        named(scene, stage), std::ceil(needed), own.plan().grid.steps.size()),
             fmt::format("give numerics.steps_per_mesh = {:.0f} in the study of that stage",
                         std::ceil(1.05 * needed)));
     }
@@ -223,9 +202,13 @@ void check_steps(const Scene& scene, std::size_t stage) {
 }  // namespace
 
 void check_stages(const Scene& scene) {
+    if (scene.stages().empty()) {
+        return;
+    }
+    const double slowest = slowest_period(scene);
     for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        if (!stage_at(scene, i).coupled()) {
-            check_steps(scene, i);
+        if (!stage_of(scene, i).coupled()) {
+            check_steps(scene, slowest, i);
         }
     }
     if (!is_coupled(scene.study())) {
@@ -256,10 +239,10 @@ void check_stages(const Scene& scene) {
                          "give a stiffer shaft or more damping, or leave shaft_stiffness_N_m_rad "
                          "out");
     }
-    check_gearbox(scene, std::nullopt);
+    check_gearbox(scene, slowest, std::nullopt);
     for (std::size_t i = 0; i < scene.stages().size(); ++i) {
-        if (stage_at(scene, i).coupled()) {
-            check_gearbox(scene, i);
+        if (stage_of(scene, i).coupled()) {
+            check_gearbox(scene, slowest, i);
             check_balance(scene, i);
         }
     }

@@ -34,7 +34,7 @@ std::string other_speed_text(const NeighbourStage& stage, const Scene& own) {
                              factor);
 }
 
-// What the shaft of a stage does, with the frequency of its twist.
+// Describes what the shaft of a stage does, with the frequency of its twist.
 std::string shaft_text(const Scene& scene, std::size_t stage) {
     const NeighbourStage& own = scene.study().sensor.stages[stage];
     return own.coupled()

@@ -57,11 +57,7 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
     while (!ids.empty()) {
-        std::size_t count = 1;
-        while (count < std::min(lanes, ids.size()) &&
-               (!is_coupled(task_.scene.study()) || share_positions(ids[count], ids[0]))) {
-            ++count;
-        }
+        const std::size_t count = shared_records(task_.scene.study(), ids, lanes);
         add_rows(ids.first(count), records, rows, seconds);
         ids = ids.subspan(count);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -203,22 +204,18 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
     // other.
     std::vector<std::size_t> order(earlier.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const bool coupled = is_coupled(scene.study());
-    if (coupled) {
+    if (is_coupled(scene.study())) {
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return earlier[i].baseline; });
     }
+    std::vector<GearboxId> ordered;
+    std::ranges::transform(order, std::back_inserter(ordered),
+                           [&](std::size_t i) { return earlier[i]; });
     GearboxTile all;
     all.baseline.resize(earlier.size());
     all.status.resize(earlier.size());
     for (std::size_t first = 0; first < order.size();) {
-        std::vector<GearboxId> some;
-        while (some.size() < lanes && first + some.size() < order.size()) {
-            const GearboxId& next = earlier[order[first + some.size()]];
-            if (coupled && !some.empty() && !share_positions(next, some.front())) {
-                break;
-            }
-            some.push_back(next);
-        }
+        const auto left = std::span<const GearboxId>(ordered).subspan(first);
+        const auto some = left.first(shared_records(scene.study(), left, lanes));
         GearboxTile tile =
             run_records(scene, path, some, fewest, {.signal_meshes = meshes, .cache = cache});
         auto start = WallClock::now();

@@ -72,13 +72,9 @@ void add_stage_vibration(const Scene& scene, std::size_t stage, const Realizatio
 }
 
 // Adds the vibration of the coupled stages of a record to its samples.
-void add_coupled_stages(const Scene& scene, const Realization& realization,
-                        const LaneSignals& record, std::vector<double>& samples) {
-    if (record.coupled.empty()) {
-        return;
-    }
-    const CoupledSpan span = coupled_span(scene, run_in_meshes(scene), realization.id);
-    for (std::size_t i = 0; i < span.stages.size(); ++i) {
+void add_coupled_stages(const Scene& scene, const CoupledSpan& span, const LaneSignals& record,
+                        std::vector<double>& samples) {
+    for (std::size_t i = 0; i < record.coupled.size(); ++i) {
         const StageSpan& stage = span.stages[i];
         const double per_mesh = scene.stages()[stage.stage].samples_per_mesh();
         std::vector<double> vibration = record.coupled[i];
@@ -190,11 +186,16 @@ void add_background(const Scene& scene, std::span<const Realization> realization
     if (!any || records.empty() || records.front().sensor.empty()) {
         return;
     }
+    // Records of a coupled tile share it.
+    CoupledSpan span;
+    if (is_coupled(scene.study())) {
+        span = coupled_span(scene, run_in_meshes(scene), realizations.front().id);
+    }
     std::vector<std::vector<double>> samples;
     for (std::size_t i = 0; i < records.size(); ++i) {
         samples.emplace_back(records[i].sensor.size(), 0.0);
         add_bearings(scene, realizations[i], SourceRole::background, samples[i]);
-        add_coupled_stages(scene, realizations[i], records[i], samples[i]);
+        add_coupled_stages(scene, span, records[i], samples[i]);
     }
     for (std::size_t stage = 0; stage < scene.stages().size(); ++stage) {
         if (sensor.stages[stage].coupled()) {

@@ -33,7 +33,7 @@ lockstep::FaultCurves fault_curves(const Scene& scene, std::span<const Realizati
     return faults;
 }
 
-// What the integration of the gearboxes of one study needs. Its parts refer to each other.
+// Inputs for the integration of the gearboxes of one study. The parts refer to each other.
 struct SolutionInputs {
     std::vector<Realization> realizations;  // [lane]
     std::vector<dynamics::GearboxInputs> gearboxes;

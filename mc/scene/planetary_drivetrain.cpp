@@ -112,14 +112,15 @@ double PlanetaryDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
 ShaftDegree PlanetaryDrivetrain::shaft_degree(const dynamics::GearboxLayout& layout,
                                               Member member) const {
     const auto& planetary = std::get<dynamics::PlanetaryLayout>(layout);
-    switch (member) {
-        case Member::carrier:
+    switch (central_member(member)) {
+        case gears::Member::carrier:
             return {planetary.rotation_index(dynamics::carrier), radius_m_.carrier};
-        case Member::ring:
+        case gears::Member::ring:
             return {planetary.rotation_index(dynamics::ring), radius_m_.ring};
-        default:
-            return {planetary.rotation_index(dynamics::sun), radius_m_.sun};
+        case gears::Member::sun:
+            break;
     }
+    return {planetary.rotation_index(dynamics::sun), radius_m_.sun};
 }
 
 void PlanetaryDrivetrain::set(const InstanceInputs& instance,

@@ -9,7 +9,6 @@
 #include "lockstep/excitation/excitation_rows.hpp"
 #include "lockstep/excitation/forced_motion.hpp"
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
 #include "machine/cancellation.hpp"
 
@@ -19,28 +18,20 @@ namespace {
 template <int W, class Lanes>
 class ExcitedKernelIntegrator final : public ExcitedIntegrator<W> {
   public:
-    ExcitedKernelIntegrator(const IntegrationPlan& plan, Lanes lanes, machine::AlignedVector filter,
-                            IntegrationKernel<Lanes>* kernel, ExcitationRows rows)
-        : plan_(plan),
-          lanes_(std::move(lanes)),
-          filter_(std::move(filter)),
-          kernel_(kernel),
-          rows_(std::move(rows)) {
-        lanes_.excitation_forces.rows = rows_.rows().data();
+    ExcitedKernelIntegrator(KernelCall<Lanes> call, ExcitationRows rows)
+        : call_(std::move(call)), rows_(std::move(rows)) {
+        call_.lanes.excitation_forces.rows = rows_.rows().data();
     }
 
     void operator()(int mesh, const MeshOverrides& overrides, TileState& state,
                     MeshRecord& record) override {
         machine::throw_if_cancelled();
         rows_.fill(mesh);
-        kernel_(plan_, lanes_, filter_, overrides, state, record);
+        call_(overrides, state, record);
     }
 
   private:
-    const IntegrationPlan& plan_;
-    Lanes lanes_;
-    const machine::AlignedVector filter_;
-    IntegrationKernel<Lanes>* const kernel_;
+    KernelCall<Lanes> call_;
     ExcitationRows rows_;
 };
 
@@ -81,10 +72,10 @@ std::unique_ptr<ExcitedIntegrator<W>> make_excited_integrator(
             using Lanes = ForcedLanes<ModelLanes, W>;
             const bool over_mass = is_explicit(plan.integrator);
             return std::make_unique<ExcitedKernelIntegrator<W, Lanes>>(
-                plan, Lanes{model, make_excitation_forces<W>(plan, excitation, inputs, over_mass)},
-                filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths,
-                                    dynamics::mesh_periods_s(inputs)),
-                choose_kernel<Lanes>(plan, excitation_kind, motion_model, W),
+                KernelCall<Lanes>(
+                    plan,
+                    Lanes{model, make_excitation_forces<W>(plan, excitation, inputs, over_mass)},
+                    inputs, excitation_kind, motion_model),
                 ExcitationRows(plan, excitation, inputs));
         });
 }

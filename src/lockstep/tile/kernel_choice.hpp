@@ -9,6 +9,7 @@
 #include "dynamics/fixed_shaft_lanes.hpp"
 #include "dynamics/planetary_lanes.hpp"
 #include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/integrators/implicit_lanes.hpp"
 #include "lockstep/kernels/kernel_table.hpp"
 
@@ -22,6 +23,34 @@ IntegrationKernel<Lanes>* choose_kernel(const IntegrationPlan& plan, ExcitationK
                                        plan.precision, machine::active_instruction_set(),
                                        motion_model, lanes});
 }
+
+// A kernel together with what it takes at every call, for a tile of the plan's gearboxes. The plan
+// must outlive the object.
+template <class Lanes>
+class KernelCall {
+  public:
+    // `inputs` has one gearbox per lane. Throws MissingKernel.
+    KernelCall(const IntegrationPlan& plan, Lanes own,
+               std::span<const dynamics::GearboxInputs> inputs, ExcitationKind excitation_kind,
+               MotionModel motion_model)
+        : lanes(std::move(own)),
+          plan_(plan),
+          filter_(filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths,
+                                      dynamics::mesh_periods_s(inputs))),
+          kernel_(choose_kernel<Lanes>(plan, excitation_kind, motion_model,
+                                       static_cast<int>(inputs.size()))) {}
+
+    void operator()(const MeshOverrides& overrides, TileState& state, MeshRecord& record) const {
+        kernel_(plan_, lanes, filter_, overrides, state, record);
+    }
+
+    Lanes lanes;
+
+  private:
+    const IntegrationPlan& plan_;
+    const machine::AlignedVector filter_;
+    IntegrationKernel<Lanes>* const kernel_;
+};
 
 // Calls use(lanes, moving) with the lanes and the model for the plan's integrator. `inputs` holds W
 // gearboxes of the plan's kind.

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "lockstep/integrators/facts.hpp"
-#include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
 #include "machine/cancellation.hpp"
 
@@ -18,35 +17,27 @@ constexpr int kMostDoubleLanes = 8;
 template <int W, class Lanes>
 class KernelIntegrator final : public MeshIntegrator<W> {
   public:
-    KernelIntegrator(const IntegrationPlan& plan, Lanes lanes, machine::AlignedVector filter,
-                     IntegrationKernel<Lanes>* kernel)
-        : plan_(plan), lanes_(std::move(lanes)), filter_(std::move(filter)), kernel_(kernel) {}
+    explicit KernelIntegrator(KernelCall<Lanes> call) : call_(std::move(call)) {}
 
     void operator()(const MeshOverrides& overrides, TileState& state,
                     MeshRecord& record) const override {
         machine::throw_if_cancelled();
-        kernel_(plan_, lanes_, filter_, overrides, state, record);
+        call_(overrides, state, record);
     }
 
   private:
-    const IntegrationPlan& plan_;
-    const Lanes lanes_;
-    const machine::AlignedVector filter_;
-    IntegrationKernel<Lanes>* const kernel_;
+    const KernelCall<Lanes> call_;
 };
 
 template <int W, class Real>
 std::unique_ptr<const MeshIntegrator<W>> make_kernel_integrator(
     const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs) {
-    machine::AlignedVector filter = filter_coefficients(
-        plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, dynamics::mesh_periods_s(inputs));
     return with_lanes<W, Real>(
         plan, inputs,
         [&]<class Lanes>(Lanes lanes,
                          MotionModel motion_model) -> std::unique_ptr<const MeshIntegrator<W>> {
-            return std::make_unique<KernelIntegrator<W, Lanes>>(
-                plan, std::move(lanes), std::move(filter),
-                choose_kernel<Lanes>(plan, ExcitationKind::steady, motion_model, W));
+            return std::make_unique<KernelIntegrator<W, Lanes>>(KernelCall<Lanes>(
+                plan, std::move(lanes), inputs, ExcitationKind::steady, motion_model));
         });
 }
 

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "lockstep/excitation/forced_motion.hpp"
-#include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
 #include "machine/cancellation.hpp"
 
@@ -14,22 +13,17 @@ namespace {
 template <int W, class Lanes>
 class StepKernelIntegrator final : public StepIntegrator<W> {
   public:
-    StepKernelIntegrator(const IntegrationPlan& plan, Lanes lanes, machine::AlignedVector filter,
-                         IntegrationKernel<Lanes>* kernel)
-        : plan_(plan),
-          lanes_(std::move(lanes)),
-          filter_(std::move(filter)),
-          kernel_(kernel),
-          torques_(static_cast<std::size_t>(lanes_.excitation_forces.columns) * W) {
-        lanes_.excitation_forces.rows = torques_.data();
-        lanes_.excitation_forces.nodes_per_step = 0;  // one row for all steps
+    explicit StepKernelIntegrator(KernelCall<Lanes> call)
+        : call_(std::move(call)),
+          torques_(static_cast<std::size_t>(call_.lanes.excitation_forces.columns) * W) {
+        call_.lanes.excitation_forces.rows = torques_.data();
+        call_.lanes.excitation_forces.nodes_per_step = 0;  // one row for all steps
     }
-
     StepKernelIntegrator(const StepKernelIntegrator&) = delete;
     StepKernelIntegrator& operator=(const StepKernelIntegrator&) = delete;
     ~StepKernelIntegrator() override {
-        if (lanes_.part.workspace != nullptr) {
-            lanes_.part.release(lanes_.part.workspace);
+        if (part().workspace != nullptr) {
+            part().release(part().workspace);
         }
     }
 
@@ -40,16 +34,15 @@ class StepKernelIntegrator final : public StepIntegrator<W> {
         if (step == 0) {
             machine::throw_if_cancelled();
         }
-        lanes_.part.first = step;
-        lanes_.part.last = step + 1;
-        kernel_(plan_, lanes_, filter_, overrides, state, record);
+        part().first = step;
+        part().last = step + 1;
+        call_(overrides, state, record);
     }
 
   private:
-    const IntegrationPlan& plan_;
-    Lanes lanes_;
-    const machine::AlignedVector filter_;
-    IntegrationKernel<Lanes>* const kernel_;
+    MeshPart& part() { return call_.lanes.part; }
+
+    KernelCall<Lanes> call_;
     machine::AlignedVector torques_;
 };
 
@@ -77,11 +70,9 @@ std::unique_ptr<StepIntegrator<W>> make_step_integrator(
         [&]<class ModelLanes>(const ModelLanes& model,
                               MotionModel motion_model) -> std::unique_ptr<StepIntegrator<W>> {
             using Lanes = ForcedLanes<ModelLanes, W>;
-            return std::make_unique<StepKernelIntegrator<W, Lanes>>(
+            return std::make_unique<StepKernelIntegrator<W, Lanes>>(KernelCall<Lanes>(
                 plan, Lanes{model, make_excitation_forces<W>(plan, excitation, inputs, true)},
-                filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths,
-                                    dynamics::mesh_periods_s(inputs)),
-                choose_kernel<Lanes>(plan, ExcitationKind::forced, motion_model, W));
+                inputs, ExcitationKind::forced, motion_model));
         });
 }
 

@@ -37,12 +37,7 @@ std::string shaft(double stiffness_N_m_rad) {
 mc::Scene scene_with(const std::string& path, const std::string& more,
                      std::vector<std::string> settings = {}) {
     settings.insert(settings.end(), kNumerics.begin(), kNumerics.end());
-    settings.push_back("sensor.stages=[{name=\"slow\", study=\"" + path +
-                       "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]");
-    const auto reading = mc::read_study(kSmall, settings);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study.has_value());
-    return mc::Scene(*reading.study);
+    return mc::Scene(test::small_study(path, more, std::move(settings)));
 }
 
 // Mass and stiffness of a torsional train: u = r theta of carrier, ring, sun and three planets. A

@@ -27,9 +27,23 @@ inline std::string stage_file(const Folder& folder, const std::string& name,
     return path;
 }
 
+// Setting of the stage of that file, and the same as an option.
+inline std::string stage_setting(const std::string& path, const std::string& more) {
+    return "sensor.stages=[{name=\"slow\", study=\"" + path +
+           "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]";
+}
 inline std::string stages(const std::string& path, const std::string& more) {
-    return "--set 'sensor.stages=[{name=\"slow\", study=\"" + path +
-           "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]' ";
+    return "--set '" + stage_setting(path, more) + "' ";
+}
+
+// Study of the small gearbox next to that stage.
+inline mc::Study small_study(const std::string& path, const std::string& more,
+                             std::vector<std::string> settings = {}) {
+    settings.push_back(stage_setting(path, more));
+    const auto reading = mc::read_study(kSmall, settings);
+    INFO(format(reading.problems));
+    REQUIRE(reading.study.has_value());
+    return *reading.study;
 }
 
 // Replaces a text in a file.

@@ -22,20 +22,11 @@ using namespace gearpod;
 using test::Folder;
 using test::kSmall;
 using test::program;
+using test::small_study;
 using test::stage_file;
 using test::stages;
 
 namespace {
-
-// Study of the small gearbox next to that stage.
-mc::Study small_study(const std::string& path, const std::string& more) {
-    const auto reading =
-        mc::read_study(kSmall, {"sensor.stages=[{name=\"slow\", study=\"" + path +
-                                "\", shaft=\"carrier\", stage_shaft=\"sun\"" + more + "}]"});
-    INFO(format(reading.problems));
-    REQUIRE(reading.study.has_value());
-    return *reading.study;
-}
 
 // Noise-free sensor signal of a gearbox over the span.
 std::vector<double> sensor_signal(const mc::Scene& scene, const mc::Realization& gearbox) {
