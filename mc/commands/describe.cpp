@@ -212,7 +212,7 @@ void print_fallback(const Study& study, const std::optional<Scene>& scene) {
         return print_step_forecast(*scene);
     }
     Study plain = study;
-    plain.numerics.tolerance = 0.0;
+    plain.numerics.tolerance = plain.numerics.scatter_tolerance = 0.0;
     try {
         const Scene with_defaults(plain);
         print_entry("solver setting", "the default, not the one that a pilot run would choose");

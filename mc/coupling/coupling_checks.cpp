@@ -219,8 +219,9 @@ void check_stages(const Scene& scene) {
                          "an elastic shaft to another stage needs gears with inertia",
                          "choose another motion than quasi-static");
     }
-    if (scene.study().numerics.verify) {
-        throw SceneError("numerics.verify",
+    const Numerics& numerics = scene.study().numerics;
+    if (numerics.verify || numerics.paired_gearboxes > 0) {
+        throw SceneError(numerics.verify ? "numerics.verify" : "numerics.paired_gearboxes",
                          "would repeat gearboxes with finer steps of the study's own stage only",
                          "remove it; compare runs with another numerics.steps_per_mesh");
     }

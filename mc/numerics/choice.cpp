@@ -11,6 +11,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "mc/numerics/pilot.hpp"
 #include "mc/numerics/reference.hpp"
+#include "mc/numerics/scatter_choice.hpp"
 #include "mc/numerics/solver_families.hpp"
 
 namespace gearpod::mc {
@@ -241,8 +242,12 @@ class Search {
 }  // namespace
 
 std::string NumericsChoice::text() const {
-    return fmt::format("{} (features within {:.2g} on {} pilot gearboxes; the worst is {})",
-                       setting.text(), error, gearboxes, worst_feature);
+    if (of_scatter && worst_feature.empty()) {
+        return setting.text() + " (no fewer steps keep the tolerance)";
+    }
+    return fmt::format("{} (features within {:.2g}{} on {} pilot gearboxes; the worst is {})",
+                       setting.text(), error, of_scatter ? " of their scatter" : "", gearboxes,
+                       worst_feature);
 }
 
 ResolvedStudy resolve_numerics(Study study) {
@@ -252,6 +257,12 @@ ResolvedStudy resolve_numerics(Study study) {
         const double tolerance = study.numerics.tolerance;
         study.numerics = choice->setting.numerics;
         study.numerics.tolerance = tolerance;
+    }
+    if (study.numerics.scatter_tolerance > 0.0) {
+        choice = choose_by_scatter(study);
+        const double tolerance = study.numerics.scatter_tolerance;
+        study.numerics = choice->setting.numerics;
+        study.numerics.scatter_tolerance = tolerance;
     }
     return {std::move(study), std::move(choice)};
 }

@@ -1,5 +1,6 @@
 // Chooses the numerics for numerics.tolerance: the least expensive candidate setting that keeps
-// every feature of a pilot within the tolerance.
+// every feature of a pilot within the tolerance. For numerics.scatter_tolerance see
+// scatter_choice.hpp.
 #pragma once
 
 #include <optional>
@@ -12,7 +13,9 @@ namespace gearpod::mc {
 
 struct NumericsChoice {
     SolverSetting setting;
-    double error = 0.0;         // relative error of the pilot's worst feature
+    // Relative error of the pilot's worst feature, or its error over the feature's scatter.
+    double error = 0.0;
+    bool of_scatter = false;    // true for the latter
     std::string worst_feature;  // name of that feature
     double cost = 0.0;      // of integrating the pilot by the cost model, in rk4 steps per gearbox
     std::string reference;  // reference solution of the pilot

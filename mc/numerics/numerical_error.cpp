@@ -8,7 +8,8 @@
 #include <limits>
 
 #include "analysis/detection/size_groups.hpp"
-#include "mc/numerics/pilot.hpp"
+#include "mc/ensemble/batch_worker.hpp"
+#include "mc/ensemble/rows_of_gearboxes.hpp"
 #include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {
@@ -20,6 +21,9 @@ constexpr double kConverged = 1e-10;
 
 SolverSetting setting_of(const Scene& scene) {
     SolverSetting setting = own_setting(scene.study());
+    if (setting.numerics.mass_scaling_Hz > 0.0) {
+        setting.options.emplace_back("mass_scaling_Hz");
+    }
     if (setting.numerics.steps_per_mesh == 0) {
         setting.numerics.steps_per_mesh = static_cast<int>(scene.plan().grid.steps.size());
     }
@@ -41,11 +45,54 @@ SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int f
     return finer;
 }
 
-// Gearboxes spread evenly over the graded group.
-std::vector<GearboxId> spread_gearboxes(const Study& study) {
-    const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
-        1, study.ensemble.instances / static_cast<std::int64_t>(pilot_gearboxes().size())));
-    return pilot_gearboxes(stride / 2, stride);
+constexpr std::int64_t kVerified = 8;  // gearboxes, unless the study has numerics.paired_gearboxes
+
+// Gearboxes of a group with that many members, spread evenly over it.
+std::vector<GearboxId> spread_gearboxes(Group group, std::int64_t members, std::int64_t count) {
+    const std::int64_t stride = std::max<std::int64_t>(1, members / count);
+    std::vector<GearboxId> ids;
+    for (std::int64_t i = 0; i < count; ++i) {
+        ids.push_back({group, static_cast<std::uint64_t>(stride / 2 + i * stride)});
+    }
+    return ids;
+}
+
+// Values of the features of some gearboxes, by gearbox, and their fault sizes.
+struct Values {
+    std::vector<std::span<const double>> features;  // NaN for a gearbox that failed
+    std::vector<double> size;
+    std::size_t count = 0;  // of values of a gearbox
+};
+Values values_of(const Scene& scene, const BatchRows& rows) {
+    const RowShape shape = row_shape(scene.study());
+    Values values{{}, {}, shape.features * shape.levels};
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        const std::span all(rows.values);
+        values.features.push_back(
+            all.subspan(row * shape.values() + shape.parameters, values.count));
+        values.size.push_back(rows.values[row * shape.values() + shape.fault_size()]);
+    }
+    return values;
+}
+
+// Adds the differences of the first `faulty` gearboxes in one value. Infinite if a gearbox has it
+// with fine steps only.
+void add_differences(const Values& own, const Values& fine, std::size_t faulty, std::size_t at,
+                     NumericalError& error) {
+    double squares = 0.0, largest = 0.0;
+    std::size_t compared = 0;
+    for (std::size_t g = 0; g < faulty; ++g) {
+        const double here = own.features[g][at], there = fine.features[g][at];
+        if (std::isfinite(there)) {
+            const double difference = std::isfinite(here) ? std::abs(here - there) : INFINITY;
+            squares += difference * difference;
+            largest = std::max(largest, difference);
+            ++compared;
+        }
+    }
+    error.rms.push_back(
+        std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, compared))));
+    error.largest.push_back(largest);
 }
 
 // Counts of one feature at one noise level over the rows of the results.
@@ -142,13 +189,23 @@ double standard_deviation(const std::vector<double>& values) {
 
 FinerScene finer_scene(const Scene& scene) {
     const Numerics& numerics = scene.study().numerics;
-    return numerics.tolerance == 0.0 && !numerics.verify ? FinerScene{} : with_finer_steps(scene);
+    const bool verifies = numerics.tolerance > 0.0 || numerics.scatter_tolerance > 0.0 ||
+                          numerics.verify || numerics.paired_gearboxes > 0;
+    return verifies ? with_finer_steps(scene) : FinerScene{};
 }
 
 FinerScene with_finer_steps(const Scene& scene) {
     const Study& study = scene.study();
     FinerScene finer;
     if (study.effects.quasi_static()) {
+        return finer;
+    }
+    if (study.numerics.mass_scaling_Hz > 0.0) {
+        finer.setting = own_setting(study);
+        finer.setting.numerics.mass_scaling_Hz = 0.0;
+        finer.setting.numerics.steps_per_mesh = 0;
+        finer.scene.emplace(scene.with(with_setting(study, finer.setting).numerics));
+        finer.setting = setting_of(*finer.scene);
         return finer;
     }
     const SolverSetting setting = setting_of(scene);
@@ -168,10 +225,32 @@ std::optional<NumericalError> find_numerical_error(const Scene& scene) {
     if (!finer.scene) {
         return std::nullopt;
     }
-    const Pilot pilot(scene, spread_gearboxes(scene.study()));
-    const PilotError error = pilot_error(pilot.run(scene), pilot.run(*finer.scene));
-    return NumericalError{setting_of(scene).text(), finer.setting.text(),
-                          static_cast<int>(pilot.size()), error.rms, error.largest};
+    const Ensemble& ensemble = scene.study().ensemble;
+    const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
+    std::vector<GearboxId> ids =
+        spread_gearboxes(Group::graded, ensemble.instances, pairs > 0 ? pairs : kVerified);
+    const std::size_t faulty = ids.size();
+    const std::vector<GearboxId> healthy =
+        spread_gearboxes(Group::threshold, ensemble.threshold_instances, pairs);
+    ids.insert(ids.end(), healthy.begin(), healthy.end());
+    const BatchRows own_rows = rows_of_gearboxes(scene, ids),
+                    fine_rows = rows_of_gearboxes(*finer.scene, ids);
+    const Values own = values_of(scene, own_rows), fine = values_of(scene, fine_rows);
+    NumericalError error{
+        setting_of(scene).text(), finer.setting.text(), static_cast<int>(faulty), {}, {}};
+    for (std::size_t at = 0; at < own.count; ++at) {
+        add_differences(own, fine, faulty, at, error);
+        PairedValues values;
+        for (std::size_t g = 0; g < ids.size(); ++g) {
+            values.own.push_back(own.features[g][at]);
+            values.fine.push_back(fine.features[g][at]);
+            values.size.push_back(g < faulty ? own.size[g] : 0.0);
+        }
+        if (pairs > 0) {
+            error.corrections.push_back(fit_correction(values));
+        }
+    }
+    return error;
 }
 
 std::vector<NumericalContribution> numerical_contributions(
@@ -183,6 +262,7 @@ std::vector<NumericalContribution> numerical_contributions(
     }
     const std::size_t levels = frame.noise_levels.size();
     const std::vector<Counts> counts = count_near(frame, rows);
+    const std::vector<CorrectedDetection> corrected = corrected_detection(frame, rows);
     for (std::size_t at = 0; at < counts.size(); ++at) {
         const std::size_t f = at / levels, level = at % levels;
         NumericalContribution contribution;
@@ -195,6 +275,10 @@ std::vector<NumericalContribution> numerical_contributions(
             set_size_contribution(reliability->features[f].levels[level].hit_miss, contribution);
         } else {
             contribution.a90 = contribution.a90_interval = kNaN;
+        }
+        if (!corrected.empty()) {
+            contribution.corrected = corrected[at];
+            contribution.correction = frame.numerical->corrections[at];
         }
         contribution.numerical_dominates = std::isfinite(contribution.pd)
                                                ? contribution.pd > contribution.pd_half_width

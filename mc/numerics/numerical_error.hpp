@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/reliability.hpp"
+#include "mc/numerics/paired_correction.hpp"
 #include "mc/numerics/solver_setting.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
@@ -14,19 +15,21 @@
 
 namespace gearpod::mc {
 
-// Scene with four times the steps (or as many as the integrator allows), converged to 1e-10. Empty
-// for a quasi-static study.
+// Scene with four times the steps (or as many as the integrator allows), converged to 1e-10; with
+// mass scaling instead without it, with the steps of the integrator's own rule. Empty for a
+// quasi-static study.
 struct FinerScene {
     SolverSetting setting;
     std::optional<Scene> scene;
 };
 FinerScene with_finer_steps(const Scene& scene);
-// The same; empty unless the study has numerics.tolerance or numerics.verify.
+// The same; empty unless the study has a tolerance, numerics.verify or numerics.paired_gearboxes.
 FinerScene finer_scene(const Scene& scene);
 
 // Integrates eight graded gearboxes, spread over the ensemble, as the run did and again with
-// finer_scene(). For methods of order 2 and above, the difference is the error of the run's own
-// steps to within a sixteenth. Empty if there is no finer scene.
+// finer_scene(); with numerics.paired_gearboxes that many, and as many healthy ones. For methods of
+// order 2 and above, the difference is the error of the run's own steps to within a sixteenth.
+// Empty if there is no finer scene.
 std::optional<NumericalError> find_numerical_error(const Scene& scene);
 
 // Standard deviation of a sample; NaN for fewer than two values.
@@ -47,6 +50,10 @@ struct NumericalContribution {
     // a90_interval: upper bound of a90 minus a90. Both in the unit of the sizes. NaN without an
     // a90, infinite if the bound is not reached.
     double a90 = 0.0, a90_interval = 0.0;
+    // After numerics.paired_gearboxes: the fitted difference from fine steps, and detection without
+    // it.
+    std::optional<PairedCorrection> correction = {};
+    std::optional<CorrectedDetection> corrected = {};
     bool numerical_dominates = false;  // for Pd, or without a threshold for the feature itself
 };
 std::vector<NumericalContribution> numerical_contributions(

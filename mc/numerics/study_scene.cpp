@@ -66,11 +66,14 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                          "remove it, or build with all kernels (preset portable)"}});
     }
     try {
-        if (is_coupled(*reading.study) && reading.study->numerics.tolerance > 0.0) {
-            throw SceneError("numerics.tolerance",
-                             "cannot choose the numerics of stages that elastic shafts couple",
-                             "give numerics.integrator = \"central-difference\", precision = "
-                             "\"double\" and, if needed, steps_per_mesh");
+        const Numerics& numerics = reading.study->numerics;
+        if (is_coupled(*reading.study) &&
+            (numerics.tolerance > 0.0 || numerics.scatter_tolerance > 0.0)) {
+            throw SceneError(
+                numerics.tolerance > 0.0 ? "numerics.tolerance" : "numerics.scatter_tolerance",
+                "cannot choose the numerics of stages that elastic shafts couple",
+                "give numerics.integrator = \"central-difference\", precision = "
+                "\"double\" and, if needed, steps_per_mesh");
         }
         choose_numerics_of_stages(*reading.study);
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));

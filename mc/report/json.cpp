@@ -51,6 +51,16 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
                                   {"a90", finite_json(s.a90)},
                                   {"a90_interval", finite_json(s.a90_interval)},
                                   {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
+        if (s.correction) {
+            Json& correction = json["shares"].back()["correction"];
+            for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
+                correction[number.name] = finite_json((*s.correction).*number.member);
+            }
+            correction["pd_change"] = finite_json(s.corrected->pd_change);
+            correction["a90"] = finite_json(s.corrected->a90);
+            correction["a90_lower"] = finite_json(s.corrected->a90_lower);
+            correction["a90_upper"] = finite_json(s.corrected->a90_upper);
+        }
     }
     return json;
 }

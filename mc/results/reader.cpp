@@ -153,6 +153,23 @@ class ResultsReader {
         }
     }
 
+    // Appends the corrections of a feature, if the file has any.
+    void read_corrections(hid_t feature, std::vector<PairedCorrection>& all) {
+        const std::size_t levels = results_.noise_levels.size();
+        if (std::ranges::count(link_names(feature), kPairedCorrectionNumbers[0].name) == 0) {
+            return;
+        }
+        std::vector<PairedCorrection> own(levels);
+        for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
+            const std::vector<double> values = numbers(feature, number.name);
+            require_count(values.size(), levels, number.name);
+            for (std::size_t level = 0; level < levels; ++level) {
+                own[level].*number.member = values[level];
+            }
+        }
+        all.insert(all.end(), own.begin(), own.end());
+    }
+
     void read_numerical() {
         if (!has_group("numerical")) {
             return;
@@ -171,6 +188,7 @@ class ResultsReader {
                 require_count(values.size(), results_.noise_levels.size(), name);
                 all->insert(all->end(), values.begin(), values.end());
             }
+            read_corrections(feature.get(), error.corrections);
         }
         results_.numerical = std::move(error);
     }

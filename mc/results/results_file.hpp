@@ -18,7 +18,8 @@
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /numerical/<feature>/  after verification: rms, largest (levels), the changes of the feature in
-//                          some gearboxes with finer steps; attributes of /numerical: rung, finer,
+//                          some gearboxes with finer steps; after numerics.paired_gearboxes also
+//                          PairedCorrection (levels); attributes of /numerical: rung, finer,
 //                          gearboxes
 //   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)
@@ -120,12 +121,39 @@ struct RowSignals {
     std::vector<SignalColumn> columns;
 };
 
+// Difference of a feature at one noise level between gearboxes computed with fine steps and with
+// those of the run: fine - own = offset + by_value * own + by_size * size, fitted by least squares
+// (mc/numerics/paired_correction.hpp). NaN for too few pairs.
+struct PairedCorrection {
+    double offset = 0.0, by_value = 0.0;             // in the feature's unit; relative
+    double by_size = 0.0, by_size_error = 0.0;       // per m of fault size; its standard error
+    double healthy_bias = 0.0, healthy_error = 0.0;  // mean of own - fine; its standard error
+    double faulty_bias = 0.0, faulty_error = 0.0;
+    double scatter_ratio = 0.0;  // standard deviation of healthy gearboxes, own over fine
+};
+struct PairedCorrectionNumber {
+    const char* name;
+    double PairedCorrection::*member;
+};
+inline constexpr PairedCorrectionNumber kPairedCorrectionNumbers[] = {
+    {"offset", &PairedCorrection::offset},
+    {"by_value", &PairedCorrection::by_value},
+    {"by_size", &PairedCorrection::by_size},
+    {"by_size_error", &PairedCorrection::by_size_error},
+    {"healthy_bias", &PairedCorrection::healthy_bias},
+    {"healthy_error", &PairedCorrection::healthy_error},
+    {"faulty_bias", &PairedCorrection::faulty_bias},
+    {"faulty_error", &PairedCorrection::faulty_error},
+    {"scatter_ratio", &PairedCorrection::scatter_ratio},
+};
+
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
     std::string setting, finer;  // solver settings of both integrations
-    int gearboxes = 0;
-    // [feature * noise levels + level], in the feature's unit.
+    int gearboxes = 0;           // faulty ones, and as many healthy ones for the corrections
+    // [feature * noise levels + level], in the feature's unit, of the faulty ones.
     std::vector<double> rms, largest;
+    std::vector<PairedCorrection> corrections = {};  // the same shape; empty without healthy ones
 };
 
 // Error due to the time step in signals of gearboxes whose teeth lose contact, estimated with finer

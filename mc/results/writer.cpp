@@ -228,6 +228,13 @@ void write_numerical(hid_t root, const Results& frame) {
         };
         write_numbers(feature.get(), "rms", {levels}, part(error.rms));
         write_numbers(feature.get(), "largest", {levels}, part(error.largest));
+        for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
+            if (!error.corrections.empty()) {
+                std::vector<double> all;
+                std::ranges::transform(error.corrections, std::back_inserter(all), number.member);
+                write_numbers(feature.get(), number.name, {levels}, part(all));
+            }
+        }
         write_text(feature.get(), ".", "unit", frame.features[f].unit);
     }
 }

@@ -72,7 +72,9 @@ class Run {
         if (!options_.quiet) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
             if (choice_) {
-                fmt::print(stderr, "tolerance {:g}: {}\n", study_.numerics.tolerance,
+                fmt::print(stderr, "tolerance {:g}: {}\n",
+                           choice_->of_scatter ? study_.numerics.scatter_tolerance
+                                               : study_.numerics.tolerance,
                            choice_->text());
             }
         }

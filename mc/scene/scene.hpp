@@ -82,6 +82,7 @@ class Scene {
     // See Stepping.
     int least_steps() const { return plan_->stepping.least; }
     double explicit_steps() const { return plan_->stepping.explicit_steps; }
+    double longest_step() const { return plan_->stepping.longest_step; }
     // Calibration of the steps on a pilot sample; empty if there was none.
     const std::optional<Calibration>& calibration() const { return plan_->calibration; }
     double decay_meshes() const { return plan_->stepping.decay_meshes; }

@@ -47,8 +47,13 @@ class PlanBuilder {
         // A quasi-static gearbox is computed at the samples only.
         plan_.stepping.steps = samples;
         if (!study_.effects.quasi_static()) {
+            integration.mode_inertia = lockstep::mode_inertia(
+                dynamics::assemble(integration.layout,
+                                   gearbox_inputs(study_, drivetrain_, nominal_inputs(study_)),
+                                   stiffness_.mean_pairs()),
+                2.0 * pi * study_.numerics.mass_scaling_Hz);
             plan_.stepping = choose_stepping(study_, sampler_, drivetrain_, integration.layout,
-                                             stiffness_.stiffest_pairs());
+                                             stiffness_.stiffest_pairs(), integration.mode_inertia);
             integration.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
         }
         integration.integrator = plan_.stepping.integrator;

@@ -38,12 +38,14 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
 class StepNeeds {
   public:
     StepNeeds(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
-              const dynamics::GearboxLayout& layout, const std::vector<double>& stiffest_N_m)
+              const dynamics::GearboxLayout& layout, const std::vector<double>& stiffest_N_m,
+              const lockstep::ModeInertia& mode_inertia)
         : study_(study),
           sampler_(sampler),
           drivetrain_(drivetrain),
           layout_(layout),
           stiffest_(stiffest_N_m),
+          mode_inertia_(mode_inertia),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
         gearboxes_.push_back(gearbox_inputs(study, drivetrain, nominal_inputs(study)));
         // A pilot sample of the ensemble, the same for every run of the study, represents the other
@@ -53,6 +55,7 @@ class StepNeeds {
             gearboxes_.push_back(graded(i));
         }
         const dynamics::GearboxInputs& nominal = gearboxes_[0];
+        check_equal_masses();
         decay_meshes_ = 1.0 / (lockstep::slowest_decay_1_s(system(nominal)) * period(nominal));
         usual_explicit_ = stable_steps(lockstep::kUsualExplicit);
     }
@@ -96,11 +99,23 @@ class StepNeeds {
     }
 
   private:
+    // The additional inertia is that of the nominal gearbox.
+    void check_equal_masses() const {
+        const Eigen::MatrixXd nominal = system(gearboxes_[0]).mass;
+        for (const dynamics::GearboxInputs& gearbox : gearboxes_) {
+            if (mode_inertia_.modes > 0 && system(gearbox).mass != nominal) {
+                throw SceneError("numerics.mass_scaling_Hz",
+                                 "needs the same masses and moments of inertia in all gearboxes",
+                                 "remove it, or the scatter of the masses");
+            }
+        }
+    }
     dynamics::GearboxInputs graded(std::uint64_t i) const {
         return gearbox_inputs(study_, drivetrain_, sampler_.draw({Group::graded, i}).inputs);
     }
     dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
-        return dynamics::assemble(layout_, gearbox, stiffest_);
+        return lockstep::with_mode_inertia(dynamics::assemble(layout_, gearbox, stiffest_),
+                                           mode_inertia_);
     }
     double needed_steps(const dynamics::GearboxInputs& gearbox,
                         lockstep::Integrator integrator) const {
@@ -122,6 +137,7 @@ class StepNeeds {
     const Drivetrain& drivetrain_;
     const dynamics::GearboxLayout& layout_;
     const std::vector<double>& stiffest_;
+    const lockstep::ModeInertia& mode_inertia_;
     double low_pass_rad_s_;
     std::vector<dynamics::GearboxInputs> gearboxes_;  // pilot sample, the nominal one first
     double decay_meshes_ = 0.0, usual_explicit_ = 0.0;
@@ -140,11 +156,15 @@ class StepNeeds {
 
 // One grid is used for all gearboxes, so it must be stable for the stiffest and lightest of them. A
 // gearbox outside the margin is reported as diverged.
-Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
+// With additional inertia of fast modes, the low-pass may be half as accurate again, because that
+// inertia changes more.
+Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given,
+                           bool scales_mass) {
     const double stable = needs.stable(integrator), ample = needs.ample(integrator);
     const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
-    const double least = std::ceil(std::max(stable, 0.5 * band));
-    const double chosen = std::ceil(std::max(ample, band));
+    const double coarse = (scales_mass ? 0.25 : 0.5) * band;
+    const double least = std::ceil(std::max(stable, coarse));
+    const double chosen = std::ceil(std::max(ample, scales_mass ? coarse : band));
     const bool is_usable = given >= least && given <= kMostSteps;
     if (!is_usable && stable > lockstep::kMostExplicitSteps) {
         refuse_explicit(needs, chosen);
@@ -167,7 +187,7 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     }
     return {
         integrator,           given > 0 ? given : static_cast<int>(chosen), static_cast<int>(least),
-        needs.decay_meshes(), 1.0 / std::max({1.0, ample, 0.5 * band}),     0.0};
+        needs.decay_meshes(), 1.0 / std::max({1.0, ample, coarse}),         0.0};
 }
 
 Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
@@ -236,12 +256,14 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
 
 Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
                          const dynamics::GearboxLayout& layout,
-                         const std::vector<double>& stiffest_N_m) {
-    const StepNeeds needs(study, sampler, drivetrain, layout, stiffest_N_m);
+                         const std::vector<double>& stiffest_N_m,
+                         const lockstep::ModeInertia& mode_inertia) {
+    const StepNeeds needs(study, sampler, drivetrain, layout, stiffest_N_m, mode_inertia);
     const lockstep::Integrator integrator = integrator_of(study, needs);
     const int given = study.numerics.steps_per_mesh;
-    Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)
-                                                : implicit_stepping(needs, integrator, given);
+    Stepping stepping = is_explicit(integrator)
+                            ? explicit_stepping(needs, integrator, given, mode_inertia.modes > 0)
+                            : implicit_stepping(needs, integrator, given);
     stepping.explicit_steps = needs.stable(lockstep::kUsualExplicit);
     return stepping;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lockstep/plan/integrator.hpp"
+#include "lockstep/plan/mode_inertia.hpp"
 #include "mc/scene/drivetrain.hpp"
 #include "mc/scene/sampling.hpp"
 
@@ -35,11 +36,12 @@ struct Stepping {
     // Number of steps per mesh period with which lockstep::kUsualExplicit is stable, used or not.
     double explicit_steps = 0.0;
 };
-// `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step. Throws
-// SceneError.
+// `stiffest_N_m`: largest stiffness of every gear pair, which bounds an explicit step.
+// `mode_inertia`: additional inertia of the nominal gearbox. Throws SceneError.
 Stepping choose_stepping(const Study& study, const Sampler& sampler, const Drivetrain& drivetrain,
                          const dynamics::GearboxLayout& layout,
-                         const std::vector<double>& stiffest_N_m);
+                         const std::vector<double>& stiffest_N_m,
+                         const lockstep::ModeInertia& mode_inertia);
 
 // Relative change at which an orbit counts as converged: the study's value, or the smallest that
 // its precision can resolve.

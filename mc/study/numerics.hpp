@@ -29,7 +29,15 @@ struct Numerics {
     // Relative tolerance of every feature, from which integrator, steps and convergence tolerance
     // are chosen; 0: they are not chosen.
     double tolerance = 0.0;
+    // Error of every feature over its scatter between healthy gearboxes, for which the steps and
+    // mass_scaling_Hz are chosen; 0: they are not chosen.
+    double scatter_tolerance = 0.0;
     bool verify = false;  // repeat some gearboxes with finer steps; always with a tolerance
+    int paired_gearboxes =
+        0;  // healthy and faulty ones each that are repeated; 0: eight faulty ones
+    // Natural frequency to which faster modes of the nominal gearbox are lowered by additional
+    // inertia (lockstep/plan/mode_inertia.hpp); 0: none.
+    double mass_scaling_Hz = 0.0;
     double convergence_tolerance = 1e-10;
     double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: the smallest that is possible
     int face_slices = 0;               // slices across a face with varying gaps; 0: chosen

@@ -36,6 +36,41 @@ analysis::Table error_table(const Results& frame,
     return table;
 }
 
+// Share of the scatter of healthy gearboxes, with its standard error.
+std::string share_text(double value, double error, double scatter) {
+    return scatter > 0.0 && std::isfinite(value)
+               ? fmt::format("{:+.3f} +-{:.3f}", value / scatter, error / scatter)
+               : "-";
+}
+
+analysis::Table correction_table(const Results& frame,
+                                 const std::vector<NumericalContribution>& contributions) {
+    analysis::Table table{
+        "correction",
+        "Error of the run's steps over the scatter of healthy gearboxes (mean, standard error) and "
+        "detection without it",
+        {"feature", "noise", "of healthy", "of faulty", "scatter x", "change of Pd",
+         "a90 corrected", "its 95 % interval"},
+        {}};
+    for (const NumericalContribution& one : contributions) {
+        if (!one.correction) {
+            continue;
+        }
+        const PairedCorrection& c = *one.correction;
+        table.rows.push_back(
+            {one.feature, "x " + number_text(one.noise_level),
+             share_text(c.healthy_bias, c.healthy_error, one.spread),
+             share_text(c.faulty_bias, c.faulty_error, one.spread), number_text(c.scatter_ratio, 3),
+             number_text(one.corrected->pd_change, 2),
+             error_size(one.corrected->a90, frame.request.size),
+             std::isfinite(one.corrected->a90_lower)
+                 ? error_size(one.corrected->a90_lower, frame.request.size) + " to " +
+                       error_size(one.corrected->a90_upper, frame.request.size)
+                 : "-"});
+    }
+    return table;
+}
+
 }  // namespace
 
 analysis::Section numerical_section(const Results& frame,
@@ -70,17 +105,35 @@ analysis::Section numerical_section(const Results& frame,
                 : fmt::format("The numerical error is larger than the statistical error for {}.",
                               analysis::joined(dominated))));
     section.add(error_table(frame, contributions));
+    if (!frame.numerical->corrections.empty()) {
+        section.state("numerical.correction",
+                      fmt::format("{} healthy and {} faulty gearboxes with and without these finer "
+                                  "steps give the error of all: its mean in healthy and in faulty "
+                                  "gearboxes, and detection after the fitted difference is added "
+                                  "to every gearbox. The interval is that of the correction alone.",
+                                  frame.numerical->gearboxes, frame.numerical->gearboxes));
+        section.add(correction_table(frame, contributions));
+    }
     return section;
 }
 
 std::string numerical_limit(const std::vector<NumericalContribution>& contributions,
-                            const std::string& feature, double noise_level) {
+                            const std::string& feature, double noise_level,
+                            const analysis::SizeUnit& unit) {
     for (const NumericalContribution& one : contributions) {
         if (one.feature == feature && one.noise_level == noise_level && std::isfinite(one.pd) &&
             std::isfinite(one.pd_half_width)) {
-            return fmt::format(
+            const std::string text = fmt::format(
                 "Error of the detection rate: at most {} numerical and +-{} statistical.",
                 number_text(one.pd, 2), number_text(one.pd_half_width, 2));
+            return one.corrected && std::isfinite(one.corrected->a90)
+                       ? text + fmt::format(
+                                    " Without the error of the steps a90 would be {} ({} to "
+                                    "{}).",
+                                    error_size(one.corrected->a90, unit),
+                                    error_size(one.corrected->a90_lower, unit),
+                                    error_size(one.corrected->a90_upper, unit))
+                       : text;
         }
     }
     return "";

@@ -145,7 +145,8 @@ std::string numerical_of(const analysis::Findings& findings,
         return "";
     }
     return numerical_limit(contributions, findings.smallest[findings.reference]->feature,
-                           findings.request.noise_levels[findings.reference]);
+                           findings.request.noise_levels[findings.reference],
+                           findings.request.size);
 }
 
 // Alarms of the answer's feature that another fault raises; "" without one.

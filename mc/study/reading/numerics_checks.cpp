@@ -39,6 +39,20 @@ void check_precision(StudyDraft& draft) {
     }
 }
 
+// Only the methods named in the message can be given inertia, and none is chosen by itself.
+void check_mass_scaling(StudyDraft& draft) {
+    const Numerics& n = draft.study.numerics;
+    if (n.mass_scaling_Hz > 0.0 &&
+        draft.all_usable({"numerics.mass_scaling_Hz", "numerics.integrator"}) &&
+        !(n.integrator && lockstep::facts(*n.integrator).scales_mass)) {
+        const std::string able = lockstep::names_of(&lockstep::IntegratorFacts::scales_mass);
+        draft.reject("numerics.mass_scaling_Hz",
+                     fmt::format("is for the integrator {}, but numerics.integrator is \"{}\"",
+                                 able, n.integrator ? lockstep::name(*n.integrator) : "auto"),
+                     fmt::format("use integrator = \"{}\", or remove it", able));
+    }
+}
+
 void check_superposition(StudyDraft& draft) {
     const std::string why = reason_not_superposed(draft.study);
     if (draft.study.numerics.horizon == Horizon::superposed && !why.empty() &&
@@ -76,6 +90,7 @@ std::optional<double> number_of(const Study& study, const Key& key) {
 void check_numerics(StudyDraft& draft) {
     check_lanes(draft);
     check_precision(draft);
+    check_mass_scaling(draft);
     check_horizon(draft);
 }
 

@@ -22,6 +22,7 @@ struct CentralDifference {
     static constexpr double kStepsInBand = 70.0;
     static constexpr StepCost kCost{0.32, 0.34, 0.34};
     static constexpr double kLeastMargin = 1.04;
+    static constexpr bool kScalesMass = true;
     // Between steps without a sample, positions have already drifted to the midpoint of the next
     // step. They are then ahead of the velocities by this fraction of its length.
     static constexpr double kPositionLead = 0.5;
@@ -66,6 +67,9 @@ struct CentralDifference {
         load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
         for (bool again = i == 0;; again = false) {
             Model::accelerations(lanes, x.q, s.v, s.pairs, a);
+            if (plan.mode_inertia.blocks > 0) {
+                scale_mass<W>(plan.mode_inertia, x.size, a);
+            }
             if (!again) {
                 break;
             }
@@ -92,6 +96,36 @@ struct CentralDifference {
     }
 
   private:
+    // Accelerations with the additional inertia of fast modes, from those without it.
+    template <int W, class Real>
+    static GEARPOD_INLINE void scale_mass(const ModeInertia& inertia, int size,
+                                          Real* __restrict a) {
+        constexpr int kModes = kModesPerBlock;
+        const ModeTables<Real>& tables = inertia.tables<Real>();
+        for (int block = 0; block < inertia.blocks; ++block) {
+            const int first = block * size / W * kModes;
+            const Real* __restrict momentum = tables.momentum.data() + first;
+            const Real* __restrict effect = tables.effect.data() + first;
+            alignas(64) Real sum[kModes * W] = {};
+            for (int j = 0; j < size; j += W, momentum += kModes) {
+                for (int k = 0; k < kModes; ++k) {
+#pragma omp simd
+                    for (int l = 0; l < W; ++l) {
+                        sum[k * W + l] = std::fma(momentum[k], a[j + l], sum[k * W + l]);
+                    }
+                }
+            }
+            for (int j = 0; j < size; j += W, effect += kModes) {
+                for (int k = 0; k < kModes; ++k) {
+#pragma omp simd
+                    for (int l = 0; l < W; ++l) {
+                        a[j + l] = std::fma(effect[k], sum[k * W + l], a[j + l]);
+                    }
+                }
+            }
+        }
+    }
+
     // Times in seconds: `drift` from a step's midpoint to its end, or on to the next midpoint;
     // `reach` from the end velocity to the next u.
     template <class Real, int W>

@@ -40,6 +40,9 @@ IntegratorFacts facts_of(std::string_view kernels) {
     if constexpr (requires { Method::kNeverChosen; }) {
         facts.never_chosen = Method::kNeverChosen;
     }
+    if constexpr (requires { Method::kScalesMass; }) {
+        facts.scales_mass = Method::kScalesMass;
+    }
     facts.filter = [](const FilterSystem& s) -> FilterMap { return Method::filter(s); };
     return facts;
 }

@@ -15,6 +15,8 @@
 //                  matrices m grows
 //   kLeastMargin   optional, explicit methods: smallest margin of the number of steps over that of
 //                  the stability limit; kStepMargin for methods that damp motion near the limit
+//   kScalesMass    optional: true for methods that may give fast modes more inertia
+//                  (plan/mode_inertia.hpp)
 //   kNeverChosen   optional: true for methods that `accuracy` measures for comparison, but that the
 //                  program never takes by itself
 //   filter(s)      a step of the sensor's low-pass filter by the same method (filter_system.hpp)

@@ -5,6 +5,7 @@
 
 #include "dynamics/gearbox.hpp"
 #include "lockstep/plan/integrator.hpp"
+#include "lockstep/plan/mode_inertia.hpp"
 #include "lockstep/plan/phase_grid.hpp"
 #include "lockstep/plan/stiffness_nodes.hpp"
 #include "machine/lanes.hpp"
@@ -21,6 +22,7 @@ struct IntegrationPlan {
     StiffnessNodes nodes;
     double low_pass_rad_s = 0.0;
     std::vector<double> te_weight;  // TE = weight . q, one per degree of freedom (rad/m)
+    ModeInertia mode_inertia = {};  // only integrators with kScalesMass use it
 
     int channels() const { return 2 * dynamics::sources(layout); }
     std::size_t samples() const { return static_cast<std::size_t>(grid.samples); }

@@ -1,0 +1,14 @@
+// Chooses steps and selective mass scaling for numerics.scatter_tolerance: the fewest steps per
+// mesh period with which no feature changes by more than that share of its scatter.
+#pragma once
+
+#include "mc/numerics/choice.hpp"
+
+namespace gearpod::mc {
+
+// Integrates the first sixteen healthy gearboxes of the study, with the steps of the integrator's
+// own rule and with fewer steps and more mass scaling. Depends on the study only. Throws SceneError
+// if the study gives what is to be chosen, or if its features do not scatter.
+NumericsChoice choose_by_scatter(const Study& study);
+
+}  // namespace gearpod::mc
