@@ -134,6 +134,13 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
         print_entry("steps per mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
                                                          lockstep::name(plan.integrator)));
     }
+    if (const lockstep::ModeInertia& inertia = plan.mode_inertia; inertia.modes > 0) {
+        print_entry("selective mass scaling",
+                    fmt::format("{} natural modes of up to {:.0f} Hz have so much more inertia that "
+                                "they lie at {:g} Hz",
+                                inertia.modes, inertia.fastest_rad_s / (2.0 * std::numbers::pi),
+                                study.numerics.mass_scaling_Hz));
+    }
     print_effect_costs(study);
     if (choice) {
         print_entry("chosen for the tolerance", choice->text());

@@ -241,28 +241,18 @@ class Search {
 
 }  // namespace
 
-std::string NumericsChoice::text() const {
-    if (of_scatter && worst_feature.empty()) {
-        return setting.text() + " (no fewer steps keep the tolerance)";
-    }
-    return fmt::format("{} (features within {:.2g}{} on {} pilot gearboxes; the worst is {})",
-                       setting.text(), error, of_scatter ? " of their scatter" : "", gearboxes,
-                       worst_feature);
-}
-
 ResolvedStudy resolve_numerics(Study study) {
     std::optional<NumericsChoice> choice;
-    if (study.numerics.tolerance > 0.0) {
+    const double tolerance = study.numerics.tolerance, share = study.numerics.scatter_tolerance;
+    if (share > 0.0) {
+        choice = choose_by_scatter(study);
+    } else if (tolerance > 0.0) {
         choice = Search(study).run();
-        const double tolerance = study.numerics.tolerance;
+    }
+    if (choice) {
         study.numerics = choice->setting.numerics;
         study.numerics.tolerance = tolerance;
-    }
-    if (study.numerics.scatter_tolerance > 0.0) {
-        choice = choose_by_scatter(study);
-        const double tolerance = study.numerics.scatter_tolerance;
-        study.numerics = choice->setting.numerics;
-        study.numerics.scatter_tolerance = tolerance;
+        study.numerics.scatter_tolerance = share;
     }
     return {std::move(study), std::move(choice)};
 }

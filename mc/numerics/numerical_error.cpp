@@ -49,7 +49,8 @@ constexpr std::int64_t kVerified = 8;  // gearboxes, unless the study has numeri
 
 // Gearboxes of a group with that many members, spread evenly over it.
 std::vector<GearboxId> spread_gearboxes(Group group, std::int64_t members, std::int64_t count) {
-    const std::int64_t stride = std::max<std::int64_t>(1, members / count);
+    const std::int64_t stride =
+        std::max<std::int64_t>(1, members / std::max<std::int64_t>(1, count));
     std::vector<GearboxId> ids;
     for (std::int64_t i = 0; i < count; ++i) {
         ids.push_back({group, static_cast<std::uint64_t>(stride / 2 + i * stride)});

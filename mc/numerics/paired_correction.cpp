@@ -10,8 +10,8 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFewest = 8;            // pairs of a group
+constexpr double kNoFit = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kFewestPairs = 8;       // pairs of a group
 constexpr double kNormalQuantile = 1.959964;  // of 0.975
 
 double mean(const std::vector<double>& values) {
@@ -51,7 +51,7 @@ Regression regress(const std::vector<double>& y, const std::vector<double>& x) {
 }
 
 PairedCorrection no_correction() {
-    return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
+    return {kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit, kNoFit};
 }
 
 // Rows with corrected features. `deviations`: standard errors by which the part that grows with the
@@ -102,12 +102,12 @@ struct CorrectedResults {
     double a90(std::size_t feature, std::size_t level) const {
         using Where = analysis::SizeEstimate::Where;
         if (!reliability) {
-            return kNaN;
+            return kNoFit;
         }
         const analysis::HitMissPod& pod = reliability->features[feature].levels[level].hit_miss;
         return pod.refusal.empty() && pod.a90.estimate.where == Where::reached
                    ? pod.a90.estimate.size
-                   : kNaN;
+                   : kNoFit;
     }
 };
 
@@ -136,7 +136,7 @@ PairedCorrection fit_correction(const PairedValues& pairs) {
             healthy_fine.push_back(pairs.fine[i]);
         }
     }
-    if (healthy.size() < kFewest || graded.size() < kFewest) {
+    if (healthy.size() < kFewestPairs || graded.size() < kFewestPairs) {
         return no_correction();
     }
     // The part that grows with the size, apart from what grows with the value.
@@ -181,7 +181,7 @@ std::vector<CorrectedDetection> corrected_detection(const Results& frame, const 
             const auto& corrected = middle.rates[f].levels[level].cells;
             const std::size_t at = f * frame.noise_levels.size() + level;
             if (!std::isfinite(frame.numerical->corrections[at].by_size)) {
-                all.push_back({kNaN, kNaN, kNaN, kNaN});
+                all.push_back({kNoFit, kNoFit, kNoFit, kNoFit});
                 continue;
             }
             CorrectedDetection one;
@@ -189,8 +189,11 @@ std::vector<CorrectedDetection> corrected_detection(const Results& frame, const 
                 one.pd_change = std::max(one.pd_change, std::abs(corrected[c].pd - own[c].pd));
             }
             one.a90 = middle.a90(f, level);
-            one.a90_lower = std::min(low.a90(f, level), high.a90(f, level));
-            one.a90_upper = std::max(low.a90(f, level), high.a90(f, level));
+            const double ends[] = {one.a90, low.a90(f, level), high.a90(f, level)};
+            const bool reached =
+                std::ranges::all_of(ends, [](double a) { return std::isfinite(a); });
+            one.a90_lower = reached ? *std::ranges::min_element(ends) : kNoFit;
+            one.a90_upper = reached ? *std::ranges::max_element(ends) : kNoFit;
             all.push_back(one);
         }
     }

@@ -15,7 +15,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::uint64_t kPilotGearboxes = 16;
+constexpr std::uint64_t kHealthyPilots = 16;
 constexpr int kMostTries = 6;  // of a limit of the mass scaling
 // Half of the errors of normally distributed errors lie within this share of their root mean
 // square.
@@ -34,9 +34,10 @@ void check_free(const Study& study) {
                fmt::format("numerics.scatter_tolerance chooses steps of {}",
                            lockstep::names_of(&lockstep::IntegratorFacts::scales_mass)));
     }
-    if (n.steps_per_mesh > 0 || n.mass_scaling_Hz > 0.0) {
+    if ((n.steps_per_mesh > 0) != (n.mass_scaling_Hz > 0.0)) {
         refuse(n.steps_per_mesh > 0 ? "numerics.steps_per_mesh" : "numerics.mass_scaling_Hz",
-               "is chosen by numerics.scatter_tolerance");
+               "is chosen by numerics.scatter_tolerance, unless both it and the other of "
+               "steps_per_mesh and mass_scaling_Hz are given");
     }
     if (n.tolerance > 0.0) {
         refuse("numerics.tolerance", "chooses the steps, too");
@@ -47,7 +48,7 @@ class ScatterChoice {
   public:
     explicit ScatterChoice(const Study& study)
         : study_(study), shape_(row_shape(study)), own_(own_study(study)) {
-        for (std::uint64_t i = 0; i < kPilotGearboxes; ++i) {
+        for (std::uint64_t i = 0; i < kHealthyPilots; ++i) {
             ids_.push_back({Group::threshold, i});
         }
         reference_ = rows_of_gearboxes(own_, ids_);
@@ -62,29 +63,43 @@ class ScatterChoice {
         made.of_scatter = true;
         made.setting = {own_.study().numerics, {}};
         made.reference = made.setting.text();
-        const int own_steps = steps_of(own_);
-        const int samples = own_.samples_per_mesh();
+        const auto keeps = [&](const Scene& scene) {
+            ++made.integrations;
+            const auto [error, feature] = error_of(scene);
+            made.error = error;
+            made.worst_feature = study_.features.use[feature];
+            made.setting = {scene.study().numerics, {"mass_scaling_Hz"}};
+            return error <= study_.numerics.scatter_tolerance;
+        };
+        if (study_.numerics.mass_scaling_Hz > 0.0) {
+            Numerics given = study_.numerics;
+            given.scatter_tolerance = 0.0;
+            if (!keeps(own_.with(given))) {
+                throw SceneError("numerics.scatter_tolerance",
+                                 fmt::format("the steps given change {} by {:.2g} of its scatter",
+                                             made.worst_feature, made.error),
+                                 "remove steps_per_mesh and mass_scaling_Hz, so that they are "
+                                 "chosen, or use a larger tolerance");
+            }
+            return made;
+        }
+        const NumericsChoice own = made;
+        const int own_steps = steps_of(own_), samples = own_.samples_per_mesh();
         for (int a_sample = 1; a_sample * samples < own_steps; ++a_sample) {
             const std::optional<Scene> scene = scene_with(a_sample * samples);
-            if (!scene) {
-                continue;
-            }
-            ++made.integrations;
-            const auto [error, feature] = error_of(*scene);
-            if (error <= study_.numerics.scatter_tolerance) {
-                made.setting = {scene->study().numerics, {"mass_scaling_Hz"}};
-                made.error = error;
-                made.worst_feature = study_.features.use[feature];
+            if (scene && keeps(*scene)) {
                 return made;
             }
         }
+        made = own;
         return made;
     }
 
   private:
     static Study own_study(Study study) {
         study.numerics.integrator = lockstep::Integrator::central_difference;
-        study.numerics.scatter_tolerance = 0.0;
+        study.numerics.scatter_tolerance = study.numerics.mass_scaling_Hz = 0.0;
+        study.numerics.steps_per_mesh = 0;
         return study;
     }
 

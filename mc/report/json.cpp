@@ -10,7 +10,7 @@
 #include "mc/gearbox/record_window.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/example_gearboxes.hpp"
-#include "mc/results/layout.hpp"
+#include "mc/results/numerical_groups.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"

@@ -17,22 +17,6 @@ inline constexpr const char* kContactLossMeaning =
     "tooth pair carries no load, averaged over the tooth pairs of the mesh";
 inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded, 2 neither";
 
-// Attributes of /step_error: first the double members, then the int members.
-struct StepErrorNumber {
-    const char* name;
-    double StepError::*member;
-};
-struct StepErrorCount {
-    const char* name;
-    int StepError::*member;
-};
-inline constexpr StepErrorNumber kStepErrorNumbers[] = {{"sensor", &StepError::sensor},
-                                                        {"te", &StepError::te}};
-inline constexpr StepErrorCount kStepErrorCounts[] = {{"steps", &StepError::steps},
-                                                      {"finer_steps", &StepError::finer_steps},
-                                                      {"gearboxes", &StepError::gearboxes},
-                                                      {"meshes", &StepError::meshes}};
-
 // Name of the dataset with the values that belong to the columns of a feature.
 inline const char* columns_name(const Results& frame) {
     return frame.provenance_value("kind") == kLivesKind ? "hours" : "noise_levels";

@@ -13,6 +13,7 @@
 #include "mc/input/printable.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
+#include "mc/results/numerical_groups.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -48,8 +49,7 @@ class ResultsReader {
         read_contact_loss();
         read_variants();
         read_detection();
-        read_numerical();
-        read_step_error();
+        read_numerical_groups(root_, most_, results_);
         const Hdf5Handle timing = open_group(root_, "timing");
         for (const std::string& name : link_names(timing.get())) {
             const auto seconds = numbers(timing.get(), name);
@@ -150,60 +150,6 @@ class ResultsReader {
         for (const std::string& name : link_names(group.get())) {
             results_.contact_loss.push_back({name, column(group.get(), name)});
             require_count(results_.contact_loss.back().values.size(), results_.group.size(), name);
-        }
-    }
-
-    // Appends the corrections of a feature, if the file has any.
-    void read_corrections(hid_t feature, std::vector<PairedCorrection>& all) {
-        const std::size_t levels = results_.noise_levels.size();
-        if (std::ranges::count(link_names(feature), kPairedCorrectionNumbers[0].name) == 0) {
-            return;
-        }
-        std::vector<PairedCorrection> own(levels);
-        for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
-            const std::vector<double> values = numbers(feature, number.name);
-            require_count(values.size(), levels, number.name);
-            for (std::size_t level = 0; level < levels; ++level) {
-                own[level].*number.member = values[level];
-            }
-        }
-        all.insert(all.end(), own.begin(), own.end());
-    }
-
-    void read_numerical() {
-        if (!has_group("numerical")) {
-            return;
-        }
-        const Hdf5Handle group = open_group(root_, "numerical");
-        NumericalError error{read_text(group.get(), ".", "rung"),
-                             read_text(group.get(), ".", "finer"),
-                             static_cast<int>(read_number(group.get(), ".", "gearboxes")),
-                             {},
-                             {}};
-        for (const FeatureResult& result : results_.features) {
-            const Hdf5Handle feature = open_group(group.get(), result.name);
-            for (const auto& [name, all] :
-                 {std::pair{"rms", &error.rms}, std::pair{"largest", &error.largest}}) {
-                const std::vector<double> values = numbers(feature.get(), name);
-                require_count(values.size(), results_.noise_levels.size(), name);
-                all->insert(all->end(), values.begin(), values.end());
-            }
-            read_corrections(feature.get(), error.corrections);
-        }
-        results_.numerical = std::move(error);
-    }
-
-    void read_step_error() {
-        if (!has_group("step_error")) {
-            return;
-        }
-        const Hdf5Handle group = open_group(root_, "step_error");
-        StepError& error = results_.step_error.emplace();
-        for (const StepErrorNumber& number : kStepErrorNumbers) {
-            error.*number.member = read_number(group.get(), ".", number.name);
-        }
-        for (const StepErrorCount& count : kStepErrorCounts) {
-            error.*count.member = static_cast<int>(read_number(group.get(), ".", count.name));
         }
     }
 

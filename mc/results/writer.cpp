@@ -10,6 +10,7 @@
 #include "mc/files/hdf5_data.hpp"
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/layout.hpp"
+#include "mc/results/numerical_groups.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
@@ -210,48 +211,6 @@ void write_detection(hid_t root, const Results& results) {
     }
 }
 
-void write_numerical(hid_t root, const Results& frame) {
-    if (!frame.numerical) {
-        return;
-    }
-    const NumericalError& error = *frame.numerical;
-    const Hdf5Handle group = create_group(root, "numerical");
-    write_text(group.get(), ".", "rung", error.setting);
-    write_text(group.get(), ".", "finer", error.finer);
-    write_number(group.get(), ".", "gearboxes", error.gearboxes);
-    const std::size_t levels = frame.noise_levels.size();
-    for (std::size_t f = 0; f < frame.features.size(); ++f) {
-        const Hdf5Handle feature = create_group(group.get(), frame.features[f].name);
-        const auto part = [&](const std::vector<double>& all) {
-            const auto first = all.begin() + static_cast<std::ptrdiff_t>(f * levels);
-            return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(levels));
-        };
-        write_numbers(feature.get(), "rms", {levels}, part(error.rms));
-        write_numbers(feature.get(), "largest", {levels}, part(error.largest));
-        for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
-            if (!error.corrections.empty()) {
-                std::vector<double> all;
-                std::ranges::transform(error.corrections, std::back_inserter(all), number.member);
-                write_numbers(feature.get(), number.name, {levels}, part(all));
-            }
-        }
-        write_text(feature.get(), ".", "unit", frame.features[f].unit);
-    }
-}
-
-void write_step_error(hid_t root, const Results& frame) {
-    if (!frame.step_error) {
-        return;
-    }
-    const Hdf5Handle group = create_group(root, "step_error");
-    for (const StepErrorNumber& number : kStepErrorNumbers) {
-        write_number(group.get(), ".", number.name, (*frame.step_error).*number.member);
-    }
-    for (const StepErrorCount& count : kStepErrorCounts) {
-        write_number(group.get(), ".", count.name, (*frame.step_error).*count.member);
-    }
-}
-
 void write_all_signals(hid_t root, const Results& frame) {
     if (frame.signals.empty()) {
         return;
@@ -282,8 +241,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         create_contact_loss(root.get(), frame, rows, places);
         create_variants(root.get(), frame, rows, places);
         write_detection(root.get(), frame);
-        write_numerical(root.get(), frame);
-        write_step_error(root.get(), frame);
+        write_numerical_groups(root.get(), frame);
         write_all_signals(root.get(), frame);
         const Hdf5Handle timing = create_group(root.get(), "timing");
         for (const Timing& entry : frame.timing) {

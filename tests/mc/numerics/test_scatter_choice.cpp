@@ -1,0 +1,131 @@
+// Checks the choice of steps and mass scaling for an error over the features' scatter on gearboxes
+// that the choice did not see.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "mc/ensemble/batch_worker.hpp"
+#include "mc/ensemble/rows_of_gearboxes.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/numerics/scatter_choice.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace test_scatter_choice {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// Gearboxes with real teeth at a speed at which a record is short.
+Study real_teeth(std::vector<std::string> more = {}) {
+    more.insert(
+        more.begin(),
+        {"operation.carrier_speed_rpm=20", "sensor.noise_levels=[1]",
+         "ensemble.threshold_records=1", "detection.false_alarm_rate=0.05",
+         "features.use=[\"sensor_rms\",\"window_ratio\",\"te_rms\",\"change_window_ratio\"]",
+         "numerics.precision=single", "numerics.lanes=16"});
+    Study study = test::shipped_study("fleet-alarms.toml", more);
+    study.ensemble.threshold_instances = 32;
+    study.ensemble.instances = 32;
+    return study;
+}
+
+std::vector<double> values(const Scene& scene, const BatchRows& rows, std::size_t feature) {
+    const RowShape shape = row_shape(scene.study());
+    std::vector<double> all;
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        all.push_back(rows.values[row * shape.values() + shape.value_of(feature, 0)]);
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("Steps for a share of the scatter keep it on other gearboxes, with fewer steps") {
+    const ResolvedStudy resolved = resolve_numerics(real_teeth({"numerics.scatter_tolerance=0.2"}));
+    REQUIRE(resolved.choice);
+    CHECK(resolved.choice->of_scatter);
+    CHECK(resolved.choice->error <= 0.2);
+    CHECK(resolved.study.numerics.mass_scaling_Hz > 0.0);
+    Numerics own = resolved.study.numerics;
+    own.scatter_tolerance = own.mass_scaling_Hz = 0.0;
+    own.steps_per_mesh = 0;
+    const Scene chosen(resolved.study), reference = chosen.with(own);
+    CHECK(2 * chosen.plan().grid.steps.size() < reference.plan().grid.steps.size());
+    std::vector<GearboxId> others;
+    for (std::uint64_t i = 16; i < 32; ++i) {
+        others.push_back({Group::threshold, i});
+    }
+    const BatchRows here = rows_of_gearboxes(chosen, others),
+                    there = rows_of_gearboxes(reference, others);
+    for (std::size_t f = 0; f < chosen.study().features.use.size(); ++f) {
+        const std::vector<double> a = values(chosen, here, f), b = values(reference, there, f);
+        std::vector<double> errors;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            errors.push_back(std::abs(a[i] - b[i]));
+        }
+        std::ranges::nth_element(errors, errors.begin() + 8);
+        CHECK(errors[8] / 0.6745 < 2.0 * 0.2 * standard_deviation(b));
+        CHECK(errors[8] > 0.0);
+    }
+}
+
+TEST_CASE("A tighter share of the scatter takes more steps, and the choice can be written out") {
+    const auto steps_for = [](const char* tolerance) {
+        const Study study =
+            resolve_numerics(real_teeth({std::string("numerics.scatter_tolerance=") + tolerance}))
+                .study;
+        return Scene(study).plan().grid.steps.size();
+    };
+    CHECK(steps_for("0.005") > steps_for("0.3"));
+    const Study study = resolve_numerics(real_teeth({"numerics.scatter_tolerance=0.3"})).study;
+    const StudyReading back = read_study_text(resolved_text(study), "resolved");
+    INFO(format(back.problems));
+    REQUIRE(back.study.has_value());
+    CHECK(*back.study == study);
+    CHECK(resolve_numerics(*back.study).study == study);
+}
+
+TEST_CASE("Features with mass scaling have the same bits for any lanes") {
+    Study study = real_teeth({"numerics.integrator=central-difference", "numerics.precision=double",
+                              "numerics.mass_scaling_Hz=3000", "numerics.lanes=8"});
+    study.ensemble.threshold_instances = 3;
+    study.ensemble.instances = 2;
+    const std::vector<std::uint64_t> eight = test::feature_bits(study);
+    for (const int lanes : {4, 1}) {
+        study.numerics.lanes = lanes;
+        CHECK(test::feature_bits(study) == eight);
+    }
+}
+
+TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
+    const auto refusal = [](const std::vector<std::string>& more) {
+        const StudyReading reading = read_study(test::study_path("fleet-alarms.toml"), more);
+        if (!reading.study) {
+            return format(reading.problems);
+        }
+        try {
+            Scene scene(resolve_numerics(*reading.study).study);
+        } catch (const SceneError& error) {
+            return error.key() + ": " + error.what();
+        }
+        return std::string("accepted");
+    };
+    CHECK_THAT(refusal({"numerics.integrator=rk4", "numerics.mass_scaling_Hz=3000",
+                        "numerics.precision=double", "numerics.lanes=8"}),
+               Catch::Contains("is for the integrator central-difference"));
+    const std::string method = "numerics.integrator=central-difference";
+    CHECK_THAT(
+        refusal({method, "numerics.mass_scaling_Hz=3000",
+                 "random.gearbox.planet_mass_kg={distribution=\"uniform\",low=0.6,high=0.8}"}),
+        Catch::Contains("needs the same masses"));
+    CHECK_THAT(refusal({method, "numerics.scatter_tolerance=0.2", "numerics.mass_scaling_Hz=3000"}),
+               Catch::Contains("is chosen by numerics.scatter_tolerance"));
+    CHECK_THAT(refusal({method, "numerics.scatter_tolerance=0.2", "numerics.steps_per_mesh=9000"}),
+               Catch::Contains("is chosen by numerics.scatter_tolerance"));
+    CHECK_THAT(refusal({"numerics.scatter_tolerance=0.2", "numerics.tolerance=0.01"}),
+               Catch::Contains("chooses the steps, too"));
+}
+
+}  // namespace test_scatter_choice
