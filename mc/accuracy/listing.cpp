@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mc/numerics/scatter_choice.hpp"
 #include "mc/numerics/solver_families.hpp"
 #include "mc/study/fluctuations.hpp"
 
@@ -43,12 +44,41 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
     }
 }
 
+// Longer steps of central differences by mass scaling, in both precisions; none for a study that
+// cannot use it.
+void add_scaled(const Study& study, std::vector<ListedSetting>& all) {
+    constexpr int kMostScaledSteps = 8;  // per sample
+    SolverSetting setting = own_setting(without_steps(study));
+    setting.numerics.integrator = lockstep::Integrator::central_difference;
+    setting.numerics.convergence_tolerance = convergence_tolerances().front();
+    setting.options.emplace_back("mass_scaling_Hz");
+    for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+        setting.numerics.precision = precision;
+        if (precision == Precision::single_precision) {
+            setting.options.emplace_back("precision");
+        }
+        try {
+            const Scene own(with_setting(study, setting));
+            const int samples = own.samples_per_mesh();
+            for (int a_sample = 1;
+                 a_sample <= kMostScaledSteps && a_sample * samples < own.least_steps();
+                 ++a_sample) {
+                if (const auto numerics = scaled_numerics(own, a_sample * samples)) {
+                    all.push_back({{*numerics, setting.options}, ""});
+                }
+            }
+        } catch (const SceneError&) {  // the method or the scaling is invalid for this study
+        }
+    }
+}
+
 }  // namespace
 
 Study without_steps(const Study& study) {
     Study free = study;
     free.numerics.integrator.reset();
     free.numerics.steps_per_mesh = 0;
+    free.numerics.mass_scaling_Hz = 0.0;
     return free;
 }
 
@@ -72,6 +102,7 @@ std::vector<ListedSetting> listed_settings(const Study& study) {
             all.push_back({family.setting(i, convergence_tolerances().front()), ""});
         }
     }
+    add_scaled(study, all);
     if (study.numerics.horizon == Horizon::superposed || reason_not_periodic(study).empty()) {
         SolverSetting full = own_setting(study);
         full.numerics.horizon = Horizon::full;

@@ -52,7 +52,7 @@ class AccuracyMeasurement {
         request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
         reference.seconds = kReferenceErrorShare * time_.seconds();
-        report_.reference = converged_reference(study_, pilot_, reference);
+        report_.reference = converged_reference(without_steps(study_), pilot_, reference);
         measure_effects(scenes_.own(), request_, time_, report_);
         for (const ListedSetting& listed : listed_settings(study_)) {
             add(listed.setting, listed.refusal);
@@ -88,7 +88,7 @@ class AccuracyMeasurement {
 
   private:
     static Study plain(Study study) {
-        study.numerics.tolerance = 0.0;
+        study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
         return study;
     }
     void add(const SolverSetting& setting, const std::string& refusal = "") {

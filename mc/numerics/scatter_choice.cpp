@@ -86,8 +86,8 @@ class ScatterChoice {
         const NumericsChoice own = made;
         const int own_steps = steps_of(own_), samples = own_.samples_per_mesh();
         for (int a_sample = 1; a_sample * samples < own_steps; ++a_sample) {
-            const std::optional<Scene> scene = scene_with(a_sample * samples);
-            if (scene && keeps(*scene)) {
+            const auto numerics = scaled_numerics(own_, a_sample * samples);
+            if (numerics && keeps(own_.with(*numerics))) {
                 return made;
             }
         }
@@ -105,32 +105,6 @@ class ScatterChoice {
 
     static int steps_of(const Scene& scene) {
         return static_cast<int>(scene.plan().grid.steps.size());
-    }
-
-    // Scene with at most this many steps, apart from those at contact transitions, and the highest
-    // limit of the mass scaling found that allows them. Empty if none does.
-    std::optional<Scene> scene_with(int steps) const {
-        Numerics numerics = own_.study().numerics;
-        double limit_Hz = fastest_Hz();
-        for (int i = 0; i < kMostTries; ++i) {
-            numerics.mass_scaling_Hz = limit_Hz;
-            numerics.steps_per_mesh = 0;
-            const Scene automatic = own_.with(numerics);
-            const double needed = 1.0 / automatic.longest_step();
-            if (needed <= steps) {
-                numerics.steps_per_mesh = steps;
-                numerics.mass_scaling_Hz = std::floor(limit_Hz);
-                return own_.with(numerics);
-            }
-            limit_Hz *= 0.98 * steps / needed;
-        }
-        return std::nullopt;
-    }
-
-    double fastest_Hz() const {
-        const dynamics::GearboxMatrices matrices = dynamics::assemble(
-            own_.plan().layout, own_.inputs(nominal_inputs(own_.study())), own_.mean_pairs());
-        return dynamics::natural_frequencies_Hz(matrices).back();
     }
 
     std::vector<double> column(const BatchRows& rows, std::size_t at) const {
@@ -181,7 +155,31 @@ class ScatterChoice {
     std::vector<double> scatter_;  // by feature and noise level
 };
 
+double fastest_mode_Hz(const Scene& scene) {
+    return dynamics::natural_frequencies_Hz(
+               dynamics::assemble(scene.plan().layout, scene.inputs(nominal_inputs(scene.study())),
+                                  scene.mean_pairs()))
+        .back();
+}
+
 }  // namespace
+
+std::optional<Numerics> scaled_numerics(const Scene& own, int steps) {
+    Numerics numerics = own.study().numerics;
+    numerics.steps_per_mesh = 0;
+    double limit_Hz = fastest_mode_Hz(own);
+    for (int i = 0; i < kMostTries; ++i) {
+        numerics.mass_scaling_Hz = limit_Hz;
+        const double needed = 1.0 / own.with(numerics).longest_step();
+        if (needed <= steps) {
+            numerics.steps_per_mesh = steps;
+            numerics.mass_scaling_Hz = std::floor(limit_Hz);
+            return numerics;
+        }
+        limit_Hz *= 0.98 * steps / needed;
+    }
+    return std::nullopt;
+}
 
 NumericsChoice choose_by_scatter(const Study& study) {
     check_free(study);

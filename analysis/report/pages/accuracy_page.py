@@ -6,6 +6,8 @@ from words import count, escape, joined, number, percent, typeset
 
 TIME = "Integration, processor ms per gearbox"
 LEAST = 1e-9  # smaller errors are drawn at this value
+STYLES = {"double": "-", "single": (0, (4, 2)), "graded": (0, (1, 1)),
+          "double, mass scaling": (0, (6, 1, 1, 1)), "single, mass scaling": (0, (3, 1, 1, 1, 1, 1))}
 
 
 class Accuracy:
@@ -24,6 +26,8 @@ class Accuracy:
                 self.others.append(row)
             else:
                 kind = "graded" if "grid" in keys else row["precision"]
+                if "mass_scaling_Hz" in keys:
+                    kind += ", mass scaling"
                 self.curves.setdefault((row["integrator"], kind), []).append(row)
         self.integrators = list(dict.fromkeys(name for name, _ in self.curves))
 
@@ -63,7 +67,7 @@ def _diagram(report, axes, error_of):
         plain = kind == "double"
         axes.plot([point(row)[0] for row in rows], [point(row)[1] for row in rows],
                   color=colour(k), marker=marker(k), markersize=4, linewidth=1.1,
-                  linestyle={"single": (0, (4, 2)), "graded": (0, (1, 1))}.get(kind, "-"),
+                  linestyle=STYLES[kind],
                   markerfacecolor=colour(k) if plain else "none",
                   label=name + ("" if plain else f", {kind}"))
     for at, (row, meaning, mark) in enumerate(report.marked()):
@@ -271,7 +275,8 @@ def parts(data, page):
                     [_drawn(report, page, "Error of the worst feature against time",
                             lambda error: error["worst_feature"],
                             "Relative error of the worst feature", lines, main=True)],
-                    "One curve per method, precision (dashed: single) and grid (dotted: graded steps), "
+                    "One curve per method, precision (dashed: single), grid (dotted: graded steps) and "
+                    "mass scaling (dash-dotted), "
                     "from few steps to many. Lower left is better. The broad line is the frontier: no measured "
                     "setting is both faster and more accurate.", _settings_table(report))
         + _features(report, page))

@@ -53,6 +53,16 @@ void check_mass_scaling(StudyDraft& draft) {
     }
 }
 
+// The candidates of a tolerance are compared with steps that have the same inertia.
+void check_tolerances(StudyDraft& draft) {
+    const Numerics& n = draft.study.numerics;
+    if (n.tolerance > 0.0 && n.mass_scaling_Hz > 0.0 &&
+        draft.all_usable({"numerics.tolerance", "numerics.mass_scaling_Hz"})) {
+        draft.reject("numerics.tolerance", "does not see the error of numerics.mass_scaling_Hz",
+                     "use numerics.scatter_tolerance");
+    }
+}
+
 void check_superposition(StudyDraft& draft) {
     const std::string why = reason_not_superposed(draft.study);
     if (draft.study.numerics.horizon == Horizon::superposed && !why.empty() &&
@@ -91,6 +101,7 @@ void check_numerics(StudyDraft& draft) {
     check_lanes(draft);
     check_precision(draft);
     check_mass_scaling(draft);
+    check_tolerances(draft);
     check_horizon(draft);
 }
 
