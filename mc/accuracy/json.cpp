@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lockstep/steps/step_limit.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/results/provenance.hpp"
@@ -144,6 +145,17 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     }
     for (const EffectPrice& effect : report.effects) {
         all["effects"].push_back(effect_json(report, effect));
+    }
+    const StabilityMap& map = report.stability;
+    all["stability"] = {{"stiffness_factors", map.factors},
+                        {"implicit", map.implicit},
+                        {"own", map.own},
+                        {"own_steps", map.own_steps},
+                        {"most_explicit_steps", lockstep::kMostExplicitSteps},
+                        {"curves", Json::array()}};
+    for (const StabilityCurve& curve : map.curves) {
+        all["stability"]["curves"].push_back(
+            {{"integrator", curve.integrator}, {"steps", curve.steps}});
     }
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));

@@ -82,6 +82,7 @@ class AccuracyMeasurement {
         mark_frontier();
         measure_explicit_limit();
         check_step_costs();
+        report_.stability = stability_map(scenes_.own());
         measure_detection(study_, request_, time_, report_);
         return std::move(report_);
     }
@@ -234,9 +235,8 @@ class AccuracyMeasurement {
         result.cost = step_cost(study_, setting).value_or(0.0) * result.steps * result.meshes;
     }
 
-    bool holds(const SettingResult& result, double tolerance) const {
-        return result.refusal.empty() && result.steps > 0 &&
-               result.error.largest_feature() <= tolerance;
+    bool holds(const SettingResult& r, double tolerance) const {
+        return r.refusal.empty() && r.steps > 0 && r.error.largest_feature() <= tolerance;
     }
 
     // Finds the setting that numerics.tolerance chooses, and measures it if it is new.

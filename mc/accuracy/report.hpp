@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mc/accuracy/pilot_detection.hpp"
+#include "mc/accuracy/stability_map.hpp"
 #include "mc/numerics/reference.hpp"
 #include "mc/numerics/solver_setting.hpp"
 
@@ -87,6 +88,7 @@ struct AccuracyReport {
     int own = 0;  // index of the study's own setting
     std::vector<ChoiceCheck> choices;
     std::vector<EffectPrice> effects;
+    StabilityMap stability;
     std::vector<PeerResult> peers;
     std::vector<std::string> step_costs;  // comparison of the cost model with the measurement
     std::vector<std::string> left_out;    // omitted for lack of time

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "lockstep/steps/step_limit.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/input/wrapped_text.hpp"
 
@@ -98,6 +99,28 @@ void add_explicit_limit(const AccuracyReport& report, Text out) {
                           "{:.3g} us/mesh, x {:.0f} meshes = {:.3g} us/gearbox",
                           e.refused ? "refused; computed" : "computed", e.steps, 1e9 * e.step_s,
                           1e6 * e.mesh_s(), e.meshes, 1e6 * e.integration_s()),
+              0, out);
+}
+
+// Every third factor of the map: a tenth, the study's own stiffness, ten times.
+void add_stability(const StabilityMap& map, Text out) {
+    fmt::format_to(out,
+                   "\nfewest stable steps per mesh period, by the stiffness of the meshes\n"
+                   "{:<20}",
+                   "");
+    for (std::size_t i = 0; i < map.factors.size(); i += 3) {
+        fmt::format_to(out, "{:>11}", fmt::format("x {:g}", map.factors[i]));
+    }
+    for (const StabilityCurve& curve : map.curves) {
+        fmt::format_to(out, "\n{:<20}", curve.integrator);
+        for (std::size_t i = 0; i < map.factors.size(); i += 3) {
+            fmt::format_to(out, "{:>11.0f}", curve.steps[i]);
+        }
+    }
+    fmt::format_to(out, "\n");
+    add_words(fmt::format("above {:.0f} explicit integrators are refused; {} are stable with any "
+                          "steps",
+                          lockstep::kMostExplicitSteps, fmt::join(map.implicit, ", ")),
               0, out);
 }
 
@@ -332,6 +355,7 @@ std::string accuracy_text(const AccuracyReport& report) {
     }
     add_peers(report, out);
     add_explicit_limit(report, out);
+    add_stability(report.stability, out);
     add_choices(report, out);
     add_features(report, out);
     add_detection(report, out);

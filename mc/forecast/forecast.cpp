@@ -98,7 +98,12 @@ double verification_s(const Scene& scene, const RunCost& calibration) {
     const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].integrated;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double integration_s = mesh_period_s(*finer.scene) * integrated_meshes(*finer.scene);
-    return setup_s + 2.0 * own.seconds(lanes) - own.whole.integration + integration_s;
+    const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
+    const auto batches = static_cast<double>((2 * pairs + kBatchRows - 1) / kBatchRows);
+    const double tiles = pairs > 0 ? std::ceil(batches / calibration.threads) * kBatchRows /
+                                         static_cast<double>(lanes)
+                                   : 1.0;
+    return setup_s + tiles * (2.0 * own.seconds(lanes) - own.whole.integration + integration_s);
 }
 
 double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integrations,

@@ -126,7 +126,7 @@ struct RowSignals {
 // (mc/numerics/paired_correction.hpp). NaN for too few pairs.
 struct PairedCorrection {
     double offset = 0.0, by_value = 0.0;             // in the feature's unit; relative
-    double by_size = 0.0, by_size_error = 0.0;       // per m of fault size; its standard error
+    double by_size = 0.0, by_size_error = 0.0;       // per unit of fault size; standard error
     double healthy_bias = 0.0, healthy_error = 0.0;  // mean of own - fine; its standard error
     double faulty_bias = 0.0, faulty_error = 0.0;
     double scatter_ratio = 0.0;  // standard deviation of healthy gearboxes, own over fine

@@ -156,13 +156,13 @@ class StepNeeds {
 
 // One grid is used for all gearboxes, so it must be stable for the stiffest and lightest of them. A
 // gearbox outside the margin is reported as diverged.
-// With additional inertia of fast modes, the low-pass may be half as accurate again, because that
-// inertia changes more.
+// With additional inertia of fast modes, which changes more, the low-pass may be as inaccurate as
+// the choice for a share of the features' scatter allows.
 Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given,
                            bool scales_mass) {
     const double stable = needs.stable(integrator), ample = needs.ample(integrator);
     const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
-    const double coarse = (scales_mass ? 0.25 : 0.5) * band;
+    const double coarse = (scales_mass ? 0.15 : 0.5) * band;
     const double least = std::ceil(std::max(stable, coarse));
     const double chosen = std::ceil(std::max(ample, scales_mass ? coarse : band));
     const bool is_usable = given >= least && given <= kMostSteps;

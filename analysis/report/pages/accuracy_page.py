@@ -247,6 +247,37 @@ def _effects(report, page):
                        "the scatter was not measured.", table)
 
 
+def _stability(report, page):
+    """Fewest stable steps of explicit methods over the stiffness of the meshes."""
+    given = report.data.get("stability")
+    if not given:
+        return ""
+    factors, limit = given["stiffness_factors"], given["most_explicit_steps"]
+    figure, axes = panel(3.6)
+    for k, curve in enumerate(given["curves"]):
+        axes.plot(factors, curve["steps"], color=colour(k), marker=marker(k), markersize=4,
+                  linewidth=1.1, label=curve["integrator"])
+    axes.axhspan(limit, 10 * limit, color=MUTED, alpha=0.15, label="explicit methods refused")
+    axes.plot(1.0, given["own_steps"], linestyle="none", marker="s", markersize=9,
+              markerfacecolor="none", markeredgecolor=INK, markeredgewidth=1.4,
+              label=f"the study: {given['own']}")
+    axes.set(xscale="log", yscale="log", ylim=(None, 10 * limit),
+             xlabel="Stiffness of the meshes over that of the study",
+             ylabel="Steps per mesh period")
+    legend_below(axes, 2)
+    about = "; ".join(f"{curve['integrator']}: {number(curve['steps'][len(factors) // 2])} steps"
+                      for curve in given["curves"])
+    table = blocks.table("Fewest stable steps per mesh period by the factor on the stiffness",
+                         ["Integrator", *(f"x {number(factor)}" for factor in factors[::3])],
+                         [[curve["integrator"], *(count(round(steps)) for steps in curve["steps"][::3])]
+                          for curve in given["curves"]])
+    return page.figure("Stability of explicit methods",
+                       [to_svg(figure, "Stability of explicit methods", about, page.names)],
+                       "An explicit method is stable above its curve. Implicit methods ("
+                       + joined(given["implicit"]) + ") are stable everywhere. Mass scaling lowers "
+                       "the curve of central-difference to that of a softer gearbox.", table)
+
+
 def _limits(report):
     lines = [f"{row['name']}: {row['refused']}" for row in report.refused]
     texts = [typeset(text) for text in lines]
@@ -284,5 +315,6 @@ def parts(data, page):
     body += page.section("detection", "Numerical against statistical error",
                          _detection(report, page))
     body += page.section("effects", "Price of each effect", _effects(report, page))
+    body += page.section("stability", "Stability", _stability(report, page))
     body += page.section("limits", "Settings that were not measured", _limits(report))
     return data["title"] or "Accuracy and computing time", headline, summary, body
