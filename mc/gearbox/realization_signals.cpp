@@ -32,12 +32,11 @@ class Stopwatch {
 }  // namespace
 
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s(scene, inputs));
+    return signals::LowPassNoise(inputs.low_pass_Hz * sample_s(scene, inputs));
 }
 
 signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return {background_spectrum(scene.study()), scene.study().sensor.low_pass_Hz,
-            1.0 / sample_s(scene, inputs)};
+    return {background_spectrum(scene.study()), inputs.low_pass_Hz, 1.0 / sample_s(scene, inputs)};
 }
 
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,

@@ -119,7 +119,7 @@ LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const Rec
     const auto first = static_cast<std::size_t>(window.first_mesh),
                meshes = static_cast<std::size_t>(window.turns) * teeth;
     LaneSignals record;
-    record.noise_m_s2 = signals.noise_m_s2;
+    record.noise = signals.noise;
     record.turns = window.turns;
     record.first_mesh = window.first_mesh;
     if (!signals.sensor.empty()) {

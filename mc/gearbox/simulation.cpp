@@ -105,9 +105,9 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
         RealizationFeatures own_features(scene, &healthy, false);
         const Realization own = at_sensor(scene.study(), realization, s + 1);
         SensorSignals signals = signals_of_sensor(
-            lane_signals(scene, path, tile, 0, own_features.meshes()), s, additional[s].noise);
+            scene.study(), lane_signals(scene, path, tile, 0, own_features.meshes()), s);
         own_features.compute(signals.linked(), own);
-        add_sensor(scene, own, signals_of_sensor(all, s, additional[s].noise).record, own_features,
+        add_sensor(scene, own, signals_of_sensor(scene.study(), all, s).record, own_features,
                    kSensorVariant + additional[s].name, rows, out);
     }
 }

@@ -232,7 +232,7 @@ class Examples {
             RealizationFeatures features(scene_, &healthy, false);
             const Realization own = at_sensor(scene_.study(), tile.realizations[0], s + 1);
             const auto signals_over = [&](const LaneSignals& lane) {
-                return signals_of_sensor(lane, s, sensors[s].noise);
+                return signals_of_sensor(scene_.study(), lane, s);
             };
             SensorSignals record =
                 signals_over(lane_signals(scene_, path_, tile, 0, features.meshes()));

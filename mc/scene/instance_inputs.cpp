@@ -163,6 +163,7 @@ InstanceInputs instance_inputs(const InputValues& values) {
     inputs.noise_m_s2 = noise.all_m_s2;
     inputs.white_noise_m_s2 = noise.white_m_s2;
     inputs.background_noise_m_s2 = noise.background_m_s2;
+    inputs.low_pass_Hz = study.sensor.low_pass_Hz;
     inputs.encoder_noise_rad = values.of(study.sensor.encoder_noise_rad);
     inputs.fault_size = study.fault.kind == nullptr
                             ? 0.0

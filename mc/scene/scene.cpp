@@ -87,6 +87,7 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
     }
     own.sensor.low_pass_Hz = study.sensor.low_pass_Hz;
     own.sensor.sampling_Hz = std::max(own.sensor.sampling_Hz, study.sensor.sampling_Hz);
+    own.sensor.additional.clear();  // its first sensor alone is that of the study
     own.sensor.record_s.reset();
     own.sensor.record_turns.reset();
     own.features = {};

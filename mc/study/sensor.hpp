@@ -94,6 +94,12 @@ struct AdditionalSensor {
     // Participation of each of the housing's modes, and measured response at Sensor::response_Hz;
     // empty: as at the first sensor.
     std::vector<double> participation, response_gain, response_phase_deg;
+    // Measuring chain of its own (signals/path/measuring_chain.hpp); without a value, that of the
+    // first one.
+    std::optional<double> low_pass_Hz, mounting_Hz;
+    double mounting_damping = 0.03;
+    double delay_s = 0.0;                     // of its samples
+    std::optional<double> quantisation_m_s2;  // not multiplied by `noise`
 
     bool operator==(const AdditionalSensor&) const = default;
 };
