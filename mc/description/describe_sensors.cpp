@@ -81,6 +81,9 @@ std::string chain_text(const Study& study, const AdditionalSensor& sensor) {
         text += fmt::format("; samples {:g} s {}", std::abs(sensor.delay_s),
                             sensor.delay_s > 0.0 ? "late" : "early");
     }
+    if (sensor.range_m_s2) {
+        text += fmt::format("; range {:g} m/s^2", *sensor.range_m_s2);
+    }
     if (sensor.low_pass_Hz || sensor.quantisation_m_s2) {
         text += fmt::format("; noise {:.4g} m/s^2 rms times the noise level",
                             noise_at(study, sensor, noise_of(nominal_inputs(study))).all_m_s2);
@@ -106,6 +109,10 @@ void print_sensors(const Scene& scene) {
     }
     print_entry("sensor low-pass",
                 fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
+    if (study.sensor.range_m_s2) {
+        print_entry("sensor range", fmt::format("samples are clipped at {:g} m/s^2 of either sign",
+                                                *study.sensor.range_m_s2));
+    }
     if (!study.sensor.tones.empty()) {
         print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
     }

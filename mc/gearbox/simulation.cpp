@@ -76,10 +76,13 @@ void add_sensor(const Scene& scene, const Realization& realization, LaneSignals 
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
-    out.columns.push_back({name, "m/s^2", first(clean)});
+    std::vector<double> clipped = clean;
+    clip(realization.inputs, clipped);
+    out.columns.push_back({name, "m/s^2", first(clipped)});
     for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
         std::vector<double> noisy = clean;
         add_noise(noise, out.noise_levels[level] * realization.inputs.noise_m_s2, noisy);
+        clip(realization.inputs, noisy);
         out.columns.push_back(
             {fmt::format("{}_noise_{:g}", name, out.noise_levels[level]), "m/s^2", first(noisy)});
     }

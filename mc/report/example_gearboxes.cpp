@@ -194,6 +194,11 @@ class Examples {
         add_noise(sample_noise(scene_, realization, signals.record.sensor, features.noise().sensor,
                                signals.layout.ring_teeth),
                   noise_level() * realization.inputs.noise_m_s2, signals.noisy);
+        if (has_range(scene_.study())) {
+            clip(realization.inputs, signals.noisy);
+            clip(realization.inputs, signals.record.sensor);
+            fold_again(scene_, signals.record);
+        }
         return signals;
     }
 
@@ -215,7 +220,8 @@ class Examples {
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(signals.layout, scene_.samples_per_mesh(),
                                      scene_.study().features.tukey_taper);
-        windowing.load(features.record().folded);
+        windowing.load(has_range(scene_.study()) ? signals.record.folded
+                                                 : features.record().folded);
         windowing.search(0.0, clean_rms);
         rotate_to_first_tooth(features.record(), 1, clean_rms);
         return {{"spectrum",

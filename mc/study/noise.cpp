@@ -17,6 +17,13 @@ bool has_background(const Study& study) {
     return !study.sensor.background_Hz.empty();
 }
 
+bool has_range(const Study& study) {
+    return study.sensor.range_m_s2 ||
+           std::ranges::any_of(study.sensor.additional, [](const AdditionalSensor& sensor) {
+               return sensor.range_m_s2.has_value();
+           });
+}
+
 signals::NoiseSpectrum background_spectrum(const Study& study) {
     return {study.sensor.background_Hz, study.sensor.background_density_m_s2_per_sqrt_Hz};
 }

@@ -18,6 +18,9 @@ bool has_background(const Study& study);
 // Spectrum of the background at level 1. Precondition: has_background().
 signals::NoiseSpectrum background_spectrum(const Study& study);
 
+// True if the converter of any sensor has a measuring range, at which it clips the samples.
+bool has_range(const Study& study);
+
 // Standard deviation of every sample, m/s^2: of all parts, of those that are white, and of the
 // background.
 struct SensorNoise {

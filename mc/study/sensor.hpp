@@ -100,6 +100,7 @@ struct AdditionalSensor {
     double mounting_damping = 0.03;
     double delay_s = 0.0;                     // of its samples
     std::optional<double> quantisation_m_s2;  // not multiplied by `noise`
+    std::optional<double> range_m_s2;
 
     bool operator==(const AdditionalSensor&) const = default;
 };
@@ -121,6 +122,8 @@ struct Sensor {
     std::vector<double> background_Hz, background_density_m_s2_per_sqrt_Hz;
     double background_level = 1.0;   // factor on that density
     double quantisation_m_s2 = 0.0;  // step of the analogue-to-digital converter
+    // Largest magnitude of a sample, at which it is clipped; unlimited without a value.
+    std::optional<double> range_m_s2;
     std::vector<Tone> tones;
     double tone_level = 1.0;  // factor on the amplitudes of all tones
     std::vector<Bearing> bearings;

@@ -25,6 +25,7 @@ void read_chain(const ListElement& element, AdditionalSensor& sensor) {
     }
     sensor.delay_s = element.number("delay_s", {-1.0, 1.0}, 0.0);
     sensor.quantisation_m_s2 = number("quantisation_m_s2", {.low = 0.0});
+    sensor.range_m_s2 = number("range_m_s2", kAbove0);
 }
 
 // Entries of the measuring chain in a table.
@@ -42,6 +43,7 @@ std::string chain_text(const AdditionalSensor& sensor) {
         add("delay_s", sensor.delay_s);
     }
     add("quantisation_m_s2", sensor.quantisation_m_s2);
+    add("range_m_s2", sensor.range_m_s2);
     return text;
 }
 

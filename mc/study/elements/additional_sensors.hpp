@@ -23,7 +23,8 @@ inline constexpr TableField kSensorFields[] = {
     {"mounting_Hz"},
     {"mounting_damping"},
     {"delay_s"},
-    {"quantisation_m_s2"}};
+    {"quantisation_m_s2"},
+    {"range_m_s2"}};
 // Problems name the sensor by its position in the list.
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "features/feature.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "signals/noise/low_pass_noise.hpp"
@@ -193,6 +195,36 @@ void check_own_low_pass(StudyDraft& draft, std::size_t number, double low_pass_H
     }
 }
 
+// A measuring range clips samples with their noise. What works with noise that adds to the signal
+// is rejected.
+void check_range(StudyDraft& draft) {
+    const Study& study = draft.study;
+    if (!has_range(study) || !draft.all_usable({"sensor.range_m_s2", "sensor.additional"})) {
+        return;
+    }
+    const char* key = study.sensor.range_m_s2 ? "sensor.range_m_s2" : "sensor.additional";
+    for (const std::string& name : study.features.use) {
+        const features::Feature* feature = find_feature(study, name);
+        const bool of_change = feature != nullptr && (feature->from_sensor || feature->external) &&
+                               (feature->baseline_use == features::BaselineUse::change ||
+                                feature->baseline_use == features::BaselineUse::record_and_change);
+        if (of_change && draft.usable("features.use")) {
+            draft.reject(
+                key,
+                fmt::format("a range clips the samples, but \"{}\" (features.use) subtracts "
+                            "the baseline from samples that are not clipped",
+                            name),
+                "remove the feature or the range (range_m_s2)");
+        }
+    }
+    if (study.ensemble.uses_importance_sampling() && draft.usable("ensemble.threshold_tilt")) {
+        draft.reject(key,
+                     "a range clips the samples, but importance sampling "
+                     "(ensemble.threshold_tilt, or `misses`) needs Gaussian noise",
+                     "remove the range (range_m_s2)");
+    }
+}
+
 }  // namespace
 
 void check_sampling(StudyDraft& draft) {
@@ -200,6 +232,7 @@ void check_sampling(StudyDraft& draft) {
     check_background(draft);
     check_housing(draft);
     check_tones_and_bearings(draft);
+    check_range(draft);
     for (std::size_t i = 0; i < s.additional.size(); ++i) {
         if (s.additional[i].low_pass_Hz) {
             check_own_low_pass(draft, i + 1, *s.additional[i].low_pass_Hz);

@@ -341,9 +341,10 @@ TEST_CASE("Problems of a measuring chain are reported") {
 
 TEST_CASE("A study with measuring chains reads back from its resolved text") {
     const auto reading = mc::read_study(
-        kSmall, {"sensor.additional=[{name='b', angle_deg=30, low_pass_Hz=50.5, mounting_Hz=70, "
-                 "mounting_damping=0.1, delay_s=-1e-3, quantisation_m_s2=0}, {name='c', "
-                 "angle_deg=1, mounting_Hz=1e4}]"});
+        kSmall,
+        {"sensor.additional=[{name='b', angle_deg=30, low_pass_Hz=50.5, mounting_Hz=70, "
+         "mounting_damping=0.1, delay_s=-1e-3, quantisation_m_s2=0, range_m_s2=20}, {name='c', "
+         "angle_deg=1, mounting_Hz=1e4}]"});
     REQUIRE(reading.study);
     const auto again = mc::read_study_text(resolved_text(*reading.study), "again");
     REQUIRE(again.study);
