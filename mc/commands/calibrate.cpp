@@ -20,6 +20,7 @@
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/run/support.hpp"
 #include "mc/study/housing.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
@@ -81,6 +82,10 @@ class Command {
             problems_.push_back({options_.study.path, 0, "sensor.housing_modes",
                                  "calibration does not simulate the housing",
                                  "remove them, and a measured response (sensor.response_Hz)"});
+        }
+        if (has_range(scene->study())) {
+            problems_.push_back({options_.study.path, 0, "sensor.range_m_s2",
+                                 "calibration does not clip the samples", "remove it"});
         }
         if (has_other_sources(scene->study())) {
             problems_.push_back({options_.study.path, 0, "sensor.bearings",

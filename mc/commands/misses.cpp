@@ -59,6 +59,11 @@ void check_numbers(const Study& study, const MissesOptions& options, Problems& p
              .what = "its study gives the noise by density, which is not white after the "
                      "low-pass; `misses` needs white noise (sensor.noise_m_s2)"});
     }
+    if (has_range(study)) {
+        problems.push_back({.file = options.results,
+                            .what = "its study clips the samples, so that their noise is not "
+                                    "Gaussian (sensor.range_m_s2); `misses` needs white noise"});
+    }
     if (has_other_sources(study)) {
         problems.push_back({.file = options.results,
                             .what = "its study has faulty bearings or neighbouring stages, whose "

@@ -66,6 +66,31 @@ void print_stage(const Scene& scene, std::size_t number) {
                                                   : ""));
 }
 
+// Text of the measuring chain of an additional sensor, and of its noise if that has another rms
+// than a multiple of the first one's.
+std::string chain_text(const Study& study, const AdditionalSensor& sensor) {
+    std::string text;
+    if (sensor.low_pass_Hz) {
+        text += fmt::format("; low-pass {:g} Hz", *sensor.low_pass_Hz);
+    }
+    if (sensor.mounting_Hz) {
+        text += fmt::format("; mounting resonance {:g} Hz, damping {:g}", *sensor.mounting_Hz,
+                            sensor.mounting_damping);
+    }
+    if (sensor.delay_s != 0.0) {
+        text += fmt::format("; samples {:g} s {}", std::abs(sensor.delay_s),
+                            sensor.delay_s > 0.0 ? "late" : "early");
+    }
+    if (sensor.range_m_s2) {
+        text += fmt::format("; range {:g} m/s^2", *sensor.range_m_s2);
+    }
+    if (sensor.low_pass_Hz || sensor.quantisation_m_s2) {
+        text += fmt::format("; noise {:.4g} m/s^2 rms times the noise level",
+                            noise_at(study, sensor, noise_of(nominal_inputs(study))).all_m_s2);
+    }
+    return text;
+}
+
 }  // namespace
 
 void print_sensors(const Scene& scene) {
@@ -84,6 +109,10 @@ void print_sensors(const Scene& scene) {
     }
     print_entry("sensor low-pass",
                 fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
+    if (study.sensor.range_m_s2) {
+        print_entry("sensor range", fmt::format("samples are clipped at {:g} m/s^2 of either sign",
+                                                *study.sensor.range_m_s2));
+    }
     if (!study.sensor.tones.empty()) {
         print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
     }
@@ -109,9 +138,9 @@ void print_sensors(const Scene& scene) {
         print_entry(
             "additional sensor",
             fmt::format("\"{}\": {:g} degrees from the first one, {}, gain x {:g}, noise x "
-                        "{:g}",
+                        "{:g}{}",
                         sensor.name, sensor.angle_deg, sensor.tangential ? "tangential" : "radial",
-                        sensor.gain, sensor.noise));
+                        sensor.gain, sensor.noise, chain_text(study, sensor)));
     }
     for (const Bearing& bearing : study.sensor.bearings) {
         print_bearing(scene, bearing);

@@ -112,7 +112,7 @@ std::vector<double> BatchWorker::variants_of(const Realization& record, const La
         all.insert(all.end(), values.begin(), values.end());
     };
     for (std::size_t s = 0; s < additional_.size(); ++s) {
-        SensorSignals own = signals_of_sensor(signals, s, study.sensor.additional[s].noise);
+        SensorSignals own = signals_of_sensor(study, signals, s);
         add(additional_[s].compute(own.linked(), at_sensor(study, record, s + 1)));
     }
     if (has_other_fault(study)) {

@@ -95,15 +95,14 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
     add_status(scene, tile);
     auto start = WallClock::now();
     tile.views = views_of(scene, tile);
-    const bool housing = has_housing(scene.study());
     if (!scene.study().effects.quasi_static()) {
         tile.tones = draw_tones(scene, tile.realizations);
     }
     if (!tile.sensor_recorders.empty()) {
-        for (const auto& sensor : tile.sensor_recorders) {
-            if (!housing) {
-                tile.folded.push_back(sensor.front()->folded());
-            }
+        for (std::size_t s = 0; s < path.size(); ++s) {
+            tile.folded.push_back(has_response(scene.study(), s)
+                                      ? machine::AlignedVector()
+                                      : tile.sensor_recorders[s].front()->folded());
         }
         tile.te_turn = tile.sensor_recorders.front().front()->averaged_te();
         tile.signals_s += lap(start);
@@ -115,12 +114,15 @@ void add_signals(const Scene& scene, const SensorPaths& path, GearboxTile& tile)
         }
     }
     // A quasi-static gearbox has no inertia and therefore no acceleration.
-    if (!scene.study().effects.quasi_static() && !housing) {
+    if (!scene.study().effects.quasi_static()) {
         const signals::FoldPlan plan(tile.integration.content, scene.span());
         const std::vector<double> exponents = path_exponents(tile.realizations, 0);
-        for (const SensorPath& sensor : path) {
-            signals::fold_squares(tile.views, plan, sensor.front(), exponents, tile.tones,
-                                  tile.folded.emplace_back());
+        for (std::size_t s = 0; s < path.size(); ++s) {
+            machine::AlignedVector& folded = tile.folded.emplace_back();
+            if (!has_response(scene.study(), s)) {
+                signals::fold_squares(tile.views, plan, path[s].front(), exponents, tile.tones,
+                                      folded);
+            }
         }
     }
     signals::average_te(tile.views, tile.integration.content, scene.span(),

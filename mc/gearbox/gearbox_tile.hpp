@@ -12,6 +12,7 @@
 #include "mc/results/results_file.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
+#include "mc/study/noise.hpp"
 #include "signals/noise/tones.hpp"
 #include "signals/sensor/sensor_response.hpp"
 #include "signals/tile_signals.hpp"
@@ -30,7 +31,7 @@ struct LaneSignals {
     // with the baseline, and only one if their motion is the same.
     const LaneSignals* baseline = nullptr;
     std::size_t baselines = 0;
-    double noise_m_s2 = 0.0;  // rms noise of the sensor in this record, at noise level 1
+    SensorNoise noise;  // of the sensor in this record, at noise level 1
     // Samples of each coupled stage at its own sensor, m/s^2, in the order and from the start that
     // coupled_span() states.
     std::vector<std::vector<double>> coupled;
@@ -54,8 +55,8 @@ struct GearboxTile {
     signals::Tones tones;              // interfering tones; may be empty
     // LaneSignals::coupled by coupled stage and requested gearbox.
     std::vector<std::vector<std::vector<double>>> coupled;
-    // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox and where the housing
-    // responds (has_housing).
+    // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox. Each is empty where the
+    // sensor has a response (has_response).
     std::vector<machine::AlignedVector> folded;
     machine::AlignedVector te_turn;  // [sample][lane], rad
     // Equally many entries for each requested gearbox, one gearbox after the other. Empty unless a
@@ -136,7 +137,7 @@ struct SensorSignals {
         return record;
     }
 };
-// `noise`: factor on the noise of the first sensor. The record does not refer to its baselines.
-SensorSignals signals_of_sensor(const LaneSignals& all, std::size_t sensor, double noise);
+// `sensor` counts the additional ones from 0. The record does not refer to its baselines.
+SensorSignals signals_of_sensor(const Study& study, const LaneSignals& all, std::size_t sensor);
 
 }  // namespace gearpod::mc

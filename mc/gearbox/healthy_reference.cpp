@@ -75,7 +75,8 @@ HealthyReference reference_of(const Scene& scene, const SensorPaths& path, std::
                 Realization realization = tile.realizations[lane];
                 if (sensor > 0) {
                     realization = at_sensor(scene.study(), realization, sensor);
-                    signals[lane] = signals_of_sensor(signals[lane], sensor - 1, 1.0).record;
+                    signals[lane] =
+                        signals_of_sensor(scene.study(), signals[lane], sensor - 1).record;
                 }
                 const LaneSignals record =
                     drawn_record(scene, std::move(signals[lane]), realization);

@@ -1,5 +1,7 @@
 // Extracts the signals of one gearbox of a tile, or of all of them.
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <functional>
 
 #include "machine/cancellation.hpp"
@@ -29,7 +31,7 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
 
 namespace {
 
-// Folded signal of a sensor in one lane; empty for a quasi-static gearbox.
+// Folded signal of a sensor in one lane; empty as in the tile.
 std::vector<double> folded_of(const GearboxTile& tile, std::size_t sensor, int lane) {
     if (sensor >= tile.folded.size()) {
         return {};
@@ -43,7 +45,7 @@ std::vector<double> folded_of(const GearboxTile& tile, std::size_t sensor, int l
 // All signals of a lane except the sensor samples.
 LaneSignals folded_lane(const SensorPaths& path, const GearboxTile& tile, int lane) {
     LaneSignals lane_result;
-    lane_result.noise_m_s2 = tile.realizations[static_cast<std::size_t>(lane)].inputs.noise_m_s2;
+    lane_result.noise = noise_of(tile.realizations[static_cast<std::size_t>(lane)].inputs);
     lane_result.folded = folded_of(tile, 0, lane);
     lane_result.te_turn.resize(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
     signals::copy_lane(tile.te_turn, tile.views.lanes, lane, lane_result.te_turn);
@@ -99,14 +101,26 @@ std::vector<double> samples_along(const Scene& scene, const SensorPaths& path,
     const std::span<const Realization> own(&tile.realizations[static_cast<std::size_t>(lane)], 1);
     return signals::synthesize(tile.views, lane, tile.integration.content, scene.span(),
                                path[sensor][part], path_exponents(own, part).front(), 0, meshes,
-                               has_housing(scene.study()) ? signals::Tones{} : tile.tones);
+                               has_response(scene.study(), sensor) ? signals::Tones{} : tile.tones);
 }
 
-// Adds a sensor's response of the housing and the tones to a lane. The response is computed over
-// all samples of the scene, of which the first `meshes` mesh periods are kept.
-void add_housing_response(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
-                          std::size_t sensor, int lane, int meshes,
-                          std::optional<signals::PeriodicResponse>& response, LaneSignals& own) {
+// Tones of a tile as a sensor measures them: they pass its measuring chain, but not the housing.
+signals::Tones tones_at(const Study& study, std::size_t sensor, const signals::Tones& tones) {
+    signals::Tones own = tones;
+    const auto chain = measuring_chain(study, sensor);
+    for (std::size_t i = 0; chain && i < own.frequency_Hz.size(); ++i) {
+        const std::complex<double> factor = chain->at(own.frequency_Hz[i]);
+        own.amplitude_m_s2[i] *= std::abs(factor);
+        own.phase_rad[i] += std::arg(factor);
+    }
+    return own;
+}
+
+// Adds the response of a sensor and the tones to a lane. The response is computed over all samples
+// of the scene, of which the first `meshes` mesh periods are kept.
+void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
+                  std::size_t sensor, int lane, int meshes,
+                  std::optional<signals::PeriodicResponse>& response, LaneSignals& own) {
     const Study& study = scene.study();
     const InstanceInputs& inputs = tile.realizations[static_cast<std::size_t>(lane)].inputs;
     const double factor = inputs.housing_frequency_factor;
@@ -130,7 +144,8 @@ void add_housing_response(const Scene& scene, const SensorPaths& path, const Gea
     own.sensor.resize(static_cast<std::size_t>(meshes) *
                       static_cast<std::size_t>(scene.samples_per_mesh()));
     if (!tile.tones.empty()) {
-        signals::add_tones(tile.tones, lane, scene.samples_per_mesh(), own.sensor);
+        signals::add_tones(tones_at(study, sensor, tile.tones), lane, scene.samples_per_mesh(),
+                           own.sensor);
     }
     fold_again(scene, own);
 }
@@ -158,8 +173,8 @@ LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const Gear
     std::optional<signals::PeriodicResponse> response;
     for (std::size_t sensor = 0; meshes > 0 && sensor < path.size(); ++sensor) {
         LaneSignals& own = of_sensor(lane_result, sensor);
-        if (has_housing(scene.study())) {
-            add_housing_response(scene, path, tile, sensor, lane, meshes, response, own);
+        if (has_response(scene.study(), sensor)) {
+            add_response(scene, path, tile, sensor, lane, meshes, response, own);
         } else {
             own.sensor = samples_along(scene, path, tile, sensor, 0, lane, meshes);
         }
@@ -176,10 +191,10 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths&
     }
     std::optional<signals::PeriodicResponse> response;
     for (std::size_t sensor = 0; meshes > 0 && sensor < path.size(); ++sensor) {
-        if (has_housing(scene.study())) {
+        if (has_response(scene.study(), sensor)) {
             for (std::size_t lane = 0; lane < all.size(); ++lane) {
-                add_housing_response(scene, path, tile, sensor, static_cast<int>(lane), meshes,
-                                     response, of_sensor(all[lane], sensor));
+                add_response(scene, path, tile, sensor, static_cast<int>(lane), meshes, response,
+                             of_sensor(all[lane], sensor));
             }
             continue;
         }
@@ -198,12 +213,12 @@ std::vector<LaneSignals> all_lane_signals(const Scene& scene, const SensorPaths&
     return all;
 }
 
-SensorSignals signals_of_sensor(const LaneSignals& all, std::size_t sensor, double noise) {
+SensorSignals signals_of_sensor(const Study& study, const LaneSignals& all, std::size_t sensor) {
     const auto one = [&](const LaneSignals& record) {
         LaneSignals own = record.additional[sensor];
         own.te_turn = record.te_turn;
         own.te = record.te;
-        own.noise_m_s2 = noise * record.noise_m_s2;
+        own.noise = noise_at(study, study.sensor.additional[sensor], record.noise);
         return own;
     };
     SensorSignals own{one(all), {}};

@@ -168,8 +168,9 @@ bool records_during_integration(const Scene& scene) {
 
 int needed_sensor_meshes(const Scene& scene, features::SignalSet needs) {
     const bool cut = has_record_length(scene.study()) && !scene.study().effects.quasi_static();
-    return needs_samples(needs) || cut || has_housing(scene.study()) ? scene.signal_meshes()
-           : noise_by_density(scene.study()) || has_other_sources(scene.study())
+    return needs_samples(needs) || cut || any_response(scene.study()) ? scene.signal_meshes()
+           : noise_by_density(scene.study()) || has_range(scene.study()) ||
+                   has_other_sources(scene.study())
                ? scene.span_meshes()
                : 0;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "mc/coupling/stage_gearbox.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
+#include "mc/study/housing.hpp"
 #include "signals/spectra/periodic_interpolation.hpp"
 
 namespace gearpod::mc {
@@ -152,6 +154,17 @@ void add_stage(const Scene& scene, std::size_t stage, std::span<const StageRecor
     }
 }
 
+// Vibration of other sources as the measuring chain of an additional sensor passes it. `response`
+// is made where it is needed first.
+std::vector<double> passed(const signals::MeasuringChain& chain, const std::vector<double>& samples,
+                           double sample_s, std::optional<signals::PeriodicResponse>& response) {
+    if (!response) {
+        response.emplace(static_cast<int>(samples.size()));
+    }
+    response->add(samples, 1.0 / sample_s, {.modes = {}, .measured = {}, .chain = chain});
+    return response->take();
+}
+
 // Adds samples to those of a sensor of a record.
 void add_samples(const Scene& scene, const std::vector<double>& samples, LaneSignals& sensor) {
     std::ranges::transform(sensor.sensor, samples, sensor.sensor.begin(), std::plus<>());
@@ -208,10 +221,16 @@ void add_background(const Scene& scene, std::span<const Realization> realization
         }
         add_stage(scene, stage, next);
     }
+    std::optional<signals::PeriodicResponse> response;
     for (std::size_t i = 0; i < records.size(); ++i) {
         add_samples(scene, samples[i], records[i]);
-        for (LaneSignals& additional : records[i].additional) {
-            add_samples(scene, samples[i], additional);
+        for (std::size_t s = 0; s < records[i].additional.size(); ++s) {
+            const auto chain = measuring_chain(scene.study(), s + 1);
+            add_samples(scene,
+                        chain ? passed(*chain, samples[i], sample_s(scene, realizations[i].inputs),
+                                       response)
+                              : samples[i],
+                        records[i].additional[s]);
         }
     }
 }

@@ -64,7 +64,7 @@ void RealizationFeatures::load_baselines(const LaneSignals& gearbox, const Reali
         const LaneSignals& signals = baseline_of(gearbox, k);
         Baseline& baseline = baselines_[k];
         earlier.id.baseline = k;
-        earlier.inputs.noise_m_s2 = baseline.noise_m_s2 = signals.noise_m_s2;
+        earlier.inputs.noise_m_s2 = baseline.noise_m_s2 = signals.noise.all_m_s2;
         if (window.turns == 0) {
             baseline.signals.load(signals, earlier);
             continue;

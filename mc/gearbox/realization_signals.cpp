@@ -32,12 +32,11 @@ class Stopwatch {
 }  // namespace
 
 signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s(scene, inputs));
+    return signals::LowPassNoise(inputs.low_pass_Hz * sample_s(scene, inputs));
 }
 
 signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& inputs) {
-    return {background_spectrum(scene.study()), scene.study().sensor.low_pass_Hz,
-            1.0 / sample_s(scene, inputs)};
+    return {background_spectrum(scene.study()), inputs.low_pass_Hz, 1.0 / sample_s(scene, inputs)};
 }
 
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
@@ -73,6 +72,12 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
     }
 }
 
+void clip(const InstanceInputs& inputs, std::span<double> samples) {
+    for (double& sample : samples) {
+        sample = std::clamp(sample, -inputs.range_m_s2, inputs.range_m_s2);
+    }
+}
+
 RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet needs)
     : RealizationSignals(scene, needs, scene.span().ring_teeth) {}
 
@@ -91,7 +96,7 @@ RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet n
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
 bool RealizationSignals::keeps_samples() const {
-    return needs_samples_ || noise_by_density(scene_.study());
+    return needs_samples_ || noise_by_density(scene_.study()) || has_range(scene_.study());
 }
 
 void RealizationSignals::set_turns(int turns) {
@@ -197,8 +202,7 @@ void RealizationSignals::load(const LaneSignals& gearbox, const InstanceInputs& 
 
 void RealizationSignals::load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs) {
     gearbox_ = &gearbox;
-    sensor_rms_ = inputs.noise_m_s2;
-    encoder_rms_ = inputs.encoder_noise_rad;
+    inputs_ = inputs;
     if (gearbox.folded.empty()) {
         // A quasi-static gearbox has no sensor.
     } else if (has_sensor_noise(inputs)) {
@@ -210,12 +214,20 @@ void RealizationSignals::load_signals(const LaneSignals& gearbox, const Instance
 }
 
 void RealizationSignals::sensor_features(double noise, features::FeatureInput& input) {
-    const int offset = windowing_.search(noise, tooth_rms_);
-    input.get<features::ToothRms<features::Gear::planet>>() = {tooth_rms_};
-    input.get<features::SensorPower>() = {windowing_.mean_square(noise)};
-    if (needs_samples_) {
+    const bool clips = std::isfinite(inputs_.range_m_s2);
+    if (needs_samples_ || clips) {
         samples_ = gearbox_->sensor;
         add_noise(noise_.samples, noise, samples_);
+    }
+    if (clips) {
+        clip(inputs_, samples_);
+        windowing_.load(folded_squares(scene_, *gearbox_, samples_));
+    }
+    const double folded_noise = clips ? 0.0 : noise;  // of squares that do not contain it
+    const int offset = windowing_.search(folded_noise, tooth_rms_);
+    input.get<features::ToothRms<features::Gear::planet>>() = {tooth_rms_};
+    input.get<features::SensorPower>() = {windowing_.mean_square(folded_noise)};
+    if (needs_samples_) {
         analysis_.sensor(samples_, span_.ring_teeth, offset, input);
     }
 }
@@ -236,9 +248,9 @@ features::FeatureInput RealizationSignals::at(std::size_t level) {
     const double factor = scene_.study().sensor.noise_levels[level];
     features::FeatureInput input;
     if (!gearbox_->folded.empty()) {
-        sensor_features(factor * sensor_rms_, input);
+        sensor_features(factor * inputs_.noise_m_s2, input);
     }
-    te_features(factor * encoder_rms_, input);
+    te_features(factor * inputs_.encoder_noise_rad, input);
     return input;
 }
 

@@ -79,6 +79,8 @@ void draw_unit_noise(const Scene& scene, const InstanceInputs& inputs, NoiseEngi
 }
 // Computes samples[i] += sigma * unit[i].
 void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
+// Limits the magnitude of samples to the range of the sensor's converter.
+void clip(const InstanceInputs& inputs, std::span<double> samples);
 
 // Noise of one gearbox, common to all noise levels.
 struct RealizationNoise {
@@ -109,7 +111,8 @@ class RealizationSignals {
     // Signals of the loaded gearbox at a noise level; valid until the next call.
     features::FeatureInput at(std::size_t level);
 
-    // True if sensor samples of the records are used, by features or for noise of a given density.
+    // True if sensor samples of the records are used, by features, for noise of a given density or
+    // because they are clipped.
     bool keeps_samples() const;
     const LaneSignals& record() const { return *gearbox_; }  // loaded last
     const RealizationNoise& noise() const { return noise_; }
@@ -148,7 +151,7 @@ class RealizationSignals {
     int meshes_;
     const double highest_level_;
     const LaneSignals* gearbox_ = nullptr;
-    double sensor_rms_ = 0.0, encoder_rms_ = 0.0;  // noise at level 1, m/s^2 and rad
+    InstanceInputs inputs_{};  // of the loaded gearbox
     RealizationNoise noise_;
     std::vector<double> te_, samples_, amplitude_, tooth_rms_;
     double noise_s_ = 0.0;

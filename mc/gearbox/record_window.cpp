@@ -94,9 +94,13 @@ std::span<const double> folded_part(const Scene& scene, const LaneSignals& recor
     return samples.first(static_cast<std::size_t>(turns) * turn_samples(scene));
 }
 
+std::vector<double> folded_squares(const Scene& scene, const LaneSignals& record,
+                                   std::span<const double> samples) {
+    return signals::fold_of_squares(folded_part(scene, record, samples), turn_samples(scene));
+}
+
 void fold_again(const Scene& scene, LaneSignals& record) {
-    record.folded =
-        signals::fold_of_squares(folded_part(scene, record, record.sensor), turn_samples(scene));
+    record.folded = folded_squares(scene, record, record.sensor);
 }
 
 int record_turns(const Scene& scene, const InstanceInputs& inputs) {
@@ -119,7 +123,7 @@ LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const Rec
     const auto first = static_cast<std::size_t>(window.first_mesh),
                meshes = static_cast<std::size_t>(window.turns) * teeth;
     LaneSignals record;
-    record.noise_m_s2 = signals.noise_m_s2;
+    record.noise = signals.noise;
     record.turns = window.turns;
     record.first_mesh = window.first_mesh;
     if (!signals.sensor.empty()) {

@@ -22,6 +22,9 @@ std::size_t turn_samples(const Scene& scene);
 std::span<const double> folded_part(const Scene& scene, const LaneSignals& record,
                                     std::span<const double> samples);
 
+// Folded squares of samples of a record or of whole signals, as LaneSignals::folded.
+std::vector<double> folded_squares(const Scene& scene, const LaneSignals& record,
+                                   std::span<const double> samples);
 // Folds a record's sensor samples again after a change.
 void fold_again(const Scene& scene, LaneSignals& record);
 

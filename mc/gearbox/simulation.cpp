@@ -76,10 +76,13 @@ void add_sensor(const Scene& scene, const Realization& realization, LaneSignals 
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
-    out.columns.push_back({name, "m/s^2", first(clean)});
+    std::vector<double> clipped = clean;
+    clip(realization.inputs, clipped);
+    out.columns.push_back({name, "m/s^2", first(clipped)});
     for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
         std::vector<double> noisy = clean;
         add_noise(noise, out.noise_levels[level] * realization.inputs.noise_m_s2, noisy);
+        clip(realization.inputs, noisy);
         out.columns.push_back(
             {fmt::format("{}_noise_{:g}", name, out.noise_levels[level]), "m/s^2", first(noisy)});
     }
@@ -105,9 +108,9 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
         RealizationFeatures own_features(scene, &healthy, false);
         const Realization own = at_sensor(scene.study(), realization, s + 1);
         SensorSignals signals = signals_of_sensor(
-            lane_signals(scene, path, tile, 0, own_features.meshes()), s, additional[s].noise);
+            scene.study(), lane_signals(scene, path, tile, 0, own_features.meshes()), s);
         own_features.compute(signals.linked(), own);
-        add_sensor(scene, own, signals_of_sensor(all, s, additional[s].noise).record, own_features,
+        add_sensor(scene, own, signals_of_sensor(scene.study(), all, s).record, own_features,
                    kSensorVariant + additional[s].name, rows, out);
     }
 }

@@ -35,17 +35,18 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
       has_gain_(has_gain(realizations)),
       signal_meshes_(meshes > 0 ? std::max(meshes, scene.span_meshes()) : scene.signal_meshes()),
       recorded_meshes_(meshes > 0 ? signal_meshes_ : scene.recorded_meshes()) {
-    // Tones do not pass the housing and are added to its response.
-    const signals::Tones tones =
-        has_housing(scene.study()) ? signals::Tones{} : draw_tones(scene, realizations);
-    for (const SensorPath& sensor : path) {
+    const signals::Tones tones = draw_tones(scene, realizations), none;
+    for (std::size_t s = 0; s < path.size(); ++s) {
+        const SensorPath& sensor = path[s];
+        // Tones are added to the response of a sensor later.
+        const signals::Tones& added = has_response(scene.study(), s) ? none : tones;
         auto& recorders = recorders_.emplace_back();
         for (std::size_t p = 0; p < sensor.size(); ++p) {
             const std::vector<double> exponents = path_exponents(realizations, p);
             recorders.push_back(std::make_unique<signals::SensorResponse>(
                 sensor[p], scene.span(),
                 signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents,
-                                              &tones, scene.te_samples_per_mesh(), signal_meshes_,
+                                              &added, scene.te_samples_per_mesh(), signal_meshes_,
                                               kept_meshes < 0 ? signal_meshes_ : kept_meshes,
                                               has_record_length(scene.study())}));
         }

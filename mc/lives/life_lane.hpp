@@ -168,10 +168,8 @@ class LifeTiles::Lane {
     InstanceInputs inputs_of(const LifeRecord& record) const {
         InstanceInputs inputs = inputs_;
         if (tiles_.distributions_.sensor_noise_only) {
-            const SensorNoise noise = with_rms_factor(
-                tiles_.scene_.study(),
-                {inputs.noise_m_s2, inputs.white_noise_m_s2, inputs.background_noise_m_s2},
-                record.noise);
+            const SensorNoise noise =
+                with_rms_factor(tiles_.scene_.study(), noise_of(inputs), record.noise);
             inputs.noise_m_s2 = noise.all_m_s2;
             inputs.white_noise_m_s2 = noise.white_m_s2;
         } else {

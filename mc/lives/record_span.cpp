@@ -9,6 +9,7 @@
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/housing.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
@@ -145,6 +146,10 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
     }
     if (!study.sensor.additional.empty()) {
         reject("sensor.additional", "lives have the first sensor only", "remove them");
+    }
+    if (has_range(study)) {
+        reject("sensor.range_m_s2", "records are superpositions of parts, which are not clipped",
+               "remove it");
     }
     if (has_housing(study)) {
         reject("sensor.housing_modes",

@@ -194,6 +194,11 @@ class Examples {
         add_noise(sample_noise(scene_, realization, signals.record.sensor, features.noise().sensor,
                                signals.layout.ring_teeth),
                   noise_level() * realization.inputs.noise_m_s2, signals.noisy);
+        if (has_range(scene_.study())) {
+            clip(realization.inputs, signals.noisy);
+            clip(realization.inputs, signals.record.sensor);
+            fold_again(scene_, signals.record);
+        }
         return signals;
     }
 
@@ -215,7 +220,8 @@ class Examples {
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(signals.layout, scene_.samples_per_mesh(),
                                      scene_.study().features.tukey_taper);
-        windowing.load(features.record().folded);
+        windowing.load(has_range(scene_.study()) ? signals.record.folded
+                                                 : features.record().folded);
         windowing.search(0.0, clean_rms);
         rotate_to_first_tooth(features.record(), 1, clean_rms);
         return {{"spectrum",
@@ -232,7 +238,7 @@ class Examples {
             RealizationFeatures features(scene_, &healthy, false);
             const Realization own = at_sensor(scene_.study(), tile.realizations[0], s + 1);
             const auto signals_over = [&](const LaneSignals& lane) {
-                return signals_of_sensor(lane, s, sensors[s].noise);
+                return signals_of_sensor(scene_.study(), lane, s);
             };
             SensorSignals record =
                 signals_over(lane_signals(scene_, path_, tile, 0, features.meshes()));

@@ -3,6 +3,7 @@
 
 #include "mc/scene/input_values.hpp"
 #include "mc/scene/planets.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -57,11 +58,18 @@ struct InstanceInputs {
     double noise_m_s2;             // rms of all accelerometer noise
     double white_noise_m_s2;       // rms of the part that the low-pass does not filter
     double background_noise_m_s2;  // rms of the part that is the machine's background
+    double low_pass_Hz;            // of the sensor that has this noise
+    double range_m_s2;             // of that sensor; infinite without one
     double encoder_noise_rad;      // rms
     double fault_size;             // 0 in the threshold group and without a fault
     // Parameters of crack growth as in Life; 0 without one.
     double paris_factor, paris_exponent, curve_pace;
 };
+
+// Noise of the sensor in a gearbox with these inputs.
+inline SensorNoise noise_of(const InstanceInputs& inputs) {
+    return {inputs.noise_m_s2, inputs.white_noise_m_s2, inputs.background_noise_m_s2};
+}
 
 // Member whose speed a study gives: sun, ring or carrier, or the pinion.
 Member speed_member(const Study& study);

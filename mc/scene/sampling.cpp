@@ -9,6 +9,7 @@
 
 #include "mc/study/faults/all_faults.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 
@@ -89,10 +90,13 @@ GearboxId owner(GearboxId id, DrawnPer per) {
 Realization at_sensor(const Study& study, const Realization& realization, std::uint64_t sensor) {
     Realization own = realization;
     own.id.sensor = sensor;
-    const double noise = study.sensor.additional[sensor - 1].noise;
-    own.inputs.noise_m_s2 *= noise;
-    own.inputs.white_noise_m_s2 *= noise;
-    own.inputs.background_noise_m_s2 *= noise;
+    const AdditionalSensor& additional = study.sensor.additional[sensor - 1];
+    const SensorNoise noise = noise_at(study, additional, noise_of(own.inputs));
+    own.inputs.noise_m_s2 = noise.all_m_s2;
+    own.inputs.white_noise_m_s2 = noise.white_m_s2;
+    own.inputs.background_noise_m_s2 = noise.background_m_s2;
+    own.inputs.low_pass_Hz = additional.low_pass_Hz.value_or(own.inputs.low_pass_Hz);
+    own.inputs.range_m_s2 = additional.range_m_s2.value_or(own.inputs.range_m_s2);
     return own;
 }
 

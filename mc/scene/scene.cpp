@@ -87,6 +87,9 @@ Study stage_study(const Study& study, const NeighbourStage& stage, const Study& 
     }
     own.sensor.low_pass_Hz = study.sensor.low_pass_Hz;
     own.sensor.sampling_Hz = std::max(own.sensor.sampling_Hz, study.sensor.sampling_Hz);
+    // The study's own sensors and their converters alone measure.
+    own.sensor.additional.clear();
+    own.sensor.range_m_s2.reset();
     own.sensor.record_s.reset();
     own.sensor.record_turns.reset();
     own.features = {};

@@ -28,6 +28,35 @@ bool has_housing(const Study& study) {
     return !study.sensor.housing_modes.empty() || !study.sensor.response_Hz.empty();
 }
 
+std::optional<signals::MeasuringChain> measuring_chain(const Study& study, std::size_t sensor) {
+    if (sensor == 0) {
+        return std::nullopt;
+    }
+    const AdditionalSensor& own = study.sensor.additional[sensor - 1];
+    signals::MeasuringChain chain{{}, {}, own.delay_s};
+    if (own.low_pass_Hz) {
+        chain.low_pass = {*own.low_pass_Hz, study.sensor.low_pass_Hz};
+    }
+    if (own.mounting_Hz) {
+        chain.mounting = {*own.mounting_Hz, own.mounting_damping};
+    }
+    const bool differs = chain.low_pass || chain.mounting || chain.delay_s != 0.0;
+    return differs ? std::optional(chain) : std::nullopt;
+}
+
+bool has_response(const Study& study, std::size_t sensor) {
+    return has_housing(study) || measuring_chain(study, sensor);
+}
+
+bool any_response(const Study& study) {
+    for (std::size_t sensor = 0; sensor <= study.sensor.additional.size(); ++sensor) {
+        if (has_response(study, sensor)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::vector<int> ring_modes(const Study& study) {
     std::set<int> numbers;
     for (const HousingMode& mode : study.sensor.housing_modes) {
@@ -43,6 +72,7 @@ signals::HousingResponse housing_response(const Study& study, std::size_t sensor
     const Sensor& s = study.sensor;
     signals::HousingResponse response;
     response.modes = modes_at(study, sensor, std::nullopt, frequency_factor);
+    response.chain = measuring_chain(study, sensor);
     if (s.response_Hz.empty()) {
         return response;
     }
@@ -62,7 +92,8 @@ signals::HousingResponse ring_response(const Study& study, std::size_t sensor, i
                                        double frequency_factor) {
     return {.stiff_path = false,
             .modes = modes_at(study, sensor, nodal_diameters, frequency_factor),
-            .measured = {}};
+            .measured = {},
+            .chain = measuring_chain(study, sensor)};
 }
 
 }  // namespace gearpod::mc

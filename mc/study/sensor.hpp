@@ -94,6 +94,13 @@ struct AdditionalSensor {
     // Participation of each of the housing's modes, and measured response at Sensor::response_Hz;
     // empty: as at the first sensor.
     std::vector<double> participation, response_gain, response_phase_deg;
+    // Measuring chain of its own (signals/path/measuring_chain.hpp); without a value, that of the
+    // first one.
+    std::optional<double> low_pass_Hz, mounting_Hz;
+    double mounting_damping = 0.03;
+    double delay_s = 0.0;                     // of its samples
+    std::optional<double> quantisation_m_s2;  // not multiplied by `noise`
+    std::optional<double> range_m_s2;
 
     bool operator==(const AdditionalSensor&) const = default;
 };
@@ -115,6 +122,8 @@ struct Sensor {
     std::vector<double> background_Hz, background_density_m_s2_per_sqrt_Hz;
     double background_level = 1.0;   // factor on that density
     double quantisation_m_s2 = 0.0;  // step of the analogue-to-digital converter
+    // Largest magnitude of a sample, at which it is clipped; unlimited without a value.
+    std::optional<double> range_m_s2;
     std::vector<Tone> tones;
     double tone_level = 1.0;  // factor on the amplitudes of all tones
     std::vector<Bearing> bearings;

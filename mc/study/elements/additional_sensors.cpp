@@ -9,6 +9,46 @@
 
 namespace gearpod::mc {
 
+namespace {
+
+void read_chain(const ListElement& element, AdditionalSensor& sensor) {
+    const auto number = [&](const char* name, const Range& range) {
+        return element.has(name) ? std::optional(element.number(name, range)) : std::nullopt;
+    };
+    sensor.low_pass_Hz = number("low_pass_Hz", kAbove0);
+    sensor.mounting_Hz = number("mounting_Hz", {.low = 1.0});
+    sensor.mounting_damping =
+        element.number("mounting_damping", {0.001, 1.0}, sensor.mounting_damping);
+    if (element.has("mounting_damping") && !sensor.mounting_Hz) {
+        element.reject("mounting_damping is given, but no mounting_Hz",
+                       "give the natural frequency of the mounting, too");
+    }
+    sensor.delay_s = element.number("delay_s", {-1.0, 1.0}, 0.0);
+    sensor.quantisation_m_s2 = number("quantisation_m_s2", {.low = 0.0});
+    sensor.range_m_s2 = number("range_m_s2", kAbove0);
+}
+
+// Entries of the measuring chain in a table.
+std::string chain_text(const AdditionalSensor& sensor) {
+    std::string text;
+    const auto add = [&](const char* name, std::optional<double> value) {
+        text += value ? fmt::format(", {} = {}", name, *value) : "";
+    };
+    add("low_pass_Hz", sensor.low_pass_Hz);
+    add("mounting_Hz", sensor.mounting_Hz);
+    if (sensor.mounting_Hz) {
+        add("mounting_damping", sensor.mounting_damping);
+    }
+    if (sensor.delay_s != 0.0) {
+        add("delay_s", sensor.delay_s);
+    }
+    add("quantisation_m_s2", sensor.quantisation_m_s2);
+    add("range_m_s2", sensor.range_m_s2);
+    return text;
+}
+
+}  // namespace
+
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject) {
     std::vector<AdditionalSensor> sensors;
@@ -34,6 +74,7 @@ std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
         sensor.participation = element.numbers("participation", kParticipation);
         sensor.response_gain = element.numbers("response_gain", {.low = 0.0});
         sensor.response_phase_deg = element.numbers("response_phase_deg", {-1e6, 1e6});
+        read_chain(element, sensor);
         sensors.push_back(sensor);
     }
     return sensors;
@@ -44,11 +85,11 @@ std::string sensor_table(const AdditionalSensor& sensor) {
         return values.empty() ? "" : fmt::format(", {} = [{}]", name, fmt::join(values, ", "));
     };
     return fmt::format(
-        "{{ name = \"{}\", angle_deg = {}, direction = \"{}\", gain = {}, noise = {}{}{}{} }}",
+        "{{ name = \"{}\", angle_deg = {}, direction = \"{}\", gain = {}, noise = {}{}{}{}{} }}",
         sensor.name, sensor.angle_deg, kDirections[sensor.tangential ? 1 : 0].text, sensor.gain,
         sensor.noise, list("participation", sensor.participation),
         list("response_gain", sensor.response_gain),
-        list("response_phase_deg", sensor.response_phase_deg));
+        list("response_phase_deg", sensor.response_phase_deg), chain_text(sensor));
 }
 
 }  // namespace gearpod::mc

@@ -18,7 +18,13 @@ inline constexpr TableField kSensorFields[] = {
     {"noise"},
     {"participation", TableField::Kind::numbers},
     {"response_gain", TableField::Kind::numbers},
-    {"response_phase_deg", TableField::Kind::numbers}};
+    {"response_phase_deg", TableField::Kind::numbers},
+    {"low_pass_Hz"},
+    {"mounting_Hz"},
+    {"mounting_damping"},
+    {"delay_s"},
+    {"quantisation_m_s2"},
+    {"range_m_s2"}};
 // Problems name the sensor by its position in the list.
 std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "features/feature.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "signals/noise/low_pass_noise.hpp"
@@ -35,10 +37,13 @@ void check_count(StudyDraft& draft, const char* key, const std::string& what, st
     }
 }
 
+// A background that begins above this multiple of a low-pass does not pass it.
+constexpr double kMostPassed = 10.0;
+
 void check_background(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
     constexpr const char* kDensity = "sensor.background_density_m_s2_per_sqrt_Hz";
-    constexpr double kNarrowest = 1000.0, kMostPassed = 10.0;
+    constexpr double kNarrowest = 1000.0;
     if (s.background_Hz.empty() || !draft.all_usable({"sensor.background_Hz", kDensity})) {
         return;
     }
@@ -153,6 +158,73 @@ void check_housing(StudyDraft& draft) {
     }
 }
 
+// Checks an additional sensor with a low-pass of its own.
+void check_own_low_pass(StudyDraft& draft, std::size_t number, double low_pass_Hz) {
+    constexpr const char* kAdditional = "sensor.additional";
+    const Sensor& s = draft.study.sensor;
+    if (!draft.all_usable({kAdditional, "sensor.low_pass_Hz"})) {
+        return;
+    }
+    const auto reject = [&](const std::string& what, const char* remedy) {
+        draft.reject(kAdditional,
+                     fmt::format("sensor {}: low_pass_Hz = {} Hz {}", number, low_pass_Hz, what),
+                     remedy);
+    };
+    if (low_pass_Hz > s.low_pass_Hz) {
+        reject(fmt::format("is above sensor.low_pass_Hz, {} Hz, which the vibration of all sensors "
+                           "passes first",
+                           s.low_pass_Hz),
+               "lower it, or make the sensor with the highest low-pass the first one");
+        return;
+    }
+    if (!s.background_Hz.empty() && draft.usable("sensor.background_Hz") &&
+        s.background_Hz.front() >= kMostPassed * low_pass_Hz) {
+        reject(fmt::format("passes nothing of the background, which begins at {:g} Hz "
+                           "(sensor.background_Hz)",
+                           s.background_Hz.front()),
+               "raise it, or remove the background");
+    }
+    const double finest_Hz = low_pass_Hz / signals::LowPassNoise::kLeast;
+    if (s.noise_density_m_s2_per_sqrt_Hz && draft.usable("sensor.sampling_Hz") &&
+        s.sampling_Hz > finest_Hz) {
+        reject(
+            fmt::format("is too low for sensor.sampling_Hz, {} Hz, which is above {:g} Hz (noise "
+                        "samples are then too strongly correlated to be generated)",
+                        s.sampling_Hz, finest_Hz),
+            "raise it, or give sensor.noise_m_s2 instead of the density");
+    }
+}
+
+// A measuring range clips samples with their noise. What works with noise that adds to the signal
+// is rejected.
+void check_range(StudyDraft& draft) {
+    const Study& study = draft.study;
+    if (!has_range(study) || !draft.all_usable({"sensor.range_m_s2", "sensor.additional"})) {
+        return;
+    }
+    const char* key = study.sensor.range_m_s2 ? "sensor.range_m_s2" : "sensor.additional";
+    for (const std::string& name : study.features.use) {
+        const features::Feature* feature = find_feature(study, name);
+        const bool of_change = feature != nullptr && (feature->from_sensor || feature->external) &&
+                               (feature->baseline_use == features::BaselineUse::change ||
+                                feature->baseline_use == features::BaselineUse::record_and_change);
+        if (of_change && draft.usable("features.use")) {
+            draft.reject(
+                key,
+                fmt::format("a range clips the samples, but \"{}\" (features.use) subtracts "
+                            "the baseline from samples that are not clipped",
+                            name),
+                "remove the feature or the range (range_m_s2)");
+        }
+    }
+    if (study.ensemble.uses_importance_sampling() && draft.usable("ensemble.threshold_tilt")) {
+        draft.reject(key,
+                     "a range clips the samples, but importance sampling "
+                     "(ensemble.threshold_tilt, or `misses`) needs Gaussian noise",
+                     "remove the range (range_m_s2)");
+    }
+}
+
 }  // namespace
 
 void check_sampling(StudyDraft& draft) {
@@ -160,6 +232,12 @@ void check_sampling(StudyDraft& draft) {
     check_background(draft);
     check_housing(draft);
     check_tones_and_bearings(draft);
+    check_range(draft);
+    for (std::size_t i = 0; i < s.additional.size(); ++i) {
+        if (s.additional[i].low_pass_Hz) {
+            check_own_low_pass(draft, i + 1, *s.additional[i].low_pass_Hz);
+        }
+    }
     if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
         s.sampling_Hz <= 0.0) {
         return;

@@ -9,12 +9,15 @@ namespace gearpod::signals {
 
 using Complex = std::complex<double>;
 
-Complex HousingResponse::at(double f_Hz) const {
-    if (measured) {
-        return measured->at(f_Hz);
+namespace {
+
+// H without the measuring chain.
+Complex without_chain(const HousingResponse& response, double f_Hz) {
+    if (response.measured) {
+        return response.measured->at(f_Hz);
     }
-    double real = stiff_path ? 1.0 : 0.0, imaginary = 0.0;
-    for (const NaturalMode& mode : modes) {
+    double real = response.stiff_path ? 1.0 : 0.0, imaginary = 0.0;
+    for (const NaturalMode& mode : response.modes) {
         const double r = f_Hz / mode.frequency_Hz;
         const double a = 1.0 - r * r, b = 2.0 * mode.damping * r;
         const double share = mode.participation * r * r / (a * a + b * b);
@@ -22,6 +25,13 @@ Complex HousingResponse::at(double f_Hz) const {
         imaginary -= share * b;
     }
     return {real, imaginary};
+}
+
+}  // namespace
+
+Complex HousingResponse::at(double f_Hz) const {
+    const Complex housing = without_chain(*this, f_Hz);
+    return chain ? housing * chain->at(f_Hz) : housing;
 }
 
 Complex MeasuredResponse::at(double f_Hz) const {

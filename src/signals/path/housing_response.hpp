@@ -9,6 +9,7 @@
 // with natural frequency f_k, damping ratio zeta and participation phi at the sensor. Slow
 // vibration is unchanged. At its natural frequency a mode adds phi / (2 zeta). One mode with phi =
 // 1 is a sensor on a resonant mounting. A measured frequency response is an alternative to modes.
+// The sensor's measuring chain, if it has one of its own, multiplies H.
 #pragma once
 
 #include <complex>
@@ -16,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "signals/path/measuring_chain.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
 namespace gearpod::signals {
@@ -36,7 +38,8 @@ struct MeasuredResponse {
 struct HousingResponse {
     bool stiff_path = true;  // the 1 in H
     std::vector<NaturalMode> modes;
-    std::optional<MeasuredResponse> measured;  // in place of all else
+    std::optional<MeasuredResponse> measured;  // in place of the above
+    std::optional<MeasuringChain> chain = {};  // factor on the above
 
     // H at f Hz.
     std::complex<double> at(double f_Hz) const;

@@ -1,6 +1,7 @@
 // Runs of a small study, and what several tests of its sensors compare.
 #pragma once
 
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,6 +26,29 @@ inline mc::Results run_small(const Folder& folder, const std::string& name,
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     return mc::read_results(path);
+}
+
+// Columns of a CSV table by their names without units.
+using Columns = std::map<std::string, std::vector<double>>;
+
+inline Columns columns_of(const std::string& path) {
+    std::istringstream stream(bytes_of(path));
+    std::string line;
+    std::getline(stream, line);
+    std::vector<std::string> names;
+    Columns columns;
+    std::istringstream head(line);
+    for (std::string name; std::getline(head, name, ',');) {
+        names.push_back(name.substr(0, name.find(" [")));
+    }
+    while (std::getline(stream, line)) {
+        std::istringstream cells(line);
+        std::size_t at = 0;
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            columns[names.at(at++)].push_back(std::stod(cell));
+        }
+    }
+    return columns;
 }
 
 // Value of a feature in printed output; 0 if it is not there.

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/results/row_source.hpp"
@@ -45,25 +44,8 @@ std::vector<double> healthy(const mc::Results& results, const mc::FeatureResult&
     return {feature.values.begin(), feature.values.begin() + rows};
 }
 
-// Values of a column of a CSV file.
 std::vector<double> column(const std::string& path, const std::string& name) {
-    std::istringstream stream(test::bytes_of(path));
-    std::string line, cell;
-    std::getline(stream, line);
-    std::istringstream head(line);
-    std::size_t at = 0;
-    while (std::getline(head, cell, ',') && cell.substr(0, cell.find(" [")) != name) {
-        ++at;
-    }
-    std::vector<double> values;
-    while (std::getline(stream, line)) {
-        std::istringstream cells(line);
-        for (std::size_t i = 0; i <= at; ++i) {
-            REQUIRE(std::getline(cells, cell, ','));
-        }
-        values.push_back(std::stod(cell));
-    }
-    return values;
+    return test::columns_of(path).at(name);
 }
 
 mc::Bearing bearing_6205(mc::BearingFault fault) {

@@ -1,8 +1,6 @@
 // Checks accelerometer noise given by its density before the low-pass.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <sstream>
 
 #include "mc/calibration/parameters.hpp"
 #include "mc/study/noise.hpp"
@@ -33,27 +31,6 @@ std::string by_density(const Folder& folder, const std::string& density) {
     return path;
 }
 
-// Columns of a table.
-std::map<std::string, std::vector<double>> read_columns(const std::string& path) {
-    std::istringstream stream(test::bytes_of(path));
-    std::string line;
-    std::getline(stream, line);
-    std::vector<std::string> names;
-    std::map<std::string, std::vector<double>> columns;
-    std::istringstream head(line);
-    for (std::string name; std::getline(head, name, ',');) {
-        names.push_back(name.substr(0, name.find(" [")));
-    }
-    while (std::getline(stream, line)) {
-        std::istringstream cells(line);
-        std::size_t at = 0;
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            columns[names.at(at++)].push_back(std::stod(cell));
-        }
-    }
-    return columns;
-}
-
 // Noise of a record: its rms, and the share of its power above twice the low-pass frequency.
 struct Noise {
     double rms = 0.0, below = 0.0;
@@ -65,7 +42,7 @@ Noise noise_of(const std::string& study, const std::string& options, const std::
         program("simulate " + study + " --instance 2 --meshes 455 --out " + path + options);
     INFO(header.output);
     REQUIRE(header.code == 0);
-    const auto columns = read_columns(path);
+    const auto columns = test::columns_of(path);
     std::vector<double> noise = columns.at("sensor_noise_1");
     const std::vector<double>& clean = columns.at("sensor");
     double sum = 0.0;

@@ -1,0 +1,34 @@
+// Measuring chain of an accelerometer: mounting, low-pass and clock, as a factor on the spectrum of
+// samples that have already passed another low-pass.
+//
+//     E(f) = B(f / f_c) / B(f / f_a) M(f) exp(-2 pi i f tau),
+//     B(r) = 1 / ((1 - r^2 + 2 i cos(pi/8) r) (1 - r^2 + 2 i cos(3 pi/8) r)),
+//     M(f) = (1 + 2 i zeta r) / (1 - r^2 + 2 i zeta r),    r = f / f_m,
+//
+// with the Butterworth low-pass B of order 4, its cut-off frequency f_c, that of the low-pass that
+// was applied, f_a, and the delay tau. M is the transmissibility of a mounting of natural frequency
+// f_m and damping ratio zeta (S. S. Rao, Mechanical Vibrations).
+#pragma once
+
+#include <complex>
+#include <optional>
+
+namespace gearpod::signals {
+
+struct MeasuringChain {
+    struct LowPass {
+        double own_Hz = 0.0, applied_Hz = 0.0;
+    };
+    struct Mounting {
+        double frequency_Hz = 0.0, damping = 0.0;
+    };
+
+    std::optional<LowPass> low_pass;
+    std::optional<Mounting> mounting;
+    double delay_s = 0.0;  // positive: samples are late
+
+    // E at f Hz.
+    std::complex<double> at(double f_Hz) const;
+};
+
+}  // namespace gearpod::signals
