@@ -28,7 +28,7 @@ std::string figures(double value) {
     return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
 }
 
-std::string rpm(double rad_s) {
+std::string rpm_text(double rad_s) {
     return figures(rad_s * 30.0 / std::numbers::pi) + " rpm";
 }
 
@@ -51,15 +51,15 @@ void print_planetary_members(const Study& study) {
         const bool held = member == study.operation.fixed;
         const char* role = held ? "fixed" : member == study.operation.input ? "input" : "output";
         print_entry(std::string(member_name(member)),
-                    fmt::format("{}, {} N m ({})", held ? "stationary" : rpm(sense * speed),
+                    fmt::format("{}, {} N m ({})", held ? "stationary" : rpm_text(sense * speed),
                                 figures(std::abs(load)), role));
     };
     print(Member::sun, turning.sun, torque.sun);
     const double pin_N = std::abs(torque.carrier) / (train.planets * centre_distance_m(study));
     print_entry("planets",
                 fmt::format("{}, {} relative to the carrier, {:.4g} kN on each pin",
-                            rpm(sense * turning.planet),
-                            rpm(sense * (turning.planet - turning.carrier)), 1e-3 * pin_N));
+                            rpm_text(sense * turning.planet),
+                            rpm_text(sense * (turning.planet - turning.carrier)), 1e-3 * pin_N));
     print(Member::ring, turning.ring, torque.ring);
     print(Member::carrier, turning.carrier, torque.carrier);
 }
@@ -72,9 +72,9 @@ void print_members(const Study& study) {
     const InstanceInputs nominal = nominal_inputs(study);
     const double ratio =
         static_cast<double>(*teeth_of(study, Member::pinion)) / *teeth_of(study, Member::gear);
-    print_entry("pinion", fmt::format("{}, {} N m (input)", rpm(nominal.speed_rad_s),
+    print_entry("pinion", fmt::format("{}, {} N m (input)", rpm_text(nominal.speed_rad_s),
                                       figures(nominal.torque_N_m)));
-    print_entry("gear", fmt::format("{}, {} N m (output)", rpm(-ratio * nominal.speed_rad_s),
+    print_entry("gear", fmt::format("{}, {} N m (output)", rpm_text(-ratio * nominal.speed_rad_s),
                                     figures(nominal.fixed_shaft.load_torque_N_m)));
 }
 
