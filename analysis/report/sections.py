@@ -62,6 +62,7 @@ def signals(report, page):
         body += note("No healthy gearbox has values, so only a faulty one is shown.")
     if any(g["sensor"] for g in gearboxes):
         body += (signal_figures.sensor(report, page) + signal_figures.spectrum(report, page)
+                 + signal_figures.spectrogram(report, page)
                  + signal_figures.tooth_rms(report, page) + signal_figures.sensors(report, page))
     else:
         body += note("The gearbox is quasi-static: nothing accelerates, so there is no sensor "

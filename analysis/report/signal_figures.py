@@ -109,6 +109,41 @@ def spectrum(report, page):
                        + note("The drawn points are in the JSON, examples.gearboxes.spectrum."))
 
 
+def spectrogram(report, page):
+    """Levels over time and frequency where the speed varies; empty where it does not."""
+    charts, rows = [], []
+    for g in report.data["examples"]["gearboxes"]:
+        given = g.get("spectrogram")
+        if not given or not given["time_s"]:
+            continue
+        times, lines = given["time_s"], given["frequency_Hz"]
+        figure, axes = panel(3.2)
+        image = axes.imshow(list(zip(*given["level_dB"])), origin="lower", aspect="auto",
+                            cmap="viridis", interpolation="nearest",
+                            extent=(times[0], times[-1], lines[0], lines[-1]))
+        figure.colorbar(image, ax=axes, label="dB of the largest line")
+        for order in range(1, int(lines[-1] / max(given["mesh_Hz"])) + 1):
+            axes.plot(times, [order * f for f in given["mesh_Hz"]], color="white", linewidth=0.5,
+                      linestyle=(0, (1, 3)))
+        axes.set_ylim(lines[0], lines[-1])
+        axes.grid(False)
+        axes.set_xlabel("Time, s")
+        axes.set_ylabel("Frequency, Hz")
+        axes.set_title(_name(report, g), fontsize=10, loc="left")
+        slowest, fastest = min(given["mesh_Hz"]), max(given["mesh_Hz"])
+        rows.append([_name(report, g), number(slowest, 4), number(fastest, 4),
+                     number(times[-1] - times[0])])
+        charts.append(to_svg(figure, f"Spectrogram of the sensor signal, {_name(report, g)}",
+                             f"Mesh frequency {number(slowest, 4)} to {number(fastest, 4)} Hz",
+                             page.names))
+    how = ("Level of the sensor signal without noise in windows of eight mesh periods, one per "
+           "mesh period. Dotted: harmonics of the mesh frequency at that time. Lines that follow "
+           "them come from the gears, level lines from resonances or the rest of the machine.")
+    return page.figure("Spectrogram of the sensor signal", charts, how, table(
+        "Mesh frequency in the spectrogram", ["gearbox", "lowest, Hz", "highest, Hz", "time, s"],
+        rows)) if charts else ""
+
+
 def _largest(lines, count):
     return sorted(range(len(lines["amplitude"])), key=lambda i: -lines["amplitude"][i])[:count]
 

@@ -16,6 +16,7 @@
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/scene/stiffness_curves.hpp"
+#include "mc/study/fluctuations.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/sensor/sensor.hpp"
@@ -163,6 +164,9 @@ class Examples {
             add_sensor(signals, json);
             json.update(sensor_json(signals, features_, levels[level_].tooth_rms, period_s));
             json["additional_sensors"] = additional_sensors(tile, period_s);
+            if (speed_fluctuates(scene_.study())) {
+                json["spectrogram"] = spectrogram(id);
+            }
         }
         return json;
     }
@@ -228,6 +232,19 @@ class Examples {
                  spectrum_json(signals.record.sensor, signals.noisy,
                                static_cast<std::size_t>(signals.layout.meshes()), period_s)},
                 {"tooth_rms", {{"clean", clean_rms}, {"noisy", noisy_rms}}}};
+    }
+
+    // Of the sensor without noise, from the first mesh periods of the gearbox's record.
+    Json spectrogram(const GearboxId& id) const {
+        const long meshes =
+            std::min(scene_.span_meshes(), kSpectrogramSlices + kSpectrogramWindow - 1);
+        const Simulation simulated = simulate(scene_, id, meshes);
+        const auto column = [&](const char* name) -> const std::vector<double>& {
+            return std::ranges::find(simulated.columns, name, &SignalColumn::name)->values;
+        };
+        constexpr double kBeyondBand = 1.25;  // of the low-pass
+        return spectrogram_json(column("time"), column("sensor"), scene_.samples_per_mesh(),
+                                kBeyondBand * scene_.study().sensor.low_pass_Hz);
     }
 
     Json additional_sensors(const GearboxTile& tile, double period_s) const {
