@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "lockstep/excitation/excitation_rows.hpp"
+#include "lockstep/kernels/built_kernels.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/gearbox/realization_features.hpp"
@@ -119,17 +120,21 @@ void add_sensors(const Scene& scene, const GearboxTile& tile, const SensorPaths&
 std::vector<double> sample_times(const Scene& scene, const Realization& realization,
                                  MeshRange meshes) {
     const auto& grid = scene.plan().grid;
-    const std::vector<dynamics::GearboxInputs> inputs{scene.inputs(realization.inputs)};
+    const dynamics::GearboxInputs own = scene.inputs(realization.inputs);
     std::vector<double> times;
     if (!speed_fluctuates(scene.study())) {
-        const double period_s = dynamics::mesh_period_s(inputs[0]);
+        const double period_s = dynamics::mesh_period_s(own);
         const int samples = scene.samples_per_mesh();
         for (long i = 0; i < meshes.count * samples; ++i) {
             times.push_back(static_cast<double>(i) / samples * period_s);
         }
         return times;
     }
-    const auto excitation = draw_excitation(scene, std::span(&realization, 1));
+    // Not every program is built for one lane.
+    const auto lanes =
+        static_cast<std::size_t>(lockstep::lanes_for(Precision::double_precision, 1));
+    const std::vector<dynamics::GearboxInputs> inputs(lanes, own);
+    const auto excitation = draw_excitation(scene, std::vector<Realization>(lanes, realization));
     lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
     for (long mesh = meshes.first; mesh < meshes.first + meshes.count; ++mesh) {
         rows.fill(static_cast<int>(mesh));
