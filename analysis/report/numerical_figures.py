@@ -11,6 +11,8 @@ def numerical(report, page):
     body = "".join(paragraph(report.text(key)) for key in ("numerical.text", "step_error")
                    if report.text(key)) + report.notes("numerical.none")
     data = report.table("numerical")
+    if report.text("numerical.correction"):
+        body += paragraph(report.text("numerical.correction")) + report.table("correction")
     given = report.data.get("numerical") or {"shares": []}
     here = [s for s in given["shares"] if s["noise_level"] == report.levels[report.reference]]
     here.sort(key=lambda s: report.order(report.reference).index(

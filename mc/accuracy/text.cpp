@@ -71,10 +71,11 @@ void add_row(const AccuracyReport& report, const SettingResult& r, const char* m
         add_words("not possible: " + r.refusal, 4, out);
         return;
     }
-    fmt::format_to(out, "{}{}\n{:>7} {:>6.0f} {:>8.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n",
-                   mark + r.setting.text(),
-                   r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : "", r.steps, r.meshes,
-                   1e6 * r.mesh_s, 1e6 * r.integration_s, short_number(r.error.sensor),
+    add_words(
+        mark + r.setting.text() + (r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : ""), 0,
+        out);
+    fmt::format_to(out, "{:>7} {:>6.0f} {:>8.2f} {:>10.1f} {:>7} {:>7} {:>7}  {}\n", r.steps,
+                   r.meshes, 1e6 * r.mesh_s, 1e6 * r.integration_s, short_number(r.error.sensor),
                    short_number(r.error.te), short_number(r.error.largest_feature()),
                    worst_feature(report, r.error));
 }
@@ -118,8 +119,8 @@ void add_stability(const StabilityMap& map, Text out) {
         }
     }
     fmt::format_to(out, "\n");
-    add_words(fmt::format("above {:.0f} explicit integrators are refused; {} are stable with any "
-                          "steps",
+    add_words(fmt::format("without mass scaling; above {:.0f} explicit integrators are refused; {} "
+                          "are stable with any steps",
                           lockstep::kMostExplicitSteps, fmt::join(map.implicit, ", ")),
               0, out);
 }

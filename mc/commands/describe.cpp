@@ -135,15 +135,23 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                                                          lockstep::name(plan.integrator)));
     }
     if (const lockstep::ModeInertia& inertia = plan.mode_inertia; inertia.modes > 0) {
-        print_entry("selective mass scaling",
-                    fmt::format("{} natural modes of up to {:.0f} Hz have so much more inertia that "
-                                "they lie at {:g} Hz",
-                                inertia.modes, inertia.fastest_rad_s / (2.0 * std::numbers::pi),
-                                study.numerics.mass_scaling_Hz));
+        print_entry(
+            "selective mass scaling",
+            fmt::format("{} natural modes of up to {:.0f} Hz have so much more inertia that "
+                        "they lie at {:g} Hz",
+                        inertia.modes, inertia.fastest_rad_s / (2.0 * std::numbers::pi),
+                        study.numerics.mass_scaling_Hz));
     }
     print_effect_costs(study);
     if (choice) {
         print_entry("chosen for the tolerance", choice->text());
+    }
+    if (const int pairs = study.numerics.paired_gearboxes; pairs > 0) {
+        print_entry(
+            "computed twice",
+            fmt::format("up to {} healthy and {} faulty gearboxes after the run, to correct "
+                        "for the error of the steps",
+                        pairs, pairs));
     }
     if (scene.calibration()) {
         print_steps(scene);

@@ -207,7 +207,8 @@ double mesh_period_s(const Scene& scene) {
 
 double explicit_step_s(const Scene& scene) {
     constexpr int kSteps = 2000, kRepetitions = 20;
-    const lockstep::IntegrationPlan plan = explicit_plan(scene, kSteps);
+    const lockstep::IntegrationPlan plan =
+        lockstep::in_double_precision(explicit_plan(scene, kSteps));
     return least_mesh_s<lockstep::kPilotLanes>(scene, plan, false, kRepetitions) /
            static_cast<double>(plan.grid.steps.size()) / lockstep::kPilotLanes;
 }

@@ -144,6 +144,10 @@ std::vector<SceneError> superposition_problems(const Scene& scene) {
                "gravity, tones, bearings or stages that differ between records",
                "remove them");
     }
+    if (study.numerics.paired_gearboxes > 0) {
+        reject("numerics.paired_gearboxes",
+               "has no effect on lives: only `run` corrects its results", "remove it");
+    }
     if (!study.sensor.additional.empty()) {
         reject("sensor.additional", "lives have the first sensor only", "remove them");
     }

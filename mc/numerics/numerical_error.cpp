@@ -10,6 +10,7 @@
 #include "analysis/detection/size_groups.hpp"
 #include "mc/ensemble/batch_worker.hpp"
 #include "mc/ensemble/rows_of_gearboxes.hpp"
+#include "mc/numerics/pilot.hpp"
 #include "mc/numerics/solver_setting.hpp"
 
 namespace gearpod::mc {
@@ -21,9 +22,6 @@ constexpr double kConverged = 1e-10;
 
 SolverSetting setting_of(const Scene& scene) {
     SolverSetting setting = own_setting(scene.study());
-    if (setting.numerics.mass_scaling_Hz > 0.0) {
-        setting.options.emplace_back("mass_scaling_Hz");
-    }
     if (setting.numerics.steps_per_mesh == 0) {
         setting.numerics.steps_per_mesh = static_cast<int>(scene.plan().grid.steps.size());
     }
@@ -45,15 +43,30 @@ SolverSetting finer_than(const Scene& scene, const SolverSetting& setting, int f
     return finer;
 }
 
-constexpr std::int64_t kVerified = 8;  // gearboxes, unless the study has numerics.paired_gearboxes
+constexpr int kVerified = 8;  // gearboxes, unless the study has numerics.paired_gearboxes
 
-// Gearboxes of a group with that many members, spread evenly over it.
-std::vector<GearboxId> spread_gearboxes(Group group, std::int64_t members, std::int64_t count) {
-    const std::int64_t stride =
-        std::max<std::int64_t>(1, members / std::max<std::int64_t>(1, count));
+// At most `count` of the gearboxes, spread evenly over them.
+std::vector<GearboxId> spread(const std::vector<GearboxId>& all, std::size_t count) {
+    const std::size_t stride =
+        std::max<std::size_t>(1, all.size() / std::max<std::size_t>(1, count));
+    std::vector<GearboxId> ids;
+    for (std::size_t i = stride / 2; i < all.size() && ids.size() < count; i += stride) {
+        ids.push_back(all[i]);
+    }
+    return ids;
+}
+
+// Gearboxes of a group; of the graded ones only those with a fault, if any has one.
+std::vector<GearboxId> members(const Scene& scene, Group group) {
+    const Ensemble& ensemble = scene.study().ensemble;
+    const std::int64_t count =
+        group == Group::graded ? ensemble.instances : ensemble.threshold_instances;
     std::vector<GearboxId> ids;
     for (std::int64_t i = 0; i < count; ++i) {
-        ids.push_back({group, static_cast<std::uint64_t>(stride / 2 + i * stride)});
+        const GearboxId id{group, static_cast<std::uint64_t>(i)};
+        if (group == Group::threshold || scene.sampler().draw(id).inputs.fault_size > 0.0) {
+            ids.push_back(id);
+        }
     }
     return ids;
 }
@@ -76,13 +89,13 @@ Values values_of(const Scene& scene, const BatchRows& rows) {
     return values;
 }
 
-// Adds the differences of the first `faulty` gearboxes in one value. Infinite if a gearbox has it
+// Adds the differences of the first `graded` gearboxes in one value. Infinite if a gearbox has it
 // with fine steps only.
-void add_differences(const Values& own, const Values& fine, std::size_t faulty, std::size_t at,
+void add_differences(const Values& own, const Values& fine, std::size_t graded, std::size_t at,
                      NumericalError& error) {
     double squares = 0.0, largest = 0.0;
     std::size_t compared = 0;
-    for (std::size_t g = 0; g < faulty; ++g) {
+    for (std::size_t g = 0; g < graded; ++g) {
         const double here = own.features[g][at], there = fine.features[g][at];
         if (std::isfinite(there)) {
             const double difference = std::isfinite(here) ? std::abs(here - there) : INFINITY;
@@ -202,9 +215,10 @@ FinerScene with_finer_steps(const Scene& scene) {
         return finer;
     }
     if (study.numerics.mass_scaling_Hz > 0.0) {
-        finer.setting = own_setting(study);
-        finer.setting.numerics.mass_scaling_Hz = 0.0;
-        finer.setting.numerics.steps_per_mesh = 0;
+        Study own_rule = study;
+        own_rule.numerics.mass_scaling_Hz = 0.0;
+        own_rule.numerics.steps_per_mesh = 0;
+        finer.setting = own_setting(own_rule);
         finer.scene.emplace(scene.with(with_setting(study, finer.setting).numerics));
         finer.setting = setting_of(*finer.scene);
         return finer;
@@ -226,26 +240,34 @@ std::optional<NumericalError> find_numerical_error(const Scene& scene) {
     if (!finer.scene) {
         return std::nullopt;
     }
-    const Ensemble& ensemble = scene.study().ensemble;
-    const std::int64_t pairs = scene.study().numerics.paired_gearboxes;
-    std::vector<GearboxId> ids =
-        spread_gearboxes(Group::graded, ensemble.instances, pairs > 0 ? pairs : kVerified);
+    const auto pairs = static_cast<std::size_t>(scene.study().numerics.paired_gearboxes);
+    std::vector<GearboxId> ids, healthy;
+    if (pairs > 0) {
+        ids = spread(members(scene, Group::graded), pairs);
+        healthy = spread(members(scene, Group::threshold), pairs);
+    }
     const std::size_t faulty = ids.size();
-    const std::vector<GearboxId> healthy =
-        spread_gearboxes(Group::threshold, ensemble.threshold_instances, pairs);
+    if (ids.empty()) {  // no pairs, or no gearbox with a fault
+        const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
+            1, scene.study().ensemble.instances / static_cast<std::int64_t>(kVerified)));
+        ids = pilot_gearboxes(stride / 2, stride);
+    }
+    const std::size_t graded = ids.size();
     ids.insert(ids.end(), healthy.begin(), healthy.end());
     const BatchRows own_rows = rows_of_gearboxes(scene, ids),
                     fine_rows = rows_of_gearboxes(*finer.scene, ids);
     const Values own = values_of(scene, own_rows), fine = values_of(scene, fine_rows);
     NumericalError error{
-        setting_of(scene).text(), finer.setting.text(), static_cast<int>(faulty), {}, {}};
+        setting_of(scene).text(), finer.setting.text(), static_cast<int>(graded), {}, {}};
+    error.healthy_pairs = static_cast<int>(healthy.size());
+    error.faulty_pairs = static_cast<int>(faulty);
     for (std::size_t at = 0; at < own.count; ++at) {
-        add_differences(own, fine, faulty, at, error);
+        add_differences(own, fine, graded, at, error);
         PairedValues values;
         for (std::size_t g = 0; g < ids.size(); ++g) {
             values.own.push_back(own.features[g][at]);
             values.fine.push_back(fine.features[g][at]);
-            values.size.push_back(g < faulty ? own.size[g] : 0.0);
+            values.size.push_back(g < graded ? own.size[g] : 0.0);
         }
         if (pairs > 0) {
             error.corrections.push_back(fit_correction(values));
@@ -281,9 +303,10 @@ std::vector<NumericalContribution> numerical_contributions(
             contribution.corrected = corrected[at];
             contribution.correction = frame.numerical->corrections[at];
         }
-        contribution.numerical_dominates = std::isfinite(contribution.pd)
-                                               ? contribution.pd > contribution.pd_half_width
-                                               : !(contribution.rms < contribution.spread);
+        contribution.numerical_dominates =
+            std::isfinite(contribution.pd)
+                ? contribution.pd > contribution.pd_half_width
+                : std::isfinite(contribution.spread) && !(contribution.rms < contribution.spread);
         contributions.push_back(contribution);
     }
     return contributions;

@@ -11,7 +11,6 @@ namespace gearpod::mc {
 namespace {
 
 constexpr double kNoFit = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFewestPairs = 8;       // pairs of a group
 constexpr double kNormalQuantile = 1.959964;  // of 0.975
 
 double mean(const std::vector<double>& values) {
@@ -136,7 +135,8 @@ PairedCorrection fit_correction(const PairedValues& pairs) {
             healthy_fine.push_back(pairs.fine[i]);
         }
     }
-    if (healthy.size() < kFewestPairs || graded.size() < kFewestPairs) {
+    constexpr std::size_t kFewest = kFewestPairs;
+    if (healthy.size() < kFewest || graded.size() < kFewest) {
         return no_correction();
     }
     // The part that grows with the size, apart from what grows with the value.
@@ -185,6 +185,8 @@ std::vector<CorrectedDetection> corrected_detection(const Results& frame, const 
                 continue;
             }
             CorrectedDetection one;
+            one.pd_change =
+                std::isfinite(frame.detection[f].levels[level].threshold) ? 0.0 : kNoFit;
             for (std::size_t c = 0; c < own.size(); ++c) {
                 one.pd_change = std::max(one.pd_change, std::abs(corrected[c].pd - own[c].pd));
             }

@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::uint64_t kHealthyPilots = 16;
 constexpr int kMostTries = 6;  // of a limit of the mass scaling
-// Half of the errors of normally distributed errors lie within this share of their root mean
-// square.
+// Half of normally distributed errors lie within this share of their root mean square.
 constexpr double kHalf = 0.6745;
 
 void check_free(const Study& study) {
@@ -168,7 +167,7 @@ std::optional<Numerics> scaled_numerics(const Scene& own, int steps) {
     Numerics numerics = own.study().numerics;
     numerics.steps_per_mesh = 0;
     double limit_Hz = fastest_mode_Hz(own);
-    for (int i = 0; i < kMostTries; ++i) {
+    for (int i = 0; i < kMostTries && limit_Hz > own.study().sensor.low_pass_Hz + 1.0; ++i) {
         numerics.mass_scaling_Hz = limit_Hz;
         const double needed = 1.0 / own.with(numerics).longest_step();
         if (needed <= steps) {
@@ -183,7 +182,14 @@ std::optional<Numerics> scaled_numerics(const Scene& own, int steps) {
 
 NumericsChoice choose_by_scatter(const Study& study) {
     check_free(study);
-    return ScatterChoice(study).run();
+    try {
+        return ScatterChoice(study).run();
+    } catch (const SceneError& error) {
+        if (error.key() == "numerics.mass_scaling_Hz" && study.numerics.mass_scaling_Hz == 0.0) {
+            throw SceneError("numerics.scatter_tolerance", error.what(), error.remedy());
+        }
+        throw;
+    }
 }
 
 }  // namespace gearpod::mc

@@ -57,6 +57,9 @@ std::string SolverSetting::text() const {
 SolverSetting own_setting(const Study& study) {
     SolverSetting setting{study.numerics};
     setting.numerics.tolerance = 0.0;
+    if (study.numerics.mass_scaling_Hz > 0.0) {
+        setting.options.emplace_back("mass_scaling_Hz");
+    }
     return setting;
 }
 

@@ -40,6 +40,8 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
     Json json{{"rung", frame.numerical->setting},
               {"finer", frame.numerical->finer},
               {"gearboxes", frame.numerical->gearboxes},
+              {"healthy_pairs", frame.numerical->healthy_pairs},
+              {"faulty_pairs", frame.numerical->faulty_pairs},
               {"shares", Json::array()}};
     for (const NumericalContribution& s : contributions) {
         json["shares"].push_back({{"feature", s.feature},

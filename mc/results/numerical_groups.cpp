@@ -13,6 +13,10 @@ void write_numerical(hid_t root, const NumericalError& error, const Results& fra
     write_text(group.get(), ".", "rung", error.setting);
     write_text(group.get(), ".", "finer", error.finer);
     write_number(group.get(), ".", "gearboxes", error.gearboxes);
+    if (!error.corrections.empty()) {
+        write_number(group.get(), ".", "healthy_pairs", error.healthy_pairs);
+        write_number(group.get(), ".", "faulty_pairs", error.faulty_pairs);
+    }
     const std::size_t levels = frame.noise_levels.size();
     for (std::size_t f = 0; f < frame.features.size(); ++f) {
         const Hdf5Handle feature = create_group(group.get(), frame.features[f].name);
@@ -63,9 +67,14 @@ NumericalError read_numerical(hid_t root, std::size_t most, const Results& resul
             std::ranges::copy(own, std::back_inserter(error.corrections));
         }
     }
-    if (!error.corrections.empty() && error.corrections.size() != error.rms.size()) {
+    if (error.corrections.empty()) {
+        return error;
+    }
+    if (error.corrections.size() != error.rms.size()) {
         throw Hdf5Error(kPairedCorrectionNumbers[0].name);
     }
+    error.healthy_pairs = static_cast<int>(read_number(group.get(), ".", "healthy_pairs"));
+    error.faulty_pairs = static_cast<int>(read_number(group.get(), ".", "faulty_pairs"));
     return error;
 }
 

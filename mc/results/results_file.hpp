@@ -20,7 +20,7 @@
 //   /numerical/<feature>/  after verification: rms, largest (levels), the changes of the feature in
 //                          some gearboxes with finer steps; after numerics.paired_gearboxes also
 //                          PairedCorrection (levels); attributes of /numerical: rung, finer,
-//                          gearboxes
+//                          gearboxes, healthy_pairs, faulty_pairs
 //   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)
 //   /timing/<name>         seconds, or a count (attribute `unit`)
@@ -150,10 +150,12 @@ inline constexpr PairedCorrectionNumber kPairedCorrectionNumbers[] = {
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
     std::string setting, finer;  // solver settings of both integrations
-    int gearboxes = 0;           // faulty ones, and as many healthy ones for the corrections
-    // [feature * noise levels + level], in the feature's unit, of the faulty ones.
+    int gearboxes = 0;           // graded ones, of which `rms` and `largest` are
+    // [feature * noise levels + level], in the feature's unit.
     std::vector<double> rms, largest;
-    std::vector<PairedCorrection> corrections = {};  // the same shape; empty without healthy ones
+    // After numerics.paired_gearboxes: number of healthy and of faulty ones; the same shape.
+    int healthy_pairs = 0, faulty_pairs = 0;
+    std::vector<PairedCorrection> corrections = {};
 };
 
 // Error due to the time step in signals of gearboxes whose teeth lose contact, estimated with finer

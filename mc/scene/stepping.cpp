@@ -119,7 +119,11 @@ class StepNeeds {
     }
     double needed_steps(const dynamics::GearboxInputs& gearbox,
                         lockstep::Integrator integrator) const {
-        return period(gearbox) / lockstep::longest_stable_step(system(gearbox), integrator);
+        const dynamics::GearboxMatrices matrices =
+            lockstep::facts(integrator).scales_mass
+                ? system(gearbox)
+                : dynamics::assemble(layout_, gearbox, stiffest_);
+        return period(gearbox) / lockstep::longest_stable_step(matrices, integrator);
     }
     double stable_steps(lockstep::Integrator integrator) const {
         double steps = 0.0;

@@ -20,6 +20,9 @@ constexpr int full_lanes(Precision precision) {
     return precision == Precision::single_precision ? 16 : 8;
 }
 
+// Fewest healthy and faulty gearboxes from which the error of the steps is fitted.
+inline constexpr int kFewestPairs = 8;
+
 struct Numerics {
     std::optional<lockstep::Integrator> integrator;  // empty: chosen by the program
     Precision precision = Precision::double_precision;

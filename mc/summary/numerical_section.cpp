@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -105,15 +106,26 @@ analysis::Section numerical_section(const Results& frame,
                 : fmt::format("The numerical error is larger than the statistical error for {}.",
                               analysis::joined(dominated))));
     section.add(error_table(frame, contributions));
-    if (!frame.numerical->corrections.empty()) {
-        section.state("numerical.correction",
-                      fmt::format("{} healthy and {} faulty gearboxes with and without these finer "
-                                  "steps give the error of all: its mean in healthy and in faulty "
-                                  "gearboxes, and detection after the fitted difference is added "
-                                  "to every gearbox. The interval is that of the correction alone.",
-                                  frame.numerical->gearboxes, frame.numerical->gearboxes));
-        section.add(correction_table(frame, contributions));
+    const NumericalError& error = *frame.numerical;
+    if (error.corrections.empty()) {
+        return section;
     }
+    const std::string pairs =
+        fmt::format("{} healthy and {} faulty gearboxes", error.healthy_pairs, error.faulty_pairs);
+    if (std::min(error.healthy_pairs, error.faulty_pairs) < kFewestPairs) {
+        section.state("numerical.correction",
+                      fmt::format("{} were computed with and without these finer steps, too few to "
+                                  "correct the others: at least {} of each are needed.",
+                                  pairs, kFewestPairs));
+        return section;
+    }
+    section.state("numerical.correction",
+                  pairs +
+                      " with and without these finer steps give the error of all: its mean in "
+                      "healthy and in faulty gearboxes, and detection after the fitted "
+                      "difference is added to every gearbox. The interval is that of the "
+                      "correction alone.");
+    section.add(correction_table(frame, contributions));
     return section;
 }
 

@@ -53,6 +53,30 @@ void check_mass_scaling(StudyDraft& draft) {
     }
 }
 
+// Modes in the band would no longer be measured where they are.
+void check_scaled_band(StudyDraft& draft) {
+    const double limit_Hz = draft.study.numerics.mass_scaling_Hz,
+                 low_pass_Hz = draft.study.sensor.low_pass_Hz;
+    if (limit_Hz > 0.0 && limit_Hz < low_pass_Hz &&
+        draft.all_usable({"numerics.mass_scaling_Hz", "sensor.low_pass_Hz"})) {
+        draft.reject(
+            "numerics.mass_scaling_Hz",
+            fmt::format("{:g} Hz lie in the sensor's band of {:g} Hz, whose vibration would "
+                        "change",
+                        limit_Hz, low_pass_Hz),
+            "use a limit above sensor.low_pass_Hz");
+    }
+}
+
+void check_pairs(StudyDraft& draft) {
+    const int pairs = draft.study.numerics.paired_gearboxes;
+    if (pairs > 0 && pairs < kFewestPairs && draft.all_usable({"numerics.paired_gearboxes"})) {
+        draft.reject("numerics.paired_gearboxes",
+                     fmt::format("{} are too few for a correction", pairs),
+                     fmt::format("use at least {}", kFewestPairs));
+    }
+}
+
 // The candidates of a tolerance are compared with steps that have the same inertia.
 void check_tolerances(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
@@ -67,7 +91,7 @@ void check_superposition(StudyDraft& draft) {
     const std::string why = reason_not_superposed(draft.study);
     if (draft.study.numerics.horizon == Horizon::superposed && !why.empty() &&
         draft.all_usable({"numerics.horizon", "effects.gravity", "effects.motion"})) {
-        draft.reject("numerics.horizon", fmt::format("is \"superpose\", but {}", why),
+        draft.reject("numerics.horizon", fmt::format("is \"superposed\", but {}", why),
                      "leave the key out");
     }
 }
@@ -77,7 +101,7 @@ void check_horizon(StudyDraft& draft) {
     const std::string why = reason_not_periodic(draft.study);
     if (draft.study.numerics.horizon == Horizon::periodic && !why.empty() &&
         draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {
-        draft.reject("numerics.horizon", fmt::format("is \"reuse\", but {}", why),
+        draft.reject("numerics.horizon", fmt::format("is \"periodic\", but {}", why),
                      "use horizon = \"full\", or leave the key out");
     }
 }
@@ -101,6 +125,8 @@ void check_numerics(StudyDraft& draft) {
     check_lanes(draft);
     check_precision(draft);
     check_mass_scaling(draft);
+    check_scaled_band(draft);
+    check_pairs(draft);
     check_tolerances(draft);
     check_horizon(draft);
 }

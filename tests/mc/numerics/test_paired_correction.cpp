@@ -112,8 +112,8 @@ TEST_CASE("a90 with the correction agrees with that of fine steps within its sta
         const Population population(seed, 800, 0.05);
         const double fine = a90_of(population.results(population.all.fine));
         Results own = population.results(population.all.own);
-        own.numerical =
-            NumericalError{"own", "fine", 80, {0.0}, {0.0}, {fit_correction(population.pairs(10))}};
+        own.numerical = NumericalError{"own", "fine", 80, {0.0},
+                                       {0.0}, 80,     80, {fit_correction(population.pairs(10))}};
         const CorrectedDetection corrected = corrected_detection(own, ColumnRows(own)).at(0);
         // The fitted curves differ by more than the interval where single gearboxes change sides.
         const double resolution = 0.01 * fine;

@@ -6,6 +6,7 @@
 
 #include "mc/ensemble/batch_worker.hpp"
 #include "mc/ensemble/rows_of_gearboxes.hpp"
+#include "mc/numerics/choice.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/scatter_choice.hpp"
 #include "tests/mc/study_file.hpp"
@@ -99,6 +100,36 @@ TEST_CASE("Features with mass scaling have the same bits for any lanes") {
     }
 }
 
+TEST_CASE("Pairs of a run with mass scaling are healthy and faulty gearboxes in equal numbers") {
+    Study study = test::shipped_study(
+        "planet-crack-ideal.toml",
+        {"numerics.integrator=central-difference", "numerics.mass_scaling_Hz=3000",
+         "numerics.paired_gearboxes=10", "sensor.noise_levels=[1]"});
+    study.ensemble.threshold_instances = 40;
+    study.ensemble.instances = 28;
+    const Scene scene(study);
+    const auto found = find_numerical_error(scene);
+    REQUIRE(found);
+    CHECK(found->healthy_pairs == 10);
+    CHECK(found->faulty_pairs == 10);
+    CHECK(found->gearboxes == 10);
+    REQUIRE(found->corrections.size() == study.features.use.size());
+    for (const PairedCorrection& correction : found->corrections) {
+        CHECK(std::isfinite(correction.by_size));
+        CHECK(correction.scatter_ratio == Approx(1.0).epsilon(0.2));
+    }
+    // The fine steps are those of the integrator's own rule, without scaling.
+    CHECK(found->finer.find("mass_scaling_Hz") == std::string::npos);
+    CHECK(found->setting.find("mass_scaling_Hz=3000") != std::string::npos);
+
+    study.ensemble.instances = 1;
+    study.ensemble.threshold_instances = 1;
+    const auto few = find_numerical_error(Scene(study));
+    REQUIRE(few);
+    CHECK(few->healthy_pairs <= 1);
+    CHECK(few->faulty_pairs <= 1);
+}
+
 TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
     const auto refusal = [](const std::vector<std::string>& more) {
         const StudyReading reading = read_study(test::study_path("fleet-alarms.toml"), more);
@@ -124,6 +155,15 @@ TEST_CASE("Mass scaling and its choice are refused where they cannot work") {
                Catch::Contains("is chosen by numerics.scatter_tolerance"));
     CHECK_THAT(refusal({method, "numerics.scatter_tolerance=0.2", "numerics.steps_per_mesh=9000"}),
                Catch::Contains("is chosen by numerics.scatter_tolerance"));
+    CHECK_THAT(refusal({method, "numerics.mass_scaling_Hz=500"}),
+               Catch::Contains("lie in the sensor's band of 800 Hz"));
+    CHECK_THAT(refusal({method, "numerics.mass_scaling_Hz=3000", "numerics.tolerance=0.01"}),
+               Catch::Contains("does not see the error of numerics.mass_scaling_Hz"));
+    CHECK_THAT(refusal({"numerics.paired_gearboxes=7"}), Catch::Contains("too few"));
+    CHECK_THAT(
+        refusal({"numerics.scatter_tolerance=0.2",
+                 "random.gearbox.planet_mass_kg={distribution=\"uniform\",low=0.6,high=0.8}"}),
+        Catch::Contains("numerics.scatter_tolerance: needs the same masses"));
     CHECK_THAT(refusal({"numerics.scatter_tolerance=0.2", "numerics.tolerance=0.01"}),
                Catch::Contains("chooses the steps, too"));
 }

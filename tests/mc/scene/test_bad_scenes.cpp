@@ -165,7 +165,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "sun_planet_error_um = [10, 2]", "sun_planet_error_um = [10, -2]",
      "gearbox.sun_planet_error_um", "must be >= 0, but is -2"},
     {kSpatialCrackStudy, "horizon = \"full\"", "horizon = \"periodic\"", "numerics.horizon",
-     "is \"reuse\", but every tooth has individual errors"},
+     "is \"periodic\", but every tooth has individual errors"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "tooth_quality = 13", "gearbox.tooth_quality",
      "must be between 0 and 12"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "gear_quality = 6", "gearbox.gear_quality",
