@@ -56,7 +56,7 @@ std::vector<GearboxId> spread(const std::vector<GearboxId>& all, std::size_t cou
     return ids;
 }
 
-// Gearboxes of a group; of the graded ones only those with a fault, if any has one.
+// Gearboxes of a group; of the graded ones only those with a fault.
 std::vector<GearboxId> members(const Scene& scene, Group group) {
     const Ensemble& ensemble = scene.study().ensemble;
     const std::int64_t count =

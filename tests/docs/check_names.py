@@ -16,7 +16,7 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 UNITS = ("mm", "um", "deg", "arcsec", "Hz", "rpm", "kg", "kg_m2", "N_m", "N_s_m", "m_s2", "Pa", "h")
 WITH_UNIT = re.compile(r"[a-z]\w*_(?:" + "|".join(UNITS) + ")")
 FILES = (".toml", ".csv", ".json", ".py", ".md", ".h5", ".html")
-OTHER_NAMES = {"speed_rpm", "sensor_m_s2"}  # a column of signal files, a member of the report's JSON
+OTHER_NAMES = {"speed_rpm", "sensor_m_s2", "mesh_Hz"}  # a column of signal files, members of the report's JSON
 OWN_OPTIONS = {"--help", "--version", "--man", "--completion", "--reference"}
 
 
