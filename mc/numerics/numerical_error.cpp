@@ -189,18 +189,6 @@ void set_size_contribution(const analysis::HitMissPod& pod, NumericalContributio
 
 }  // namespace
 
-double standard_deviation(const std::vector<double>& values) {
-    double sum = 0.0, squares = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    const double n = static_cast<double>(values.size());
-    for (const double value : values) {
-        squares += (value - sum / n) * (value - sum / n);
-    }
-    return n > 1.0 ? std::sqrt(squares / (n - 1.0)) : kNaN;
-}
-
 FinerScene finer_scene(const Scene& scene) {
     const Numerics& numerics = scene.study().numerics;
     const bool verifies = numerics.tolerance > 0.0 || numerics.scatter_tolerance > 0.0 ||

@@ -32,9 +32,6 @@ FinerScene finer_scene(const Scene& scene);
 // Empty if there is no finer scene.
 std::optional<NumericalError> find_numerical_error(const Scene& scene);
 
-// Standard deviation of a sample; NaN for fewer than two values.
-double standard_deviation(const std::vector<double>& values);
-
 // Numerical and statistical uncertainty of one feature at one noise level.
 struct NumericalContribution {
     std::string feature;

@@ -21,15 +21,6 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-double deviation(const std::vector<double>& values) {
-    const double middle = mean(values);
-    double squares = 0.0;
-    for (const double value : values) {
-        squares += (value - middle) * (value - middle);
-    }
-    return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
 // Slope of y over x, and the residuals of y; 0 where x does not vary.
 struct Regression {
     double slope = 0.0;
@@ -58,11 +49,7 @@ PairedCorrection no_correction() {
 class CorrectedRows final : public RowSource {
   public:
     CorrectedRows(const RowSource& rows, const Results& frame, double deviations)
-        : rows_(rows), frame_(frame), deviations_(deviations) {
-        for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
-            size_at_ = frame.parameters[p].name == frame.request.size.name ? p : size_at_;
-        }
-    }
+        : rows_(rows), frame_(frame), deviations_(deviations) {}
 
     std::size_t rows() const override { return rows_.rows(); }
     void visit(const std::function<void(const RowBlock&)>& use) const override {
@@ -73,7 +60,7 @@ class CorrectedRows final : public RowSource {
             for (std::size_t row = 0; row < block.count(); ++row) {
                 double* const values = corrected.values.data() + row * shape.values();
                 const bool graded = block.group[row] == static_cast<int>(Group::graded);
-                const double size = graded ? values[size_at_] : 0.0;
+                const double size = graded ? values[shape.fault_size()] : 0.0;
                 for (std::size_t at = 0; at < all.size(); ++at) {
                     if (!std::isfinite(all[at].by_size)) {
                         continue;  // too few pairs
@@ -91,7 +78,6 @@ class CorrectedRows final : public RowSource {
     const RowSource& rows_;
     const Results& frame_;
     const double deviations_;
-    std::size_t size_at_ = 0;
 };
 
 struct CorrectedResults {
@@ -118,6 +104,15 @@ CorrectedResults results_with(const Results& frame, const RowSource& rows, doubl
 }
 
 }  // namespace
+
+double standard_deviation(const std::vector<double>& values) {
+    const double middle = mean(values);
+    double squares = 0.0;
+    for (const double value : values) {
+        squares += (value - middle) * (value - middle);
+    }
+    return values.size() > 1 ? std::sqrt(squares / static_cast<double>(values.size() - 1)) : kNoFit;
+}
 
 PairedCorrection fit_correction(const PairedValues& pairs) {
     std::vector<double> own, size, difference, healthy_own, healthy_fine, healthy, graded;
@@ -154,7 +149,7 @@ PairedCorrection fit_correction(const PairedValues& pairs) {
     }
     const double by_value = regress(rest, own).slope;
     const auto standard_error = [](const std::vector<double>& values) {
-        return deviation(values) / std::sqrt(static_cast<double>(values.size()));
+        return standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
     };
     return {mean(rest) - by_value * mean(own),
             by_value,
@@ -164,7 +159,7 @@ PairedCorrection fit_correction(const PairedValues& pairs) {
             standard_error(healthy),
             mean(graded),
             standard_error(graded),
-            deviation(healthy_own) / deviation(healthy_fine)};
+            standard_deviation(healthy_own) / standard_deviation(healthy_fine)};
 }
 
 std::vector<CorrectedDetection> corrected_detection(const Results& frame, const RowSource& rows) {

@@ -14,6 +14,9 @@
 
 namespace gearpod::mc {
 
+// Standard deviation of a sample; NaN for fewer than two values.
+double standard_deviation(const std::vector<double>& values);
+
 // Values of one feature of gearboxes computed twice, with their fault sizes (0: healthy).
 struct PairedValues {
     std::vector<double> own, fine, size;

@@ -234,7 +234,7 @@ class Examples {
                 {"tooth_rms", {{"clean", clean_rms}, {"noisy", noisy_rms}}}};
     }
 
-    // Of the sensor without noise, from the first mesh periods of the gearbox's record.
+    // Spectrogram of the sensor without noise, from the first mesh periods of the gearbox's record.
     Json spectrogram(const GearboxId& id) const {
         const long meshes =
             std::min(scene_.span_meshes(), kSpectrogramSlices + kSpectrogramWindow - 1);

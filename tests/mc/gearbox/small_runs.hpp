@@ -51,6 +51,16 @@ inline Columns columns_of(const std::string& path) {
     return columns;
 }
 
+// Signals of gearbox 2 of the study over the 455 mesh periods that repeat.
+inline Columns signals_of_small(const Folder& folder, const std::string& options) {
+    const std::string path = folder.file("s.csv");
+    const auto outcome =
+        program("simulate " + kSmall + " --instance 2 --meshes 455 --out " + path + options);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return columns_of(path);
+}
+
 // Value of a feature in printed output; 0 if it is not there.
 inline double printed_value(const Outcome& outcome, const std::string& name) {
     std::istringstream lines(outcome.output);

@@ -34,16 +34,6 @@ std::string side(const std::string& fields) {
 const std::string kChain =
     "low_pass_Hz=50, mounting_Hz=70, mounting_damping=0.05, delay_s=0.004, quantisation_m_s2=0.01";
 
-// Signals of the small study over the 455 mesh periods that repeat.
-test::Columns simulate(const Folder& folder, const std::string& options) {
-    const std::string path = folder.file("s.csv");
-    const auto outcome =
-        program("simulate " + kSmall + " --instance 2 --meshes 455 --out " + path + options);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return test::columns_of(path);
-}
-
 Complex component(const std::vector<double>& signal, std::size_t harmonic) {
     Complex sum = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -109,23 +99,24 @@ const std::string kSilent =
 
 TEST_CASE("A measuring chain changes the spectrum of the gearbox by its response") {
     const Folder folder;
-    check_spectra(simulate(folder, side(kChain)));
+    check_spectra(test::signals_of_small(folder, side(kChain)));
 }
 
 TEST_CASE("Faulty bearings pass the measuring chain, but not the housing") {
     const Folder folder;
-    check_spectra(
-        simulate(folder, kSilent + side(kChain) +
-                             "--set 'sensor.bearings=[{fault=\"inner\", shaft=\"sun\", elements=9, "
-                             "diameter_ratio=0.2, amplitude_m_s2=0.05, resonance_Hz=90}]'"));
+    check_spectra(test::signals_of_small(
+        folder, kSilent + side(kChain) +
+                    "--set 'sensor.bearings=[{fault=\"inner\", shaft=\"sun\", elements=9, "
+                    "diameter_ratio=0.2, amplitude_m_s2=0.05, resonance_Hz=90}]'"));
 }
 
 TEST_CASE("A tone has the amplitude and phase of its own frequency after the measuring chain") {
     const Folder folder;
     constexpr double kTone_Hz = 61.3;
-    const auto columns = simulate(folder, kSilent + side(kChain) +
-                                              "--set 'sensor.tones=[{frequency_Hz=61.3, "
-                                              "amplitude_m_s2=0.7}]'");
+    const auto columns =
+        test::signals_of_small(folder, kSilent + side(kChain) +
+                                           "--set 'sensor.tones=[{frequency_Hz=61.3, "
+                                           "amplitude_m_s2=0.7}]'");
     const std::vector<double>&first = columns.at("sensor"), &own = columns.at("sensor_side"),
           &time = columns.at("time");
     // Amplitude of the first sensor's tone from two samples; the others follow from both.
@@ -142,9 +133,10 @@ TEST_CASE("A tone has the amplitude and phase of its own frequency after the mea
 
 TEST_CASE("A delay of whole samples shifts the samples") {
     const Folder folder;
-    const double sample_s = simulate(folder, "").at("time")[1];
+    const double sample_s = test::signals_of_small(folder, "").at("time")[1];
     constexpr std::size_t kShift = 5;
-    const auto columns = simulate(folder, side("delay_s=" + fmt::format("{}", kShift * sample_s)));
+    const auto columns =
+        test::signals_of_small(folder, side("delay_s=" + fmt::format("{}", kShift * sample_s)));
     const std::vector<double>&first = columns.at("sensor"), &own = columns.at("sensor_side");
     for (std::size_t i = 0; i < first.size(); ++i) {
         REQUIRE(own[(i + kShift) % own.size()] == Approx(first[i]).margin(1e-9));
@@ -155,7 +147,7 @@ TEST_CASE("Noise by density passes the low-pass of each sensor") {
     const Folder folder;
     const std::string density =
         "--set sensor.noise_m_s2=0 --set sensor.noise_density_m_s2_per_sqrt_Hz=0.01";
-    const auto columns = simulate(folder, side("low_pass_Hz=40, noise=3") + density);
+    const auto columns = test::signals_of_small(folder, side("low_pass_Hz=40, noise=3") + density);
     CHECK(noise_rms(columns, "sensor") ==
           Approx(0.01 * std::sqrt(kBandwidth * kLowPass_Hz)).epsilon(0.05));
     CHECK(noise_rms(columns, "sensor_side") ==
@@ -174,10 +166,10 @@ TEST_CASE("Noise by density passes the low-pass of each sensor") {
 
 TEST_CASE("A background passes the low-pass of each sensor") {
     const Folder folder;
-    const auto columns =
-        simulate(folder, side("low_pass_Hz=30") +
-                             "--set sensor.noise_m_s2=0 --set sensor.background_Hz=[10,60] "
-                             "--set sensor.background_density_m_s2_per_sqrt_Hz=[0.05,0.05]");
+    const auto columns = test::signals_of_small(
+        folder, side("low_pass_Hz=30") +
+                    "--set sensor.noise_m_s2=0 --set sensor.background_Hz=[10,60] "
+                    "--set sensor.background_density_m_s2_per_sqrt_Hz=[0.05,0.05]");
     double power = 0.0;  // midpoint rule
     for (double f_Hz = 10.005; f_Hz < 60.0; f_Hz += 0.01) {
         power += 0.01 * 0.05 * 0.05 / (1.0 + std::pow(f_Hz / 30.0, 8.0));
@@ -189,7 +181,7 @@ TEST_CASE("A background passes the low-pass of each sensor") {
 TEST_CASE("White noise stays white, and the converter is that of each sensor") {
     const Folder folder;
     const auto rms = [&](const std::string& fields, const std::string& options) {
-        return noise_rms(simulate(folder, side(fields) + options), "sensor_side");
+        return noise_rms(test::signals_of_small(folder, side(fields) + options), "sensor_side");
     };
     const std::string white = "--set sensor.noise_m_s2=0.1 ",
                       steps = "--set sensor.quantisation_m_s2=0.5 ";

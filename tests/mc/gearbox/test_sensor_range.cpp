@@ -22,15 +22,6 @@ constexpr double kRange = 0.15;  // passed by some of the samples
 const std::string kNoise = " --set sensor.noise_m_s2=0.03 ";
 const std::string kClipped = kNoise + fmt::format("--set sensor.range_m_s2={} ", kRange);
 
-test::Columns simulate(const Folder& folder, const std::string& options) {
-    const std::string path = folder.file("s.csv");
-    const auto outcome =
-        program("simulate " + kSmall + " --instance 2 --meshes 455 --out " + path + options);
-    INFO(outcome.output);
-    REQUIRE(outcome.code == 0);
-    return test::columns_of(path);
-}
-
 const std::vector<double>& values(const std::vector<mc::FeatureResult>& features,
                                   const std::string& name) {
     return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
@@ -42,8 +33,8 @@ TEST_CASE("Exported samples are clipped after the noise was added") {
     const Folder folder;
     const std::string sensor =
         "--set 'sensor.additional=[{name=\"side\", angle_deg=90, range_m_s2=0.1}]'";
-    const auto free = simulate(folder, kNoise + sensor);
-    const auto clipped = simulate(folder, kClipped + sensor);
+    const auto free = test::signals_of_small(folder, kNoise + sensor);
+    const auto clipped = test::signals_of_small(folder, kClipped + sensor);
     const auto check = [&](const std::string& column, double range) {
         INFO(column);
         const std::vector<double>&before = free.at(column), &after = clipped.at(column);
