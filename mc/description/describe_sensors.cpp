@@ -70,6 +70,9 @@ void print_stage(const Scene& scene, std::size_t number) {
 // than a multiple of the first one's.
 std::string chain_text(const Study& study, const AdditionalSensor& sensor) {
     std::string text;
+    if (sensor.sampling_Hz) {
+        text += fmt::format("; sampling rate {:g} Hz", *sensor.sampling_Hz);
+    }
     if (sensor.low_pass_Hz) {
         text += fmt::format("; low-pass {:g} Hz", *sensor.low_pass_Hz);
     }

@@ -105,13 +105,22 @@ std::vector<double> samples_along(const Scene& scene, const SensorPaths& path,
 }
 
 // Tones of a tile as a sensor measures them: they pass its measuring chain, but not the housing.
-signals::Tones tones_at(const Study& study, std::size_t sensor, const signals::Tones& tones) {
+// Those above half its sampling rate have the frequency to which it folds them, of either sign.
+signals::Tones tones_at(const Scene& scene, std::size_t sensor, const signals::Tones& tones) {
     signals::Tones own = tones;
-    const auto chain = measuring_chain(study, sensor);
+    const auto chain = measuring_chain(scene.study(), sensor);
+    const auto samples = static_cast<std::size_t>(scene.signal_meshes()) *
+                         static_cast<std::size_t>(scene.samples_per_mesh());
     for (std::size_t i = 0; chain && i < own.frequency_Hz.size(); ++i) {
         const std::complex<double> factor = chain->at(own.frequency_Hz[i]);
         own.amplitude_m_s2[i] *= std::abs(factor);
         own.phase_rad[i] += std::arg(factor);
+        const double mesh_s = own.mesh_period_s[i % own.mesh_period_s.size()];
+        const std::size_t taken = chain->own_samples(samples, scene.samples_per_mesh() / mesh_s);
+        if (taken < samples) {
+            const double rate_Hz = static_cast<double>(taken) / (scene.signal_meshes() * mesh_s);
+            own.frequency_Hz[i] = std::remainder(own.frequency_Hz[i], rate_Hz);
+        }
     }
     return own;
 }
@@ -123,7 +132,8 @@ void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile
                   std::optional<signals::PeriodicResponse>& response, LaneSignals& own) {
     const Study& study = scene.study();
     const InstanceInputs& inputs = tile.realizations[static_cast<std::size_t>(lane)].inputs;
-    const double factor = inputs.housing_frequency_factor;
+    const double factor = inputs.housing_frequency_factor,
+                 sampling_Hz = 1.0 / sample_s(scene, inputs);
     const auto along = [&](std::size_t part) {
         machine::throw_if_cancelled();
         return samples_along(scene, path, tile, sensor, part, lane, scene.signal_meshes());
@@ -131,20 +141,20 @@ void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile
     if (!response) {
         response.emplace(scene.signal_meshes() * scene.samples_per_mesh());
     }
-    response->add(along(0), 1.0 / sample_s(scene, inputs), housing_response(study, sensor, factor));
+    response->add(along(0), sampling_Hz, housing_response(study, sensor, factor));
     const std::vector<int> ring = ring_modes(study);
     for (std::size_t i = 0; i < ring.size(); ++i) {
         std::vector<double> load = along(1 + 2 * i);
         const std::vector<double> along_y = along(2 + 2 * i);
         std::ranges::transform(load, along_y, load.begin(), std::plus<>());
-        response->add(load, 1.0 / sample_s(scene, inputs),
-                      ring_response(study, sensor, ring[i], factor));
+        response->add(load, sampling_Hz, ring_response(study, sensor, ring[i], factor));
     }
-    own.sensor = response->take();
+    const auto chain = measuring_chain(study, sensor);
+    own.sensor = response->take(chain, sampling_Hz);
     own.sensor.resize(static_cast<std::size_t>(meshes) *
                       static_cast<std::size_t>(scene.samples_per_mesh()));
     if (!tile.tones.empty()) {
-        signals::add_tones(tones_at(study, sensor, tile.tones), lane, scene.samples_per_mesh(),
+        signals::add_tones(tones_at(scene, sensor, tile.tones), lane, scene.samples_per_mesh(),
                            own.sensor);
     }
     fold_again(scene, own);

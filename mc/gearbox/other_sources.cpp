@@ -162,7 +162,7 @@ std::vector<double> passed(const signals::MeasuringChain& chain, const std::vect
         response.emplace(static_cast<int>(samples.size()));
     }
     response->add(samples, 1.0 / sample_s, {.modes = {}, .measured = {}, .chain = chain});
-    return response->take();
+    return response->take(chain, 1.0 / sample_s);
 }
 
 // Adds samples to those of a sensor of a record.

@@ -12,6 +12,7 @@
 #include "mc/study/noise.hpp"
 #include "signals/noise/encoder_noise.hpp"
 #include "signals/noise/normals.hpp"
+#include "signals/path/housing_response.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -39,10 +40,19 @@ signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& 
     return {background_spectrum(scene.study()), inputs.low_pass_Hz, 1.0 / sample_s(scene, inputs)};
 }
 
+namespace {
+
+// True if the noise is drawn sample by sample, because it is not white.
+bool draws_samples(const Scene& scene, const InstanceInputs& inputs) {
+    return noise_by_density(scene.study()) || inputs.own_sampling_Hz > 0.0;
+}
+
+}  // namespace
+
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
                                  std::span<const double> clean, const signals::NoiseVariates& draw,
                                  int turns) {
-    if (noise_by_density(scene.study())) {
+    if (draws_samples(scene, realization.inputs)) {
         const auto normals = [&](StreamPurpose purpose) {
             return Normals::of_noise(scene.study(), realization.id, purpose);
         };
@@ -52,6 +62,16 @@ std::vector<double> sample_noise(const Scene& scene, const Realization& realizat
         std::vector<double> unit(clean.size());
         draw_unit_noise(scene, realization.inputs, NoiseEngines{filtered, white, background},
                         std::span(unit));
+        if (realization.inputs.own_sampling_Hz > 0.0) {
+            signals::PeriodicResponse response(static_cast<int>(unit.size()));
+            const double sampling_Hz = 1.0 / sample_s(scene, realization.inputs);
+            response.add(unit, sampling_Hz, {.modes = {}, .measured = {}});
+            unit = response.take(
+                signals::MeasuringChain{.low_pass = {},
+                                        .mounting = {},
+                                        .sampling_Hz = realization.inputs.own_sampling_Hz},
+                sampling_Hz);
+        }
         return unit;
     }
     // Each gearbox has one stream for sensor noise, one for encoder noise, and this one. It gives
@@ -96,7 +116,8 @@ RealizationSignals::RealizationSignals(const Scene& scene, features::SignalSet n
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
 bool RealizationSignals::keeps_samples() const {
-    return needs_samples_ || noise_by_density(scene_.study()) || has_range(scene_.study());
+    return needs_samples_ || noise_by_density(scene_.study()) || has_range(scene_.study()) ||
+           has_own_rate(scene_.study());
 }
 
 void RealizationSignals::set_turns(int turns) {
@@ -117,8 +138,8 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
                                            const Realization& realization) {
     const GearboxId& id = realization.id;
     const std::size_t bins = gearbox.folded.size();
-    const bool by_density = noise_by_density(scene_.study());
-    if (!by_density) {
+    const bool by_samples = draws_samples(scene_, realization.inputs);
+    if (!by_samples) {
         Normals engine = Normals::of_noise(scene_.study(), id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.noise_sampling != NoiseSampling::plain) {
@@ -126,11 +147,11 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
         }
     }
     noise_.samples.clear();
-    if (!gearbox.sensor.empty() && keeps_samples()) {
+    if (!gearbox.sensor.empty() && (needs_samples_ || by_samples || has_range(scene_.study()))) {
         noise_.samples =
             sample_noise(scene_, realization, gearbox.sensor, noise_.sensor, span_.ring_teeth);
     }
-    if (by_density) {
+    if (by_samples) {
         const std::size_t span = bins * static_cast<std::size_t>(span_.ring_teeth);
         noise_.sensor = signals::noise_variates_of_samples(
             std::span(gearbox.sensor).first(span), std::span(noise_.samples).first(span), bins);

@@ -25,8 +25,8 @@ namespace gearpod::mc {
 // Unit noise for every sample of a gearbox's noise-free sensor signal. The signal begins with
 // `turns` turns of the monitored gear. Within them, the noise folds exactly to `draw`; after them,
 // each sample is independent.
-// Noise given by its spectral density is generated sample by sample throughout, and `draw` follows
-// from it.
+// Noise given by its spectral density, and that of a sensor with a sampling rate of its own, is
+// generated sample by sample throughout, and `draw` follows from it.
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
                                  std::span<const double> clean, const signals::NoiseVariates& draw,
                                  int turns);
@@ -111,7 +111,7 @@ class RealizationSignals {
     // Signals of the loaded gearbox at a noise level; valid until the next call.
     features::FeatureInput at(std::size_t level);
 
-    // True if sensor samples of the records are used, by features, for noise of a given density or
+    // True if sensor samples of the records are used: by features, for noise that is not white, or
     // because they are clipped.
     bool keeps_samples() const;
     const LaneSignals& record() const { return *gearbox_; }  // loaded last

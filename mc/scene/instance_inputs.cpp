@@ -165,6 +165,7 @@ InstanceInputs instance_inputs(const InputValues& values) {
     inputs.white_noise_m_s2 = noise.white_m_s2;
     inputs.background_noise_m_s2 = noise.background_m_s2;
     inputs.low_pass_Hz = study.sensor.low_pass_Hz;
+    inputs.own_sampling_Hz = 0.0;
     inputs.range_m_s2 = study.sensor.range_m_s2.value_or(std::numeric_limits<double>::infinity());
     inputs.encoder_noise_rad = values.of(study.sensor.encoder_noise_rad);
     inputs.fault_size = study.fault.kind == nullptr

@@ -59,6 +59,7 @@ struct InstanceInputs {
     double white_noise_m_s2;       // rms of the part that the low-pass does not filter
     double background_noise_m_s2;  // rms of the part that is the machine's background
     double low_pass_Hz;            // of the sensor that has this noise
+    double own_sampling_Hz;        // of that sensor's converter; 0: that of the study
     double range_m_s2;             // of that sensor; infinite without one
     double encoder_noise_rad;      // rms
     double fault_size;             // 0 in the threshold group and without a fault

@@ -96,6 +96,7 @@ Realization at_sensor(const Study& study, const Realization& realization, std::u
     own.inputs.white_noise_m_s2 = noise.white_m_s2;
     own.inputs.background_noise_m_s2 = noise.background_m_s2;
     own.inputs.low_pass_Hz = additional.low_pass_Hz.value_or(own.inputs.low_pass_Hz);
+    own.inputs.own_sampling_Hz = additional.sampling_Hz.value_or(0.0);
     own.inputs.range_m_s2 = additional.range_m_s2.value_or(own.inputs.range_m_s2);
     return own;
 }

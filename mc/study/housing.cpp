@@ -33,14 +33,15 @@ std::optional<signals::MeasuringChain> measuring_chain(const Study& study, std::
         return std::nullopt;
     }
     const AdditionalSensor& own = study.sensor.additional[sensor - 1];
-    signals::MeasuringChain chain{{}, {}, own.delay_s};
+    signals::MeasuringChain chain{{}, {}, own.delay_s, own.sampling_Hz};
     if (own.low_pass_Hz) {
         chain.low_pass = {*own.low_pass_Hz, study.sensor.low_pass_Hz};
     }
     if (own.mounting_Hz) {
         chain.mounting = {*own.mounting_Hz, own.mounting_damping};
     }
-    const bool differs = chain.low_pass || chain.mounting || chain.delay_s != 0.0;
+    const bool differs =
+        chain.low_pass || chain.mounting || chain.delay_s != 0.0 || chain.sampling_Hz;
     return differs ? std::optional(chain) : std::nullopt;
 }
 

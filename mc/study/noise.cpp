@@ -24,6 +24,12 @@ bool has_range(const Study& study) {
            });
 }
 
+bool has_own_rate(const Study& study) {
+    return std::ranges::any_of(study.sensor.additional, [](const AdditionalSensor& sensor) {
+        return sensor.sampling_Hz.has_value();
+    });
+}
+
 signals::NoiseSpectrum background_spectrum(const Study& study) {
     return {study.sensor.background_Hz, study.sensor.background_density_m_s2_per_sqrt_Hz};
 }

@@ -20,6 +20,8 @@ signals::NoiseSpectrum background_spectrum(const Study& study);
 
 // True if the converter of any sensor has a measuring range, at which it clips the samples.
 bool has_range(const Study& study);
+// True if the converter of any additional sensor has a sampling rate of its own.
+bool has_own_rate(const Study& study);
 
 // Standard deviation of every sample, m/s^2: of all parts, of those that are white, and of the
 // background.

@@ -96,7 +96,7 @@ struct AdditionalSensor {
     std::vector<double> participation, response_gain, response_phase_deg;
     // Measuring chain of its own (signals/path/measuring_chain.hpp); without a value, that of the
     // first one.
-    std::optional<double> low_pass_Hz, mounting_Hz;
+    std::optional<double> sampling_Hz, low_pass_Hz, mounting_Hz;
     double mounting_damping = 0.03;
     double delay_s = 0.0;                     // of its samples
     std::optional<double> quantisation_m_s2;  // not multiplied by `noise`

@@ -15,6 +15,7 @@ void read_chain(const ListElement& element, AdditionalSensor& sensor) {
     const auto number = [&](const char* name, const Range& range) {
         return element.has(name) ? std::optional(element.number(name, range)) : std::nullopt;
     };
+    sensor.sampling_Hz = number("sampling_Hz", kAbove0);
     sensor.low_pass_Hz = number("low_pass_Hz", kAbove0);
     sensor.mounting_Hz = number("mounting_Hz", {.low = 1.0});
     sensor.mounting_damping =
@@ -34,6 +35,7 @@ std::string chain_text(const AdditionalSensor& sensor) {
     const auto add = [&](const char* name, std::optional<double> value) {
         text += value ? fmt::format(", {} = {}", name, *value) : "";
     };
+    add("sampling_Hz", sensor.sampling_Hz);
     add("low_pass_Hz", sensor.low_pass_Hz);
     add("mounting_Hz", sensor.mounting_Hz);
     if (sensor.mounting_Hz) {

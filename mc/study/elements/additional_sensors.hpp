@@ -19,6 +19,7 @@ inline constexpr TableField kSensorFields[] = {
     {"participation", TableField::Kind::numbers},
     {"response_gain", TableField::Kind::numbers},
     {"response_phase_deg", TableField::Kind::numbers},
+    {"sampling_Hz"},
     {"low_pass_Hz"},
     {"mounting_Hz"},
     {"mounting_damping"},

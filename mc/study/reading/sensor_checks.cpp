@@ -195,6 +195,33 @@ void check_own_low_pass(StudyDraft& draft, std::size_t number, double low_pass_H
     }
 }
 
+// Checks an additional sensor with a sampling rate of its own.
+void check_own_rate(StudyDraft& draft, std::size_t number, const AdditionalSensor& sensor) {
+    constexpr const char* kAdditional = "sensor.additional";
+    const Sensor& s = draft.study.sensor;
+    const double rate_Hz = *sensor.sampling_Hz;
+    if (!draft.all_usable({kAdditional, "sensor.low_pass_Hz", "sensor.sampling_Hz"})) {
+        return;
+    }
+    const auto reject = [&](const std::string& what, const char* remedy) {
+        draft.reject(kAdditional,
+                     fmt::format("sensor {}: sampling_Hz = {} Hz {}", number, rate_Hz, what),
+                     remedy);
+    };
+    const double low_pass_Hz = sensor.low_pass_Hz.value_or(s.low_pass_Hz);
+    if (rate_Hz > s.sampling_Hz) {
+        reject(fmt::format("is above sensor.sampling_Hz, {} Hz, with which all vibration is "
+                           "computed",
+                           s.sampling_Hz),
+               "lower it, or make the sensor with the highest rate the first one");
+    } else if (low_pass_Hz >= 0.5 * rate_Hz) {
+        reject(fmt::format("is not above twice its low-pass, {} Hz (higher frequencies would "
+                           "alias)",
+                           low_pass_Hz),
+               "raise it, or give the sensor a lower low_pass_Hz");
+    }
+}
+
 // A measuring range clips samples with their noise. What works with noise that adds to the signal
 // is rejected.
 void check_range(StudyDraft& draft) {
@@ -236,6 +263,9 @@ void check_sampling(StudyDraft& draft) {
     for (std::size_t i = 0; i < s.additional.size(); ++i) {
         if (s.additional[i].low_pass_Hz) {
             check_own_low_pass(draft, i + 1, *s.additional[i].low_pass_Hz);
+        }
+        if (s.additional[i].sampling_Hz) {
+            check_own_rate(draft, i + 1, s.additional[i]);
         }
     }
     if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||

@@ -92,7 +92,33 @@ void PeriodicResponse::add(std::span<const double> signal, double sampling_Hz,
     }
 }
 
-std::vector<double> PeriodicResponse::take() {
+// Harmonic k of n samples has the same values at `own` of them as harmonic k modulo `own`. Both
+// signs of k contribute to a one-sided sum: at 0 and at half the rate their imaginary parts cancel.
+void PeriodicResponse::fold(std::size_t own) {
+    const std::size_t count = own * (2 * half() / samples_);
+    for (std::size_t k = count / 2 + (count % 2 == 0 ? 0 : 1); k <= half(); ++k) {
+        // Half the sampling rate occurs once, half of it with each sign.
+        const Complex value = k == half() ? 0.5 * sum_[k] : sum_[k];
+        sum_[k] = 0.0;
+        const std::size_t rest = k % count;
+        if (rest == 0) {
+            sum_[0] += 2.0 * value.real();
+        } else if (2 * rest == count) {
+            sum_[rest] += value.real();
+        } else if (2 * rest < count) {
+            sum_[rest] += value;
+        } else {
+            sum_[count - rest] += std::conj(value);
+        }
+    }
+}
+
+std::vector<double> PeriodicResponse::take(const std::optional<MeasuringChain>& chain,
+                                           double sampling_Hz) {
+    const std::size_t own = chain ? chain->own_samples(samples_, sampling_Hz) : samples_;
+    if (own < samples_) {
+        fold(own);
+    }
     for (std::size_t k = 0; k < half(); ++k) {
         const Complex a = sum_[k], b = std::conj(sum_[half() - k]);
         spectrum_[k] = a + b + Complex(0.0, 1.0) * product(std::conj(turn_[k]), a - b);

@@ -58,10 +58,16 @@ class PeriodicResponse {
     // Adds the response to a signal of this sampling rate. Throws std::invalid_argument if it has
     // another length.
     void add(std::span<const double> signal, double sampling_Hz, const HousingResponse& response);
-    // Returns the sum of the responses since the last call.
-    std::vector<double> take();
+    // Returns the sum of the responses since the last call, as the converter of a measuring chain
+    // samples it. A lower rate of its own takes equally spaced samples, the first one with the
+    // first sample of the signal. They are interpolated without frequencies above half that rate;
+    // frequencies of the sum above it have folded below it.
+    std::vector<double> take(const std::optional<MeasuringChain>& chain = {},
+                             double sampling_Hz = 0.0);
 
   private:
+    // Folds the sum as `own` samples of it do.
+    void fold(std::size_t own);
     std::size_t half() const { return values_.size(); }
 
     std::size_t samples_;

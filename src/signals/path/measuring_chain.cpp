@@ -1,5 +1,6 @@
 #include "signals/path/measuring_chain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +30,14 @@ Complex MeasuringChain::at(double f_Hz) const {
         factor *= Complex(1.0, damping) / Complex(1.0 - r * r, damping);
     }
     return factor;
+}
+
+std::size_t MeasuringChain::own_samples(std::size_t samples, double applied_Hz) const {
+    if (!sampling_Hz) {
+        return samples;
+    }
+    const double own = std::round(static_cast<double>(samples) * *sampling_Hz / applied_Hz);
+    return std::clamp(static_cast<std::size_t>(own), std::size_t{1}, samples);
 }
 
 }  // namespace gearpod::signals

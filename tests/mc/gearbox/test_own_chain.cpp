@@ -8,7 +8,7 @@
 
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
-#include "tests/mc/gearbox/small_runs.hpp"
+#include "tests/mc/gearbox/chain_signals.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_own_chain {
@@ -18,31 +18,22 @@ using test::Folder;
 using test::kSmall;
 using test::program;
 using Complex = std::complex<double>;
+using test::component;
+using test::kBandwidth;
+using test::kLowPass_Hz;
+using test::kSilent;
+using test::noise_rms;
+using test::side;
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kLowPass_Hz = 120.0;  // of the small study
-// Noise bandwidth of the low-pass over its cut-off frequency.
-const double kBandwidth = (kPi / 8.0) / std::sin(kPi / 8.0);
-
-// Sensors next to the first one, so that they differ by their measuring chain alone.
-std::string side(const std::string& fields) {
-    return " --set 'sensor.additional=[{name=\"side\", angle_deg=0, " + fields + "}]' ";
-}
 
 const std::string kChain =
     "low_pass_Hz=50, mounting_Hz=70, mounting_damping=0.05, delay_s=0.004, quantisation_m_s2=0.01";
 
-Complex component(const std::vector<double>& signal, std::size_t harmonic) {
-    Complex sum = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        const std::size_t turns = harmonic * i % signal.size();
-        sum += signal[i] * std::polar(1.0, -2.0 * kPi * static_cast<double>(turns) /
-                                               static_cast<double>(signal.size()));
-    }
-    return sum / static_cast<double>(signal.size());
-}
+// The same with a sampling rate of its own.
+const std::string kSampled = kChain + ", sampling_Hz=110";
 
 // Response of a mounting of 70 Hz with a damping ratio of 0.05 after a low-pass of 50 Hz in place
 // of 120 Hz, delayed by 4 ms.
@@ -76,24 +67,10 @@ void check_spectra(const test::Columns& columns) {
     }
 }
 
-// Rms of the noise in a column.
-double noise_rms(const test::Columns& columns, const std::string& sensor) {
-    const std::vector<double>&clean = columns.at(sensor), &noisy = columns.at(sensor + "_noise_1");
-    double sum = 0.0;
-    for (std::size_t i = 0; i < clean.size(); ++i) {
-        sum += (noisy[i] - clean[i]) * (noisy[i] - clean[i]);
-    }
-    return std::sqrt(sum / static_cast<double>(clean.size()));
-}
-
 const std::vector<double>& values(const std::vector<mc::FeatureResult>& features,
                                   const std::string& name) {
     return std::ranges::find(features, name, &mc::FeatureResult::name)->values;
 }
-
-const std::string kSilent =
-    " --set 'sensor.response_Hz=[0, 1000]' --set 'sensor.response_phase_deg=[0, 0]'"
-    " --set 'sensor.response_gain=[0, 0]' ";
 
 }  // namespace
 
@@ -248,7 +225,7 @@ TEST_CASE("The first sensor and sensors without a chain keep their bits") {
 
 TEST_CASE("Rows with a measuring chain keep their bits over threads, parts and merging") {
     test::check_equal_bits_over_parts(
-        side(kChain) +
+        side(kSampled) +
         "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 "
         "--set 'sensor.tones=[{frequency_Hz=31, amplitude_m_s2=0.1}]' ");
 }
@@ -257,7 +234,7 @@ TEST_CASE("Rows with a measuring chain keep their bits over lanes") {
     const auto rows = [](int lanes) {
         const auto study =
             mc::read_study(kSmall,
-                           {"sensor.additional=[{name='side', angle_deg=90, " + kChain + "}]",
+                           {"sensor.additional=[{name='side', angle_deg=90, " + kSampled + "}]",
                             "ensemble.threshold_instances=5", "ensemble.instances=6",
                             fmt::format("numerics.lanes={}", lanes)})
                 .study;
@@ -271,7 +248,8 @@ TEST_CASE("Rows with a measuring chain keep their bits over lanes") {
 
 TEST_CASE("Exported samples of a measuring chain have the features of the run") {
     const Folder folder;
-    const std::string options = side(kChain) + "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ";
+    const std::string options =
+        side(kSampled) + "--set sensor.noise_density_m_s2_per_sqrt_Hz=0.001 ";
     const mc::Results results = test::run_small(folder, "run.h5", options);
     const auto measured = test::features_of_export(folder, "sensor_side_noise_1", options);
     for (const char* name : {"sensor_rms", "window_ratio", "fm4", "crest_factor"}) {
@@ -284,7 +262,7 @@ TEST_CASE("Exported samples of a measuring chain have the features of the run") 
 TEST_CASE("Measuring chains of signals recorded during integration equal those of kept motion") {
     const Folder folder;
     const std::string options =
-        side(kChain) +
+        side(kSampled) +
         "--set 'features.use=[\"sensor_rms\", \"window_ratio\", \"change_window_ratio\", "
         "\"crest_factor\"]' --set features.baseline_torque_scatter=0.02"
         " --set sensor.record_s=9 --set sensor.noise_levels=[0] ";
@@ -311,6 +289,11 @@ TEST_CASE("Problems of a measuring chain are reported") {
     };
     refused(side("low_pass_Hz=130"),
             "sensor 1: low_pass_Hz = 130 Hz is above sensor.low_pass_Hz, 120 Hz");
+    refused(side("sampling_Hz=300"),
+            "sensor 1: sampling_Hz = 300 Hz is above sensor.sampling_Hz, 280 Hz");
+    refused(side("sampling_Hz=90, low_pass_Hz=50"),
+            "sensor 1: sampling_Hz = 90 Hz is not above twice its low-pass, 50 Hz");
+    refused(side("sampling_Hz=0"), "sensor 1: sampling_Hz must be");
     refused(side("low_pass_Hz=0"), "sensor 1: low_pass_Hz must be");
     refused(side("delay_s=1.5"), "sensor 1: delay_s must be");
     refused(side("mounting_Hz=0"), "sensor 1: mounting_Hz must be");
@@ -324,17 +307,19 @@ TEST_CASE("Problems of a measuring chain are reported") {
                 "sensor.background_density_m_s2_per_sqrt_Hz=[0.1,0.1]",
             "passes nothing of the background, which begins at 60 Hz");
     const auto described =
-        program("describe " + kSmall + side("low_pass_Hz=50, mounting_Hz=70, delay_s=-0.004"));
+        program("describe " + kSmall +
+                side("sampling_Hz=110, low_pass_Hz=50, mounting_Hz=70, delay_s=-0.004"));
     INFO(described.output);
-    CHECK(
-        described.mentions("low-pass 50 Hz; mounting resonance 70 Hz, damping 0.03; samples "
-                           "0.004 s early; noise 0.002 m/s^2 rms"));
+    CHECK(described.mentions(
+        "sampling rate 110 Hz; low-pass 50 Hz; mounting resonance 70 Hz, damping 0.03; samples "
+        "0.004 s early; noise 0.002 m/s^2 rms"));
 }
 
 TEST_CASE("A study with measuring chains reads back from its resolved text") {
     const auto reading = mc::read_study(
         kSmall,
-        {"sensor.additional=[{name='b', angle_deg=30, low_pass_Hz=50.5, mounting_Hz=70, "
+        {"sensor.additional=[{name='b', angle_deg=30, sampling_Hz=150, low_pass_Hz=50.5, "
+         "mounting_Hz=70, "
          "mounting_damping=0.1, delay_s=-1e-3, quantisation_m_s2=0, range_m_s2=20}, {name='c', "
          "angle_deg=1, mounting_Hz=1e4}]"});
     REQUIRE(reading.study);

@@ -40,7 +40,7 @@ std::vector<double> sine(double f_Hz, Complex amplitude) {
 std::vector<double> measured_by(const MeasuringChain& chain, const std::vector<double>& signal) {
     PeriodicResponse response(static_cast<int>(signal.size()));
     response.add(signal, kSampling_Hz, {.modes = {}, .measured = {}, .chain = chain});
-    return response.take();
+    return response.take(chain, kSampling_Hz);
 }
 
 }  // namespace
@@ -99,6 +99,54 @@ TEST_CASE("A mounting responds as one mode with participation 1") {
         CHECK(std::abs(chain.at(f_Hz) - mode.at(f_Hz)) < 1e-12 * std::abs(mode.at(f_Hz)));
     }
     CHECK(std::abs(chain.at(320.0)) == Approx(std::hypot(1.0, 1.0 / 0.08)).epsilon(1e-12));
+}
+
+TEST_CASE("A sampling rate of its own keeps its samples and no frequency above half of it") {
+    for (const int count : {60, 45}) {
+        std::vector<double> signal;
+        for (int i = 0; i < count; ++i) {
+            signal.push_back(static_cast<double>(i * i % 23) - 9.0);
+        }
+        for (const int own : {1, 7, 8, 15, 22, 30, 44}) {
+            INFO(count << " " << own);
+            const double rate = kSampling_Hz * own / count;
+            const auto out =
+                measured_by({.low_pass = {}, .mounting = {}, .sampling_Hz = rate}, signal);
+            // Discrete spectra of both; between the samples they are trigonometric polynomials.
+            const auto spectrum = [&](const std::vector<double>& x) {
+                std::vector<Complex> values;
+                for (int k = 0; k <= count / 2; ++k) {
+                    Complex sum = 0.0;
+                    for (int i = 0; i < count; ++i) {
+                        sum += x[static_cast<std::size_t>(i)] *
+                               std::polar(1.0, -2.0 * kPi * (k * i % count) / count);
+                    }
+                    const bool once = k == 0 || 2 * k == count;
+                    values.push_back(sum * ((once ? 1.0 : 2.0) / count));
+                }
+                return values;
+            };
+            const auto before = spectrum(signal), after = spectrum(out);
+            const auto at = [&](const std::vector<Complex>& x, double turn) {
+                double sum = 0.0;
+                for (std::size_t k = 0; k < x.size(); ++k) {
+                    sum +=
+                        (x[k] * std::polar(1.0, 2.0 * kPi * static_cast<double>(k) * turn)).real();
+                }
+                return sum;
+            };
+            for (int m = 0; m < own; ++m) {
+                const double turn = static_cast<double>(m) / own;
+                CHECK(at(after, turn) == Approx(at(before, turn)).margin(1e-10));
+            }
+            for (int k = own / 2 + 1; k <= count / 2; ++k) {
+                CHECK(std::abs(after[static_cast<std::size_t>(k)]) < 1e-12);
+            }
+        }
+    }
+    // A rate above that of the samples changes nothing.
+    const MeasuringChain faster{.low_pass = {}, .mounting = {}, .sampling_Hz = 2.0 * kSampling_Hz};
+    CHECK(faster.own_samples(60, kSampling_Hz) == 60);
 }
 
 TEST_CASE("The measuring chain multiplies the response of the housing and of the ring") {
