@@ -43,7 +43,7 @@ signals::ShapedNoise background_noise(const Scene& scene, const InstanceInputs& 
 namespace {
 
 // True if the noise is drawn sample by sample, because it is not white.
-bool draws_samples(const Scene& scene, const InstanceInputs& inputs) {
+bool generates_samples(const Scene& scene, const InstanceInputs& inputs) {
     return noise_by_density(scene.study()) || inputs.own_sampling_Hz > 0.0;
 }
 
@@ -52,7 +52,7 @@ bool draws_samples(const Scene& scene, const InstanceInputs& inputs) {
 std::vector<double> sample_noise(const Scene& scene, const Realization& realization,
                                  std::span<const double> clean, const signals::NoiseVariates& draw,
                                  int turns) {
-    if (draws_samples(scene, realization.inputs)) {
+    if (generates_samples(scene, realization.inputs)) {
         const auto normals = [&](StreamPurpose purpose) {
             return Normals::of_noise(scene.study(), realization.id, purpose);
         };
@@ -138,7 +138,7 @@ void RealizationSignals::draw_sensor_noise(const LaneSignals& gearbox,
                                            const Realization& realization) {
     const GearboxId& id = realization.id;
     const std::size_t bins = gearbox.folded.size();
-    const bool by_samples = draws_samples(scene_, realization.inputs);
+    const bool by_samples = generates_samples(scene_, realization.inputs);
     if (!by_samples) {
         Normals engine = Normals::of_noise(scene_.study(), id, StreamPurpose::sensor_noise);
         sensor_noise_.draw(engine, bins, noise_.sensor);
