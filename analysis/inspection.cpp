@@ -237,8 +237,8 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
             threshold_of(result.noise.front(), *request.false_call_rate, request.alarm);
     } else {
         result.refusal =
-            "no threshold: give one, or a false-call rate and at least three lines of size 0 to "
-            "derive it from";
+            "no threshold: give --threshold, or --false-call-rate and at least three lines of size "
+            "0 to derive it from";
         return;
     }
     for (const double value : without) {

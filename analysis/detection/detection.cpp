@@ -133,7 +133,8 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
     if (level.tail && !level.tail->steady) {
         warnings.push_back(fmt::format(
             "noise level {:g}: the extrapolated threshold depends on how many extreme healthy "
-            "values are fitted; the Pareto tail does not fit, do not trust the threshold",
+            "values are fitted; the generalised Pareto distribution does not fit the tail; do not "
+            "use this threshold",
             level.noise_level));
     }
     const DetectionCell* healthy = healthy_cell(level);

@@ -42,7 +42,7 @@ std::string why_unranked(const MonitorPerformance& performance, double per_1000_
         return "more false alarms than stated";
     }
     if (!(chance_of(performance) <= kChanceLevel)) {
-        return "no more cracks found than by chance";
+        return "no significantly larger share found than by chance";
     }
     return "";
 }

@@ -115,7 +115,7 @@ Section inspection_headline(const InspectionRequest& request, const InspectionRe
     };
     section.state(
         "headline",
-        fmt::format("90 % of flaws of {} are found; the upper bound {} is {}.",
+        fmt::format("90 % of flaws of {} are found (a90); its upper bound {} is {}.",
                     text(curve.a90.estimate), bound_name(request), text(curve.a90.upper)));
     Table table{"sizes",
                 "Sizes with their bounds" + (shown.empty() ? "" : " (" + shown + ")"),
@@ -134,12 +134,13 @@ Section inspection_headline(const InspectionRequest& request, const InspectionRe
                                            ? " (the handbook's convention, MIL-HDBK-1823A)"
                                            : ""));
     if (std::isfinite(curve.simulated_coverage)) {
-        section.state("coverage",
-                      fmt::format("{}In tables simulated from this fit, the bound held a90 in {}.",
-                                  request.convention == BoundConvention::calibrated
-                                      ? ""
-                                      : "This convention is asymptotic. ",
-                                  percent_text(curve.simulated_coverage)));
+        section.state(
+            "coverage",
+            fmt::format("{}In tables simulated from this fit, the bound covered a90 in {}.",
+                        request.convention == BoundConvention::calibrated
+                            ? ""
+                            : "This convention is asymptotic. ",
+                        percent_text(curve.simulated_coverage)));
     }
     section.state("measured_coverage", measured_text(request, result));
     return section;

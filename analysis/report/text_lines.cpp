@@ -5,7 +5,7 @@
 namespace gearpod::analysis {
 namespace {
 
-std::size_t columns_of_text = 120;
+std::size_t columns_of_text = 80;
 
 }  // namespace
 

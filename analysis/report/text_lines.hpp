@@ -6,7 +6,7 @@
 
 namespace gearpod::analysis {
 
-// Width of the reports in columns: 120, or a value set for the terminal, at least 80. Must be set
+// Width of the reports in columns: 80, or that of a wider terminal. Must be set
 // before anything is written, while the program has one thread.
 std::size_t text_width();
 void set_text_width(std::size_t columns);

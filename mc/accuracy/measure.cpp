@@ -283,12 +283,13 @@ class AccuracyMeasurement {
         }
         std::sort(contenders.begin(), contenders.end());
         contenders.erase(std::unique(contenders.begin(), contenders.end()), contenders.end());
-        request_.progress(fmt::format("the {} fastest settings again", contenders.size()));
+        request_.progress(fmt::format("repeat {} of the fastest settings", contenders.size()));
         for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
             for (const std::size_t place : contenders) {
                 if (!time_.enough()) {
-                    record_omission(fmt::format("all but {} of {} timings of the fastest settings",
-                                                repeat, kContenderRepeats));
+                    record_omission(
+                        fmt::format("repeated timings of the fastest settings ({} of {} done)",
+                                    repeat, kContenderRepeats));
                     return;
                 }
                 measure_setting(place, false);

@@ -21,7 +21,7 @@ inline constexpr double kShareOfScatter = 0.2;
 inline constexpr double kChangeOfFeature = 1e-2;
 
 // Message for a setting that was not tried for lack of time.
-inline constexpr const char* kNotTried = "not measured: the time given was used up";
+inline constexpr const char* kNotTried = "not measured, because the time was used up (--seconds)";
 
 struct SettingResult {
     SolverSetting setting;

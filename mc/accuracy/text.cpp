@@ -41,7 +41,7 @@ void add_head(const AccuracyReport& report, Text out) {
     const Reference& r = report.reference;
     fmt::format_to(
         out,
-        "pilot: {} gearboxes, signals over {} mesh period(s), features over {}\n"
+        "pilot: {} gearboxes, mesh periods in signals: {}, in features: {}\n"
         "reference: {}{}\n"
         "compared with: {}{}\n"
         "  relative L2 {:.1e} (sensor), {:.1e} (TE), worst feature {:.1e}{}\n",
@@ -56,8 +56,9 @@ void add_head(const AccuracyReport& report, Text out) {
 void add_heading(Text out) {
     fmt::format_to(
         out,
-        "\ntime: processor time of one gearbox in a full tile of eight lanes (sixteen in\n"
-        "single precision), time integration only; error: relative L2 of the noise-free\n"
+        "\ntime: processor time of one gearbox of eight that are integrated together\n"
+        "(sixteen in single precision), time integration only; error: relative L2 of the "
+        "noise-free\n"
         "sensor signal and of the transmission error (TE) without its mean; feature: the\n"
         "worst one, rms over the gearboxes; *: Pareto frontier of time and error\n\n"
         "solver setting\n"

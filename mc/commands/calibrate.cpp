@@ -184,13 +184,16 @@ class Command {
             print_problems(written.problems);
             return kBadInput;
         }
-        std::string names;
+        // An override of features.use would make the keys of a baseline record invalid.
+        StudyReading simulated = written;
+        simulated.study->features.use.clear();
         for (const features::Feature* feature : set_.features) {
-            names += fmt::format("{}\"{}\"", names.empty() ? "" : ",", feature->name);
+            simulated.study->features.use.emplace_back(feature->name);
         }
-        random.overrides.push_back("features.use=[" + names + "]");
-        const auto scene = load_scene(random).scene;
+        const StudyScene made = make_scene(random.path, std::move(simulated));
+        const auto& scene = made.scene;
         if (!scene) {
+            print_problems(made.problems);
             return kBadInput;
         }
         CalibrationTask task;

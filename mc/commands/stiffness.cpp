@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mc/commands/commands.hpp"
+#include "mc/description/describe_gearbox.hpp"
 #include "mc/library/stiffness_columns.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/stiffness_curves.hpp"
@@ -42,10 +43,11 @@ void print_te(const Scene& scene) {
 void print_summary(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         fmt::print(
-            "{:<11}: contact ratio {:.4f}, mean stiffness {:.4e} N/m,\n"
+            "{:<11}: contact ratio {},\n"
+            "{:<11}  mean stiffness {:.4e} N/m,\n"
             "{:<11}  pitch point {:.4f} mesh periods after engagement\n",
-            mesh_name(mesh.members), mesh.stiffness->contact_ratio(), mean_total(*mesh.stiffness),
-            "", mesh.stiffness->pitch_position());
+            mesh_name(mesh.members), contact_ratio_text(*mesh.stiffness), "",
+            mean_total(*mesh.stiffness), "", mesh.stiffness->pitch_position());
     }
     const std::vector<int> pairs = faulty_pairs(scene);
     if (!pairs.empty()) {
@@ -54,7 +56,7 @@ void print_summary(const Scene& scene) {
         for (const int pair : pairs) {
             names += (names.empty() ? "" : " and ") + scene.drivetrain().pair_name(pair);
         }
-        fmt::print("faulty tooth in pair {}; largest possible {} {:.3f}{}\n", names,
+        fmt::print("faulty tooth in the mesh of {}; largest possible {} {:.3f}{}\n", names,
                    fault_size_key(scene.study()).stem(), scene.fault().largest_size() / unit.to_si,
                    unit.suffix.empty() ? "" : " " + std::string(unit.name));
     }

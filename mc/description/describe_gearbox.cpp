@@ -195,22 +195,6 @@ void print_shifts(const Scene& scene) {
     }
 }
 
-// Contact ratio on the nominal path, its parts for helical teeth, and the time that a tooth pair
-// may touch if corner contact extends the path.
-std::string contact_ratio_text(const stiffness::MeshStiffness& mesh) {
-    const double nominal = mesh.path_end() - mesh.path_begin();
-    const double transverse = mesh.slice().path_end() - mesh.slice().path_begin();
-    std::string text = fmt::format("{:.4f}", nominal);
-    if (transverse < nominal - 1e-9) {
-        text +=
-            fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse, nominal - transverse);
-    }
-    if (nominal < mesh.contact_ratio() - 1e-9) {
-        text += fmt::format(", {:.4f} with corner contact", mesh.contact_ratio());
-    }
-    return text;
-}
-
 // Prints how much stiffer than the standard's value a mesh with rigid gear bodies is.
 void print_rigid_bodies(const Scene& scene) {
     const Study& study = scene.study();
@@ -254,6 +238,20 @@ void print_loads(const Study& study) {
 }
 
 }  // namespace
+
+std::string contact_ratio_text(const stiffness::MeshStiffness& mesh) {
+    const double nominal = mesh.path_end() - mesh.path_begin();
+    const double transverse = mesh.slice().path_end() - mesh.slice().path_begin();
+    std::string text = fmt::format("{:.4f}", nominal);
+    if (transverse < nominal - 1e-9) {
+        text +=
+            fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse, nominal - transverse);
+    }
+    if (nominal < mesh.contact_ratio() - 1e-9) {
+        text += fmt::format(", {:.4f} with corner contact", mesh.contact_ratio());
+    }
+    return text;
+}
 
 void print_gearbox(const Scene& scene) {
     print_heading("gearbox");

@@ -1,5 +1,8 @@
 #include "mc/input/spelling.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 
@@ -47,10 +50,21 @@ std::string suggest(std::string_view word, const std::vector<std::string_view>& 
     if (best.empty()) {
         return "";
     }
-    const int allowed = std::max(2, static_cast<int>(best.size()) / 3);
-    const bool near = edit_distance(word, best) <= allowed;
-    return near ? "did you mean " + std::string(best) + "?"
-                : "the nearest valid one is " + std::string(best);
+    // A part of a name is more likely meant than a name with as many other letters.
+    const auto whole = std::ranges::find_if(candidates, [&](std::string_view candidate) {
+        return word.size() >= 3 && candidate.find(word) != std::string_view::npos;
+    });
+    if (whole != candidates.end()) {
+        return "did you mean " + std::string(*whole) + "?";
+    }
+    const int allowed = std::max(2, static_cast<int>(std::max(best.size(), word.size())) / 3);
+    if (edit_distance(word, best) <= allowed) {
+        return "did you mean " + std::string(best) + "?";
+    }
+    constexpr std::size_t kMostListed = 12;
+    return candidates.size() > kMostListed
+               ? ""
+               : fmt::format("use one of {}", fmt::join(candidates, ", "));
 }
 
 std::string_view without_unit(std::string_view key) {

@@ -14,8 +14,8 @@ int edit_distance(std::string_view a, std::string_view b);
 // Candidate nearest to `word`, the first one of equals; "" without candidates.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
-// Suggestion: "did you mean X?" if X is near, else "the nearest valid one is X"; "" without
-// candidates.
+// Suggestion: "did you mean X?" if X contains the word or is near, else "use one of" all of them if
+// they are few, else "".
 std::string suggest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 // Name without a trailing unit, in the schema or commonly tried, e.g. "module_mm" -> "module". The

@@ -27,8 +27,8 @@ std::vector<std::string> rate_problems(std::span<const double> phase, const Scen
     if (has.sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
         problems.push_back(
             fmt::format("{:.6g} Hz ({:.6g} samples per mesh period) is too low for signals up "
-                        "to {:.6g} Hz; set sensor.low_pass_Hz to at most half of it",
-                        per_mesh * mesh_Hz, per_mesh, low_pass));
+                        "to {:.6g} Hz; set sensor.low_pass_Hz to at most {:.6g}",
+                        per_mesh * mesh_Hz, per_mesh, low_pass, 0.5 * per_mesh * mesh_Hz));
     }
     return problems;
 }

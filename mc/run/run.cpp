@@ -70,7 +70,7 @@ class Run {
             fmt::print(stderr, "{}: {}\n", options_.study.path, shortage);
         }
         if (!options_.quiet) {
-            fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
+            fmt::print(stderr, "running {}: {}\n", options_.study.path, study_.title);
             if (choice_) {
                 fmt::print(stderr, "tolerance {:g}: {}\n",
                            choice_->of_scatter ? study_.numerics.scatter_tolerance

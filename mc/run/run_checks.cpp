@@ -42,15 +42,14 @@ bool check_progress(const RunOptions& options) {
     if (options.progress.empty() || options.progress == "json") {
         return true;
     }
-    fmt::print(stderr, "--progress {}: is not a form of progress; the only one is json\n",
-               printable(options.progress));
+    fmt::print(stderr, "--progress {}: must be json\n", printable(options.progress));
     return false;
 }
 
 bool check_part(const RunOptions& options, const Study& study) {
     const std::optional<Part> part = read_part(options.part);
     if (!part) {
-        fmt::print(stderr, "--part {}: is not a part; the second of four is 2/4\n",
+        fmt::print(stderr, "--part {}: must be K/N with K from 1 to N, for example 2/4\n",
                    printable(options.part));
         return false;
     }

@@ -61,7 +61,7 @@ std::string assumptions(const Study& study, bool lives) {
         all.push_back(study.life.curve_h.empty() ? "cracks that grow by Paris' law"
                                                  : "cracks that grow along the given curve");
     }
-    std::string text = fmt::format("Holds for {}, with thresholds from {} gearboxes.",
+    std::string text = fmt::format("These results hold for {}, with thresholds from {} gearboxes.",
                                    fmt::join(all, ", "), lives ? "the lives of other" : "other");
     if (compares_records(study) && !lives) {
         const int records = study.features.baseline_records;

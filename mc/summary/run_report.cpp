@@ -116,10 +116,13 @@ std::string facts_text(const analysis::Findings& findings, const RowCounts& coun
     return recorded ? fmt::format("{} recordings, {} of them known as healthy and {} as faulty.{}",
                                   counts.all, findings.healthy, findings.faulty, thresholds)
                     : fmt::format(
-                          "{}{} simulated gearboxes, of which {} failed; {} healthy and {} "
+                          "{}{} simulated gearboxes, {}; {} healthy and {} "
                           "faulty ones have values.{}{}",
-                          noise_unit_text(study), counts.all, counts.failed(), findings.healthy,
-                          findings.faulty, thresholds,
+                          noise_unit_text(study), counts.all,
+                          counts.failed() == 0
+                              ? "all computed"
+                              : fmt::format("{} of which could not be computed", counts.failed()),
+                          findings.healthy, findings.faulty, thresholds,
                           study && any ? " " + false_alarm_target_text(*study) : "");
 }
 

@@ -327,7 +327,7 @@ analysis::Section sensors_section(const Results& frame,
         fmt::format("Smallest fault found with 90 % probability at {} "
                     "confidence, by sensor",
                     analysis::percent_text(frame.request.confidence)),
-        {"sensor", "size", "by", analysis::in_unit("change of a90", unit), "change of AUC"},
+        {"sensor", "size", "feature", analysis::in_unit("change of a90", unit), "change of AUC"},
         {}};
     bool tested = false;
     for (const SensorDetection& sensor : sensors) {

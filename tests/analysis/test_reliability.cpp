@@ -143,7 +143,7 @@ TEST_CASE("The text is complete within its columns and contains no invented numb
     }
     CHECK(text_width() == 120);
     CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf"));
-    CHECK_THAT(text, Catch::Contains("no curve: no threshold"));
+    CHECK_THAT(text, Catch::Contains("no curve, because no threshold"));
     CHECK_THAT(text, Catch::Contains("A fault of 0.0005 is found with 90 % probability"));
     CHECK_THAT(text, Catch::Contains("Not ranked: failed: no value for 1800 of 1800"));
     CHECK_THAT(text, Catch::Contains("Thresholds by torque"));

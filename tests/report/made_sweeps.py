@@ -85,7 +85,7 @@ def life_results(feature, detector, found, threshold=True):
             "ended": 30, "found": found, "share": share,
             "share_bounds": [max(0, share - 0.1), min(1, share + 0.1)],
             "net_share": share - 0.05,
-            "unranked": None if found > 5 else "no more cracks found than by chance",
+            "unranked": None if found > 5 else "no significantly larger share found than by chance",
             "depth_50_m": deep / 2 if found > 15 else None, "depth_50_bound_m": deep / 1.8,
             "depth_90_m": deep if found > 27 else None,
             "depth_90_bound_m": 1.1 * deep if found > 28 else None,

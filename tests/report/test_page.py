@@ -358,7 +358,7 @@ class Program(unittest.TestCase):
         self.assertGreater(ended, 0)
         findings = {block["key"]: block.get("text") for section in data["findings"]
                     for block in section["blocks"]}
-        for words_ in ("Holds for identical teeth", "the lives of other gearboxes"):
+        for words_ in ("These results hold for identical teeth", "the lives of other gearboxes"):
             self.assertIn(words_, findings["holds"])
         for words_ in (findings["holds"], words.typeset(findings["headline"]),
                        "Depth at detection against", "each of the 31 teeth with all 81 mating teeth"):

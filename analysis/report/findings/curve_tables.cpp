@@ -28,7 +28,7 @@ Table curve_table(const Findings& findings, std::size_t n) {
     Table table{
         fmt::format("curves.{}", n),
         has_sizes(findings.request)
-            ? fmt::format("Probability of detection over {}{}: sizes with POD 50 % and 90 "
+            ? fmt::format("Probability of detection against {}{}: sizes with POD 50 % and 90 "
                           "%, and the latter's upper bound, one-sided at {} (likelihood "
                           "ratio); AUC with DeLong's interval at {}",
                           unit.name, findings.at_noise(n), findings.percent(), findings.percent())
@@ -50,7 +50,7 @@ Table curve_table(const Findings& findings, std::size_t n) {
             row.push_back(curve ? findings.size(pod.a50.estimate, pod) : "-");
             row.push_back(curve ? findings.size(pod.a90.estimate, pod) : "-");
             row.push_back(curve ? findings.size(pod.a90.upper, pod) : "-");
-            row.push_back(curve ? curve_text(pod) : "no curve: " + pod.refusal);
+            row.push_back(curve ? curve_text(pod) : "no curve, because " + pod.refusal);
         }
         table.rows.push_back(std::move(row));
     }
@@ -121,7 +121,7 @@ void add_responses(Section& section, const Findings& findings, std::size_t n) {
     section.state(fmt::format("responses_refused.{}", n),
                   refused.empty() ? ""
                                   : fmt::format("No line through the values (a-hat against a) of "
-                                                "{}: the reasons are in the JSON.",
+                                                "{}; reasons: report --json.",
                                                 joined(refused)));
 }
 

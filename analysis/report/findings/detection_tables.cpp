@@ -82,7 +82,7 @@ Table rate_table(const Findings& findings, std::size_t n) {
                 fmt::format("Detection rates Pd{} [lower, upper] at {} confidence (Wilson)",
                             findings.at_noise(n), findings.percent()),
                 {!sized ? kNoSize : "size" + (shown.empty() ? "" : " " + shown),
-                 many(findings.subject), "failed"},
+                 many(findings.subject), "not computed"},
                 {}};
     table.labels = 3;
     for (const FeatureDetection& feature : findings.detection) {

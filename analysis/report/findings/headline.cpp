@@ -17,7 +17,7 @@ std::string source_text(const Findings& findings, const SmallestFault& found) {
                              number_text(found.source.noise_level));
 }
 
-// Feature that finds most of the largest faults, with its cell.
+// Feature that finds most of the largest faults, the best ranked one of several, with its cell.
 struct BestRate {
     std::string feature;
     const DetectionCell* cell = nullptr;
@@ -25,7 +25,14 @@ struct BestRate {
 
 BestRate best_rate(const Findings& findings, std::size_t level) {
     BestRate best;
-    for (const FeatureDetection& feature : findings.detection) {
+    std::vector<std::size_t> by_rank = findings.order[level];
+    for (std::size_t f = 0; f < findings.detection.size(); ++f) {
+        if (std::ranges::find(by_rank, f) == by_rank.end()) {
+            by_rank.push_back(f);
+        }
+    }
+    for (const std::size_t f : by_rank) {
+        const FeatureDetection& feature = findings.detection[f];
         const auto& cells = feature.levels[level].cells;
         const auto last = std::find_if(cells.rbegin(), cells.rend(), [](const DetectionCell& cell) {
             return cell.size.high > 0.0 && !std::isnan(cell.pd);
@@ -61,7 +68,7 @@ Table smallest_table(const Findings& findings) {
     Table table{
         "smallest_fault",
         fmt::format("Smallest {} found with {}", findings.fault_name(), findings.probability()),
-        {noise ? "noise" : "", in_unit("size", request.size), "by", "alarm if",
+        {noise ? "noise" : "", in_unit("size", request.size), "feature", "alarm if",
          fmt::format("false alarms [{}]", findings.percent())},
         {}};
     for (std::size_t n = 0; n < findings.levels(); ++n) {

@@ -181,12 +181,13 @@ void add_shares(Section& section, const Findings& findings, std::size_t n) {
         }
         section.state(
             fmt::format("shares.{}", n),
-            fmt::format("Share of the variance of the misses of {} at {} ({} {}; Sobol indices): "
-                        "{}; all inputs together {}; the rest is due to noise.",
-                        given.feature, range_text(given.sizes, findings.request.size), misses.count,
-                        many(findings.subject),
-                        named.empty() ? "no input above 0.01" : joined(named),
-                        rate_text(misses.explained)));
+            fmt::format(
+                "Share of the variance of the misses of {} at {} ({} {}; Sobol indices): "
+                "{}; all inputs together {}. The rest is due to noise and to inputs that are "
+                "not listed, such as tooth and pin errors.",
+                given.feature, range_text(given.sizes, findings.request.size), misses.count,
+                many(findings.subject), named.empty() ? "no input above 0.01" : joined(named),
+                rate_text(misses.explained)));
     }
     if (n != findings.reference) {
         return;

@@ -84,7 +84,7 @@ enum class Need { required, optional, forbidden };
 struct Presence {
     Need need;
     std::string why;
-    std::array<std::string_view, 2> governors{};
+    std::array<std::string_view, 5> governors{};
 };
 using PresenceRule = std::function<Presence(const Study&)>;
 

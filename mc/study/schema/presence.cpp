@@ -19,6 +19,15 @@ bool is(const Study& s, ToothProfile profile) {
     return s.gearbox.tooth_profile == profile;
 }
 
+// Forbidden unless the gears are known.
+Presence with_gears(const Study& s, const std::string& otherwise) {
+    return has_gears(s) ? kOptional
+                        : Presence{Need::forbidden,
+                                   otherwise,
+                                   {"gearbox.module_mm", "gearbox.sun_teeth",
+                                    "gearbox.planet_teeth", "gearbox.ring_teeth"}};
+}
+
 // Required if that key is given, else forbidden.
 Presence with(const std::optional<double>& given, const std::string& because,
               const std::string& only, std::string_view governor) {
@@ -29,7 +38,10 @@ Presence with(const std::optional<double>& given, const std::string& because,
 }  // namespace
 
 Presence with_baseline(const Study& s) {
-    return compares_records(s)
+    const bool known = std::ranges::all_of(s.features.use, [&](const std::string& name) {
+        return find_feature(s, name) != nullptr;  // others are rejected
+    });
+    return compares_records(s) || !known
                ? kOptional
                : Presence{Need::forbidden,
                           "only with features that use a baseline record (change_..., own_...)",
@@ -93,10 +105,9 @@ Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&
                 {"gearbox.kind"}};
     }
     Presence presence = rule(s);
-    if (presence.governors[0].empty()) {
-        presence.governors[0] = "gearbox.kind";
-    } else if (presence.governors[1].empty()) {
-        presence.governors[1] = "gearbox.kind";
+    if (const auto unused = std::ranges::find(presence.governors, "");
+        unused != presence.governors.end()) {
+        *unused = "gearbox.kind";
     }
     return presence;
 }
@@ -117,10 +128,7 @@ Presence tooth_module(const Study& s) {
 }
 
 Presence shifted_teeth(const Study& s) {
-    return has_gears(s)
-               ? kOptional
-               : Presence{
-                     Need::forbidden, "only with tooth numbers and module", {"gearbox.module_mm"}};
+    return with_gears(s, "only with tooth numbers and module");
 }
 
 Presence relief_shape(const Study& s) {
@@ -218,10 +226,7 @@ Presence backlash(const Study& s) {
 }
 
 Presence tooth_quality(const Study& s) {
-    return has_gears(s) ? kOptional
-                        : Presence{Need::forbidden,
-                                   "tolerances need tooth numbers and module",
-                                   {"gearbox.module_mm"}};
+    return with_gears(s, "tolerances need tooth numbers and module");
 }
 
 Presence bearings_move(const Study& s) {

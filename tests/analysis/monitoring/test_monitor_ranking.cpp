@@ -112,13 +112,13 @@ TEST_CASE("Detectors without evidence have no rank, with the reason") {
     CHECK(why_unranked(made(16, 16, 0.5, 1.0, 2.0), kStated).empty());
     CHECK(why_unranked(made(16, 16, 0.0, 6.0, 9.0), kStated) == "more false alarms than stated");
     CHECK(why_unranked(made(3, 16, 0.2, 1.0, 2.0), kStated) ==
-          "no more cracks found than by chance");
+          "no significantly larger share found than by chance");
     // No healthy life was counted: the stated rate finds one in twenty.
     auto uncounted = made(1, 16, std::nan(""), std::nan(""), std::nan(""));
     uncounted.false_alarms.bounds = {std::nan(""), std::nan("")};
-    CHECK(why_unranked(uncounted, kStated) == "no more cracks found than by chance");
+    CHECK(why_unranked(uncounted, kStated) == "no significantly larger share found than by chance");
     auto none = made(0, 16, 0.0, 1.0, 2.0);
-    CHECK(why_unranked(none, kStated) == "no more cracks found than by chance");
+    CHECK(why_unranked(none, kStated) == "no significantly larger share found than by chance");
     none.ended = 0;
     CHECK(why_unranked(none, kStated) == "no tooth fails");
     none.threshold.value = std::nan("");

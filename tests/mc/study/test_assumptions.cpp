@@ -25,7 +25,8 @@ TEST_CASE("A result states for which teeth and planets it is valid") {
     const std::string real =
         assumptions(shipped_study("planet-crack-ideal.toml",
                                   {"gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20"}));
-    CHECK_THAT(real, Catch::StartsWith("Holds for teeth of ISO 1328 grade 6, rigid gear bodies"));
+    CHECK_THAT(real, Catch::StartsWith(
+                         "These results hold for teeth of ISO 1328 grade 6, rigid gear bodies"));
     CHECK_THAT(real, !Catch::Contains("hide faults"));
     CHECK_THAT(real, !Catch::Contains("identical planets"));
 

@@ -141,7 +141,7 @@ const BadFile kBadFiles[] = {
     // Impossible gears and cracks.
     {"ring_teeth = 81", "ring_teeth = 77", "ring_teeth", "gearbox.ring_teeth",
      "cannot be assembled (the ring has 77 teeth"},
-    {"planets = 4", "planets = 5", "ring_teeth", "gearbox.ring_teeth", "cannot be assembled"},
+    {"planets = 4", "planets = 5", "planets", "gearbox.planets", "cannot be assembled"},
     {"side = \"ring\"", "side = \"ring\"\nplanet = 5", "planet = 5", "fault.planet",
      "is 5, but there are 4 planets"},
     {"side = \"ring\"", "side = \"ring\"\ndepth_mm = 20", "depth_mm = 20", "fault.depth_mm",

@@ -1,0 +1,76 @@
+"""Prints the tables of docs/validation/work-precision.md: accuracy_tables.py JSON...
+
+Each file is the output of `gearpod accuracy STUDY --json FILE`.
+"""
+
+import json
+import sys
+
+
+def number(value, digits=2):
+    return "-" if value is None else f"{value:.{digits}g}"
+
+
+def time_text(seconds):
+    return f"{1e3 * seconds:.3g} ms"
+
+
+def detection_text(setting):
+    detection = setting.get("detection")
+    if detection is None:
+        return "-"
+    return f"{detection['pd_change']:.2g} (± {detection['pd_half_width']:.2g})"
+
+
+def worst_feature(errors):
+    return max(errors["features"], key=lambda name: errors["features"][name] or 0.0)
+
+
+def print_frontier(report):
+    print("| setting | time of a gearbox | sensor | worst feature | over its scatter "
+          "| change of Pd |")
+    print("| --- | --- | --- | --- | --- | --- |")
+    for setting in report["settings"]:
+        if "refused" in setting or not (setting["frontier"] or setting["name"] == report["own"]):
+            continue
+        error = setting["error"]
+        mark = " (the study's own)" if setting["name"] == report["own"] else ""
+        print(f"| {setting['name']}{mark} | {time_text(setting['gearbox_s'])} "
+              f"| {number(error['sensor'])} "
+              f"| {number(error['worst_feature'])}, `{worst_feature(error)}` "
+              f"| {number(error['worst_of_scatter'])} | {detection_text(setting)} |")
+    print()
+
+
+def print_effects(report):
+    print("| effect | in the study | time | sensor signal | largest change of a feature "
+          "| over its scatter | needed |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
+    for effect in report.get("effects", []):
+        inside = "yes" if effect["in_study"] else "no"
+        if "refused" in effect:
+            print(f"| {effect['effect']} | {inside} | {effect['refused']} | | | | |")
+            continue
+        change = effect["change"]
+        print(f"| {effect['effect']} | {inside} | {number(effect['time_ratio'], 3)} "
+              f"| {number(change['sensor'])} "
+              f"| {number(change['worst_feature'])}, `{worst_feature(change)}` "
+              f"| {number(change['worst_of_scatter'])} "
+              f"| {'yes' if effect['needed'] else 'no'} |")
+    print()
+
+
+def main():
+    for path in sys.argv[1:]:
+        with open(path, encoding="utf-8") as file:
+            report = json.load(file)
+        print(f"## {report['title']}\n\n{report['headline']}\n")
+        print_frontier(report)
+        print_effects(report)
+        for left_out in report["left_out"]:
+            print(f"Left out: {left_out}")
+        print()
+
+
+if __name__ == "__main__":
+    main()
