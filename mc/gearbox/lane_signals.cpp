@@ -22,6 +22,10 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
                                scene.samples_per_mesh(),
                                {},
                                {}};
+    if (!housing_bearings(scene.study()).empty()) {
+        views.planets -= dynamics::kBearingSources;
+        views.further_sources = dynamics::kBearingSources;
+    }
     for (const lockstep::MeshRecord& record : tile.integration.records) {
         views.accel.push_back(record.acceleration.data());
         views.te.push_back(record.te.data());
@@ -139,6 +143,14 @@ void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile
         std::ranges::transform(load, along_y, load.begin(), std::plus<>());
         response->add(load, 1.0 / sample_s(scene, inputs),
                       ring_response(study, sensor, ring[i], factor));
+    }
+    const std::vector<HousingBearing> bearings = housing_bearings(study);
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+        const BodyInstance& body = inputs.bodies[bearings[i].shaft];
+        response->add(
+            along(1 + 2 * ring.size() + i), 1.0 / sample_s(scene, inputs),
+            bearing_response(study, sensor, bearings[i],
+                             {body.bearing_stiffness_N_m, body.bearing_damping_N_s_m}, factor));
     }
     own.sensor = response->take();
     own.sensor.resize(static_cast<std::size_t>(meshes) *
