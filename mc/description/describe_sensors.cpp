@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "mc/coupling/coupled_train.hpp"
 #include "mc/description/entries.hpp"
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/scene/instance_inputs.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -48,6 +51,31 @@ std::string shaft_text(const Scene& scene, std::size_t stage) {
                          ? "; its study is mirrored, since it lets the other side drive"
                          : "")
                : "the shaft transmits no vibration (no shaft_stiffness_N_m_rad)";
+}
+
+// Prints the responses of the first sensor to the forces in bearings.
+void print_bearing_responses(const Sensor& sensor) {
+    for (const HousingBearing& bearing : kHousingBearings) {
+        const std::string_view shaft = member_name(bearing.shaft);
+        for (const HousingMode& mode : sensor.housing_modes) {
+            if (mode.*bearing.per_kg != 0.0) {
+                print_entry("housing mode",
+                            fmt::format("{:g} Hz: a force of 1 N in the bearing of the {} gives "
+                                        "{:.3g} m/s^2 at resonance",
+                                        mode.frequency_Hz, shaft,
+                                        std::abs(mode.*bearing.per_kg) / (2.0 * mode.damping)));
+            }
+        }
+        if (const std::vector<double>& gain = sensor.*bearing.gain; !gain.empty()) {
+            const auto largest = std::ranges::max_element(gain);
+            print_entry("housing response",
+                        fmt::format("a force of 1 N in the bearing of the {} gives at most {:.3g} "
+                                    "m/s^2, at {:g} Hz",
+                                    shaft, *largest,
+                                    sensor.response_Hz[static_cast<std::size_t>(
+                                        std::distance(gain.begin(), largest))]));
+        }
+    }
 }
 
 void print_stage(const Scene& scene, std::size_t number) {
@@ -137,6 +165,7 @@ void print_sensors(const Scene& scene) {
                                 study.sensor.response_Hz.size(), study.sensor.response_Hz.front(),
                                 study.sensor.response_Hz.back()));
     }
+    print_bearing_responses(study.sensor);
     for (const AdditionalSensor& sensor : study.sensor.additional) {
         print_entry(
             "additional sensor",

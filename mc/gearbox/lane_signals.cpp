@@ -22,6 +22,10 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
                                scene.samples_per_mesh(),
                                {},
                                {}};
+    if (!housing_bearings(scene.study()).empty()) {
+        views.planets -= dynamics::kBearingSources;
+        views.further_sources = dynamics::kBearingSources;
+    }
     for (const lockstep::MeshRecord& record : tile.integration.records) {
         views.accel.push_back(record.acceleration.data());
         views.te.push_back(record.te.data());
@@ -148,6 +152,14 @@ void add_response(const Scene& scene, const SensorPaths& path, const GearboxTile
         const std::vector<double> along_y = along(2 + 2 * i);
         std::ranges::transform(load, along_y, load.begin(), std::plus<>());
         response->add(load, sampling_Hz, ring_response(study, sensor, ring[i], factor));
+    }
+    const std::vector<HousingBearing> bearings = housing_bearings(study);
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+        const BodyInstance& body = inputs.bodies[bearings[i].shaft];
+        response->add(
+            along(1 + 2 * ring.size() + i), sampling_Hz,
+            bearing_response(study, sensor, bearings[i],
+                             {body.bearing_stiffness_N_m, body.bearing_damping_N_s_m}, factor));
     }
     const auto chain = measuring_chain(study, sensor);
     own.sensor = response->take(chain, sampling_Hz);

@@ -24,6 +24,11 @@ SensorPath path_of(const Scene& scene, const signals::SensorPlace& sensor) {
         add(signals::RingLoad{nodal_diameters, signals::RingLoad::Axis::x});
         add(signals::RingLoad{nodal_diameters, signals::RingLoad::Axis::y});
     }
+    for (const HousingBearing& bearing : housing_bearings(scene.study())) {
+        const int after_planets = bearing.shaft == Member::sun ? 0 : 1;
+        path.emplace_back(signals::BearingSource{planetary->train().planets + after_planets},
+                          scene.samples_per_mesh(), scene.span(), sense, sensor);
+    }
     return path;
 }
 

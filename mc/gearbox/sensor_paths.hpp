@@ -10,7 +10,8 @@
 
 namespace gearpod::mc {
 
-// Path through the window, then for each of ring_modes() the loads along x and y.
+// Path through the window, then for each of ring_modes() the loads along x and y, then that of each
+// of housing_bearings().
 using SensorPath = std::vector<signals::PathGrid>;
 // Paths of the first sensor and of the additional ones.
 using SensorPaths = std::vector<SensorPath>;

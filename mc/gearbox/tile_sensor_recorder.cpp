@@ -48,7 +48,8 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
                 signals::SensorResponse::Tile{static_cast<int>(realizations.size()), exponents,
                                               &added, scene.te_samples_per_mesh(), signal_meshes_,
                                               kept_meshes < 0 ? signal_meshes_ : kept_meshes,
-                                              has_record_length(scene.study())}));
+                                              has_record_length(scene.study()),
+                                              dynamics::sources(scene.plan().layout)}));
         }
     }
 }

@@ -17,7 +17,7 @@ bool has_gain(std::span<const Realization> realizations);
 // Multiplies the recorded acceleration of each lane by the sensor gain of that lane's gearbox.
 void apply_gain(std::span<const Realization> realizations, machine::AlignedVector& acceleration);
 
-// Path exponents of gearboxes along one path of a sensor; 0 for the ring's modes.
+// Path exponents of gearboxes along one path of a sensor; 0 for all but the first.
 std::vector<double> path_exponents(std::span<const Realization> realizations, std::size_t path);
 
 class TileSensorRecorder {

@@ -4,6 +4,7 @@
 
 #include "mc/scene/drivetrain.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -20,6 +21,7 @@ dynamics::PlanetaryLayout planetary_layout(const Study& study) {
                                               : dynamics::Motion::translational_torsional;
     result.inertial_terms = study.effects.inertial_terms;
     result.mesh_damping = study.effects.mesh_damping;
+    result.bearing_sources = !housing_bearings(study).empty();
     if (has_gears(study)) {
         result.carrier_radius_m = centre_distance_m(study);
         if (working_shifts(study).centre_distance_m) {

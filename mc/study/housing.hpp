@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "mc/study/housing_bearings.hpp"
 #include "mc/study/study.hpp"
 #include "signals/path/housing_response.hpp"
 
@@ -25,6 +26,9 @@ bool any_response(const Study& study);
 // Numbers of nodal diameters of the ring's modes, each once, ascending.
 std::vector<int> ring_modes(const Study& study);
 
+// Bearings whose forces reach a sensor: of the sun, of the carrier, of both or of none.
+std::vector<HousingBearing> housing_bearings(const Study& study);
+
 // Response to the first sensor for number 0, else to an additional one, with this factor on the
 // natural frequencies: to the vibration that reaches the sensor, or to the load of the planets on
 // the ring's modes with these nodal diameters. Contains the measuring chain.
@@ -32,5 +36,10 @@ signals::HousingResponse housing_response(const Study& study, std::size_t sensor
                                           double frequency_factor);
 signals::HousingResponse ring_response(const Study& study, std::size_t sensor, int nodal_diameters,
                                        double frequency_factor);
+// The same to the acceleration of the shaft in one of these bearings.
+signals::HousingResponse bearing_response(const Study& study, std::size_t sensor,
+                                          const HousingBearing& bearing,
+                                          const signals::BearingSupport& support,
+                                          double frequency_factor);
 
 }  // namespace gearpod::mc

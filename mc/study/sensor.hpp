@@ -80,6 +80,9 @@ struct HousingMode {
     // Mode of the ring with this number of nodal diameters, which the planets excite as moving
     // loads; without it, the vibration that reaches the sensor excites the mode.
     std::optional<int> nodal_diameters = {};
+    // Participation of the force in the bearing of sun and carrier, 1/kg: product of the mode shape
+    // there and at the first sensor over the modal mass.
+    double sun_bearing_per_kg = 0.0, carrier_bearing_per_kg = 0.0;
 
     bool operator==(const HousingMode&) const = default;
 };
@@ -94,6 +97,9 @@ struct AdditionalSensor {
     // Participation of each of the housing's modes, and measured response at Sensor::response_Hz;
     // empty: as at the first sensor.
     std::vector<double> participation, response_gain, response_phase_deg;
+    // The same for the forces in the bearings of sun and carrier.
+    std::vector<double> sun_bearing_per_kg, sun_response_gain, sun_response_phase_deg;
+    std::vector<double> carrier_bearing_per_kg, carrier_response_gain, carrier_response_phase_deg;
     // Measuring chain of its own (signals/path/measuring_chain.hpp); without a value, that of the
     // first one.
     std::optional<double> sampling_Hz, low_pass_Hz, mounting_Hz;
@@ -115,6 +121,9 @@ struct Sensor {
     double housing_frequency_factor = 1.0;  // on the natural frequencies of the housing
     // Measured frequency response of the housing to the first sensor; may be empty.
     std::vector<double> response_Hz, response_gain, response_phase_rad;
+    // Response at these frequencies to the forces in the bearings of sun and carrier, (m/s^2)/N.
+    std::vector<double> sun_response_gain, sun_response_phase_rad;
+    std::vector<double> carrier_response_gain, carrier_response_phase_rad;
     double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
     std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // in addition; low-pass filtered

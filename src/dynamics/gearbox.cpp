@@ -111,14 +111,15 @@ Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair) {
 }
 
 Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis) {
-    return std::visit(
-        Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
-                       return motions_from_degrees(kind).row(motion_index(planet, source) + axis);
-                   },
-                   [&](const FixedShaftLayout& kind) -> Eigen::VectorXd {
-                       return Eigen::VectorXd::Unit(fixed_shaft_motions, 2 * kind.sensor + axis);
-                   }},
-        layout);
+    return std::visit(Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
+                                     return motions_from_degrees(kind).row(
+                                         source_motion_index(kind.planets, source) + axis);
+                                 },
+                                 [&](const FixedShaftLayout& kind) -> Eigen::VectorXd {
+                                     return Eigen::VectorXd::Unit(fixed_shaft_motions,
+                                                                  2 * kind.sensor + axis);
+                                 }},
+                      layout);
 }
 
 }  // namespace gearpod::dynamics

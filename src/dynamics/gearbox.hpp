@@ -17,8 +17,8 @@ using GearboxInputs = std::variant<PlanetaryInputs, FixedShaftInputs>;
 
 int degrees_of_freedom(const GearboxLayout& layout);
 int pairs(const GearboxLayout& layout);
-// Number of locations whose x and y acceleration the sensor's channels record: the planets, or one
-// bearing.
+// Number of locations whose x and y acceleration the sensor's channels record: the planets (and sun
+// and carrier if the layout says so), or one bearing.
 int sources(const GearboxLayout& layout);
 MeshDamping mesh_damping(const GearboxLayout& layout);
 double mesh_period_s(const GearboxInputs& inputs);

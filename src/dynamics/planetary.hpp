@@ -14,6 +14,7 @@
 #include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/eigen_forward.hpp"
 #include "gears/planetary.hpp"
+#include "machine/dispatch.hpp"
 
 namespace gearpod::dynamics {
 
@@ -22,14 +23,23 @@ struct SpringDamper;
 
 inline constexpr int kMaxPlanets = 8;
 inline constexpr int kMaxPairs = 2 * kMaxPlanets;
+inline constexpr int kBearingSources = 2;  // sun and carrier, after the planets
+inline constexpr int kMaxSources = kMaxPlanets + kBearingSources;
 
 enum class Motion { translational_torsional, torsional };
 
 enum Body { carrier, ring, sun, planet, body_count };
 
 // Index of a body's x motion; y and u follow. n = 0..N-1 for planets.
-inline int motion_index(Body body, int n = 0) {
+GEARPOD_INLINE int motion_index(Body body, int n = 0) {
     return 3 * (body + n);
+}
+
+// Index of the x motion of a source: of planets 1..N, then of sun and carrier.
+GEARPOD_INLINE int source_motion_index(int planets, int source) {
+    return source < planets    ? motion_index(planet, source)
+           : source == planets ? motion_index(sun)
+                               : motion_index(carrier);
 }
 
 // Properties common to all gearboxes of an ensemble.
@@ -45,9 +55,12 @@ struct PlanetaryLayout {
     MeshDamping mesh_damping = MeshDamping::ratio;
     // Working pressure angles in the plane of rotation, if profile shift changes them.
     std::optional<double> sun_working_angle_rad = {}, ring_working_angle_rad = {};
+    // Sun and carrier are sources, too; only in translational motion.
+    bool bearing_sources = false;
 
     int pairs() const { return 2 * planets; }
-    int sources() const { return planets; }  // locations whose acceleration the sensor measures
+    // Locations whose acceleration the sensor measures.
+    int sources() const { return planets + (bearing_sources ? kBearingSources : 0); }
     int motions() const { return 9 + 3 * planets; }
     int degrees_of_freedom() const { return motion == Motion::torsional ? 3 + planets : motions(); }
     // Index of the rotation u of carrier, ring, sun or (planet + n) among the degrees of freedom.

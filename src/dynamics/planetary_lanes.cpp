@@ -12,6 +12,7 @@ template <int W, class Real>
 void set_directions(PlanetaryLanes<W, Real>& lanes, const PlanetaryLayout& layout) {
     const double a_sun = layout.sun_mesh_angle(), a_ring = layout.ring_mesh_angle();
     lanes.planets = layout.planets;
+    lanes.sources = layout.sources();
     lanes.cos_sun_mesh = Real(std::cos(a_sun));
     lanes.cos_ring_mesh = Real(std::cos(a_ring));
     lanes.ring_over_sun_cosine = Real(std::cos(a_ring) / std::cos(a_sun));

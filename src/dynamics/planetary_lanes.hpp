@@ -35,7 +35,7 @@ struct alignas(64) PlanetaryLanes {
     Real cos_ring[kMaxPlanets], sin_ring[kMaxPlanets];
     Real cos_sun_mesh, cos_ring_mesh;  // of the working pressure angles
     Real ring_over_sun_cosine;         // 1 without profile shift
-    int planets;
+    int planets, sources;
 };
 
 // `inputs` holds W gearboxes.

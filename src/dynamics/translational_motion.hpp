@@ -17,13 +17,13 @@ struct TranslationalMotion {
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = 9 + 3 * kMaxPlanets;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
-    static constexpr int kMaxSources = kMaxPlanets;
+    static constexpr int kMaxSources = dynamics::kMaxSources;
     using Lanes = PlanetaryLanes<W, Real>;
     using Mesh = MeshLaw;
     using Pairs = typename Mesh::template Pairs<kMaxPairs, W, Real>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 9 + 3 * p.planets; }
-    static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
+    static GEARPOD_INLINE int sources(const Lanes& p) { return p.sources; }
     static GEARPOD_INLINE const auto& mesh_damping(const Lanes& p, int pair) {
         return p.mesh_damping[pair];
     }
@@ -43,11 +43,11 @@ struct TranslationalMotion {
         }
     }
 
-    // Absolute acceleration of the planets along the carrier frame's axes: [planet][x, y][lane].
+    // Absolute acceleration of the sources along the carrier frame's axes: [source][x, y][lane].
     static GEARPOD_INLINE void source_accelerations(const Lanes& p, const Real* q, const Real* v,
                                                     const Real* a, Real* __restrict out) {
-        for (int n = 0; n < p.planets; ++n) {
-            const int x = (9 + 3 * n) * W;
+        for (int n = 0; n < p.sources; ++n) {
+            const int x = source_motion_index(p.planets, n) * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 const Real w = p.speed[l];

@@ -36,12 +36,14 @@ struct TileSignals {
     int phases = 0;   // P, samples per mesh period, at phases p/P
 
     // Low-pass-filtered accelerations, m/s^2, one array [p][channel][lane] per distinct mesh.
-    // Channels 2n and 2n+1 are the components of planet n's absolute acceleration along the carrier
-    // frame's x and y axes.
+    // Channels 2n and 2n+1 are the components of source n's absolute acceleration along the carrier
+    // frame's x and y axes: of the planets, then of further sources.
     std::vector<const double*> accel;
     std::vector<const double*> te;  // rad, one array [p][lane] per distinct mesh
+    int further_sources = 0;
 
-    int channels() const { return 2 * planets; }
+    int sources() const { return planets + further_sources; }
+    int channels() const { return 2 * sources(); }
     int meshes() const { return static_cast<int>(accel.size()); }
 };
 

@@ -30,6 +30,9 @@ ADDED = {
     "and a mode of the ring": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
                                "participation=1}, {frequency_Hz=520, damping=0.02, participation=1, "
                                "nodal_diameters=2}]"],
+    "and forces in two bearings": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
+                                   "participation=1, sun_bearing_per_kg=0.02, carrier_bearing_per_kg=0.01}, "
+                                   "{frequency_Hz=520, damping=0.02, participation=1}]"],
     "a measured response": ["sensor.response_Hz=[1, 1000]", "sensor.response_gain=[1, 2]",
                             "sensor.response_phase_deg=[0, 90]"],
     "a bearing in the background": [BEARING % "background"],

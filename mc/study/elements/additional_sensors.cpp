@@ -6,10 +6,13 @@
 #include <algorithm>
 
 #include "mc/study/elements/housing_modes.hpp"
+#include "mc/study/housing_bearings.hpp"
 
 namespace gearpod::mc {
 
 namespace {
+
+constexpr Range kGain{.low = 0.0}, kPhase_deg{-1e6, 1e6};
 
 void read_chain(const ListElement& element, AdditionalSensor& sensor) {
     const auto number = [&](const char* name, const Range& range) {
@@ -74,8 +77,13 @@ std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
         sensor.gain = element.number("gain", kAbove0, 1.0);
         sensor.noise = element.number("noise", {.low = 0.0}, 1.0);
         sensor.participation = element.numbers("participation", kParticipation);
-        sensor.response_gain = element.numbers("response_gain", {.low = 0.0});
-        sensor.response_phase_deg = element.numbers("response_phase_deg", {-1e6, 1e6});
+        sensor.response_gain = element.numbers("response_gain", kGain);
+        sensor.response_phase_deg = element.numbers("response_phase_deg", kPhase_deg);
+        for (const HousingBearing& bearing : kHousingBearings) {
+            sensor.*bearing.own_per_kg = element.numbers(bearing.per_kg_name, kParticipation);
+            sensor.*bearing.own_gain = element.numbers(bearing.gain_name, kGain);
+            sensor.*bearing.own_phase_deg = element.numbers(bearing.phase_name, kPhase_deg);
+        }
         read_chain(element, sensor);
         sensors.push_back(sensor);
     }
@@ -84,14 +92,21 @@ std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
 
 std::string sensor_table(const AdditionalSensor& sensor) {
     const auto list = [](const char* name, const std::vector<double>& values) {
-        return values.empty() ? "" : fmt::format(", {} = [{}]", name, fmt::join(values, ", "));
+        return values.empty() ? std::string()
+                              : fmt::format(", {} = [{}]", name, fmt::join(values, ", "));
     };
+    std::string bearings;
+    for (const HousingBearing& bearing : kHousingBearings) {
+        bearings += list(bearing.per_kg_name, sensor.*bearing.own_per_kg) +
+                    list(bearing.gain_name, sensor.*bearing.own_gain) +
+                    list(bearing.phase_name, sensor.*bearing.own_phase_deg);
+    }
     return fmt::format(
-        "{{ name = \"{}\", angle_deg = {}, direction = \"{}\", gain = {}, noise = {}{}{}{}{} }}",
+        "{{ name = \"{}\", angle_deg = {}, direction = \"{}\", gain = {}, noise = {}{}{}{}{}{} }}",
         sensor.name, sensor.angle_deg, kDirections[sensor.tangential ? 1 : 0].text, sensor.gain,
         sensor.noise, list("participation", sensor.participation),
         list("response_gain", sensor.response_gain),
-        list("response_phase_deg", sensor.response_phase_deg), chain_text(sensor));
+        list("response_phase_deg", sensor.response_phase_deg), bearings, chain_text(sensor));
 }
 
 }  // namespace gearpod::mc

@@ -10,6 +10,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_table.hpp"
 #include "mc/study/elements/uff_response.hpp"
+#include "mc/study/housing_bearings.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -66,8 +67,13 @@ Value list_of(const FileColumn& source, std::string_view key, const Position& po
             "{}: of universal files only frequency responses are read, but {} takes other values",
             source.file, key));
     }
+    const bool of_bearing = std::ranges::any_of(kHousingBearings, [&](const auto& bearing) {
+        return key.find(bearing.gain_name) != key.npos || key.find(bearing.phase_name) != key.npos;
+    });
     const std::vector<double> numbers =
-        uff ? uff_response_column(source.file, source.column) : table_column(source);
+        uff ? uff_response_column(source.file, source.column,
+                                  of_bearing ? ResponseTo::force : ResponseTo::acceleration)
+            : table_column(source);
     Value list;
     list.kind = Value::Kind::array;
     list.position = position;

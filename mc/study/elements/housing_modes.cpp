@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mc/study/housing_bearings.hpp"
+
 namespace gearpod::mc {
 
 std::vector<HousingMode> read_housing_modes(const Value& list, const RejectElement& reject) {
@@ -17,16 +19,24 @@ std::vector<HousingMode> read_housing_modes(const Value& list, const RejectEleme
         if (element.has("nodal_diameters")) {
             mode.nodal_diameters = element.integer("nodal_diameters", {0.0, 100.0});
         }
+        for (const HousingBearing& bearing : kHousingBearings) {
+            mode.*bearing.per_kg = element.number(bearing.per_kg_name, kParticipation, 0.0);
+        }
         modes.push_back(mode);
     }
     return modes;
 }
 
 std::string housing_table(const HousingMode& mode) {
-    return fmt::format(
-        "{{ frequency_Hz = {}, damping = {}, participation = {}{} }}", mode.frequency_Hz,
-        mode.damping, mode.participation,
-        mode.nodal_diameters ? fmt::format(", nodal_diameters = {}", *mode.nodal_diameters) : "");
+    std::string more =
+        mode.nodal_diameters ? fmt::format(", nodal_diameters = {}", *mode.nodal_diameters) : "";
+    for (const HousingBearing& bearing : kHousingBearings) {
+        if (mode.*bearing.per_kg != 0.0) {
+            more += fmt::format(", {} = {}", bearing.per_kg_name, mode.*bearing.per_kg);
+        }
+    }
+    return fmt::format("{{ frequency_Hz = {}, damping = {}, participation = {}{} }}",
+                       mode.frequency_Hz, mode.damping, mode.participation, more);
 }
 
 }  // namespace gearpod::mc

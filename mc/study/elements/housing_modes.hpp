@@ -13,7 +13,9 @@ namespace gearpod::mc {
 inline constexpr TableField kHousingFields[] = {{.name = "frequency_Hz", .required = true},
                                                 {.name = "damping", .required = true},
                                                 {.name = "participation", .required = true},
-                                                {"nodal_diameters", TableField::Kind::integer}};
+                                                {"nodal_diameters", TableField::Kind::integer},
+                                                {"sun_bearing_per_kg"},
+                                                {"carrier_bearing_per_kg"}};
 inline constexpr Range kParticipation{-1000.0, 1000.0};
 
 // Problems name the mode by its position in the list.

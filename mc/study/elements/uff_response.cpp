@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
 #include "mc/files/formats/uff_file.hpp"
 #include "mc/files/signal_file.hpp"
@@ -15,8 +16,9 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr int kResponseFunction = 4, kTransmissibility = 5;       // function types
-constexpr int kAnyData = 1, kAcceleration = 12, kFrequency = 18;  // data types; 0: unknown
+constexpr int kResponseFunction = 4, kTransmissibility = 5;  // function types
+constexpr int kAnyData = 1, kAcceleration = 12, kForce = 13,
+              kFrequency = 18;  // data types; 0: unknown
 constexpr const char* kFrequencyColumn = "frequency";
 constexpr const char* kGainColumn = "gain";
 constexpr const char* kPhaseColumn = "phase";
@@ -30,22 +32,31 @@ std::string axis_text(const UffAxis& axis) {
                              : fmt::format("{} in {}", uff_quantity(axis.type), axis.unit);
 }
 
-// Factor of the gain by the units of acceleration above and below the fraction line.
-double unit_ratio(const std::string& path, const UffFunction& function) {
+// Factor that converts a force to N; empty for an unknown unit.
+std::optional<double> force_factor(const std::string& unit) {
+    const std::string plain = plain_unit(unit);
+    return plain == "N" ? std::optional(1.0) : plain == "kN" ? std::optional(1e3) : std::nullopt;
+}
+
+// Factor of the gain by the units above and below the fraction line.
+double unit_ratio(const std::string& path, const UffFunction& function, ResponseTo to) {
     const UffAxis &above = function.ordinate, &below = function.denominator;
     const auto refuse = [&] {
         throw SignalError(fmt::format(
-            "{}: its response is {} over {}; the housing needs acceleration over acceleration",
-            path, axis_text(above), axis_text(below)));
+            "{}: its response is {} over {}; {} needs acceleration over {}", path, axis_text(above),
+            axis_text(below), to == ResponseTo::force ? "a bearing" : "the housing",
+            to == ResponseTo::force ? "force in N or kN" : "acceleration"));
     };
-    if (!is_of_type(above, kAcceleration) || !is_of_type(below, kAcceleration)) {
+    if (!is_of_type(above, kAcceleration) ||
+        !is_of_type(below, to == ResponseTo::force ? kForce : kAcceleration)) {
         refuse();
     }
     if (above.unit.empty() && below.unit.empty()) {
         return 1.0;
     }
     const auto a = unit_factor(Quantity::acceleration, above.unit),
-               b = unit_factor(Quantity::acceleration, below.unit);
+               b = to == ResponseTo::force ? force_factor(below.unit)
+                                           : unit_factor(Quantity::acceleration, below.unit);
     if (!a || !b || above.unit.empty() || below.unit.empty()) {
         refuse();
     }
@@ -71,7 +82,8 @@ std::vector<double> frequencies_of(const std::string& path, const UffFunction& f
 
 }  // namespace
 
-std::vector<double> uff_response_column(const std::string& path, const std::string& column) {
+std::vector<double> uff_response_column(const std::string& path, const std::string& column,
+                                        ResponseTo to) {
     if (const std::string why = why_not_readable(path); !why.empty()) {
         throw SignalError(path + ": " + why);
     }
@@ -96,7 +108,7 @@ std::vector<double> uff_response_column(const std::string& path, const std::stri
         if (!gain && !phase) {
             return frequencies_of(path, response);
         }
-        const double factor = unit_ratio(path, response);
+        const double factor = unit_ratio(path, response, to);
         std::vector<double> all;
         for (std::size_t k = 0; k < response.values.size(); ++k) {
             const std::complex<double> value(response.values[k],

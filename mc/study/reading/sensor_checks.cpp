@@ -2,6 +2,7 @@
 
 #include "features/feature.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/housing.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/reading/parts.hpp"
@@ -113,6 +114,90 @@ void check_tones_and_bearings(StudyDraft& draft) {
                         "of other sources (sensor.bearings, sensor.stages)",
                         draft.study.ensemble.threshold_records),
             "use 1, or remove bearings and stages");
+    }
+}
+
+// Rejects what uses the force in a bearing that the model does not have. `key` and `which` name the
+// place of the statement.
+void check_bearing(StudyDraft& draft, const char* key, const std::string& which,
+                   const HousingBearing& bearing) {
+    const Study& study = draft.study;
+    const std::string_view shaft = member_name(bearing.shaft);
+    if (!draft.all_usable({"gearbox.kind", "effects.motion"})) {
+        return;
+    }
+    if (study.gearbox.kind != GearboxKind::planetary) {
+        draft.reject(key,
+                     fmt::format("{}needs a {}, which this kind of gearbox does not have "
+                                 "(gearbox.kind)",
+                                 which, shaft),
+                     "remove it");
+    } else if (study.effects.torsional()) {
+        draft.reject(key,
+                     fmt::format("{}needs the force in the bearing of the {}, which is rigid in "
+                                 "this model (effects.motion)",
+                                 which, shaft),
+                     "remove it, or use \"translational-torsional\"");
+    } else if (const MemberValues& values = study.gearbox.bodies[bearing.shaft];
+               values.bearing_stiffness_N_m == 0.0 && values.bearing_damping_N_s_m == 0.0) {
+        draft.reject(key,
+                     fmt::format("{}needs the force in the bearing of the {}, which has neither "
+                                 "stiffness nor damping (gearbox.{}_bearing_stiffness_N_m)",
+                                 which, shaft, shaft),
+                     "remove it");
+    }
+}
+
+// Checks what a sensor of its own states about a bearing; `which` names it.
+void check_own_bearing(StudyDraft& draft, const std::string& which, const AdditionalSensor& own,
+                       const HousingBearing& bearing) {
+    constexpr const char* kAdditional = "sensor.additional";
+    const Sensor& s = draft.study.sensor;
+    const auto check = [&](const char* field, const std::vector<double>& values, std::size_t of,
+                           const char* other) {
+        const std::string what = fmt::format("{}: {} ", which, field);
+        if (values.size() != of) {
+            draft.reject(
+                kAdditional,
+                fmt::format("{}has {} values, but {} has {}", what, values.size(), other, of),
+                "give one for each");
+        }
+        check_bearing(draft, kAdditional, what, bearing);
+    };
+    if (!(own.*bearing.own_per_kg).empty()) {
+        check(bearing.per_kg_name, own.*bearing.own_per_kg, s.housing_modes.size(),
+              "sensor.housing_modes");
+    }
+    if (!(own.*bearing.own_gain).empty() || !(own.*bearing.own_phase_deg).empty()) {
+        check(bearing.gain_name, own.*bearing.own_gain, s.response_Hz.size(), "sensor.response_Hz");
+        check(bearing.phase_name, own.*bearing.own_phase_deg, s.response_Hz.size(),
+              "sensor.response_Hz");
+    }
+}
+
+// Checks the responses to the forces in bearings, of the modes and of all sensors. The lists of
+// modes and of additional sensors must have been read without problems.
+void check_bearings_of_housing(StudyDraft& draft, bool modes_usable, bool sensors_usable) {
+    const Sensor& s = draft.study.sensor;
+    for (const HousingBearing& bearing : kHousingBearings) {
+        for (std::size_t i = 0; i < s.housing_modes.size() && modes_usable; ++i) {
+            if (s.housing_modes[i].*bearing.per_kg != 0.0) {
+                check_bearing(draft, "sensor.housing_modes",
+                              fmt::format("mode {}: {} ", i + 1, bearing.per_kg_name), bearing);
+            }
+        }
+        const std::string gain = fmt::format("sensor.{}", bearing.gain_name),
+                          phase = fmt::format("sensor.{}", bearing.phase_name);
+        if (!(s.*bearing.gain).empty() && draft.usable(gain)) {
+            check_count(draft, gain.c_str(), "", (s.*bearing.gain).size(), s.response_Hz.size(),
+                        "sensor.response_Hz");
+            check_count(draft, phase.c_str(), "", (s.*bearing.phase_rad).size(),
+                        s.response_Hz.size(), "sensor.response_Hz");
+            check_bearing(draft, gain.c_str(), "", bearing);
+        }
+        for (std::size_t i = 0; i < s.additional.size() && sensors_usable; ++i) {
+            check_own_bearing(draft, fmt::format("sensor {}", i + 1), s.additional[i], bearing);
+        }
     }
 }
 
@@ -257,7 +342,11 @@ void check_range(StudyDraft& draft) {
 void check_sampling(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
     check_background(draft);
+    const bool modes_usable = draft.usable("sensor.housing_modes"),
+               sensors_usable = draft.usable("sensor.additional") &&
+                                draft.all_usable({"sensor.housing_modes", "sensor.response_Hz"});
     check_housing(draft);
+    check_bearings_of_housing(draft, modes_usable, sensors_usable);
     check_tones_and_bearings(draft);
     check_range(draft);
     for (std::size_t i = 0; i < s.additional.size(); ++i) {

@@ -70,6 +70,11 @@ Presence with_background(const Study&);
 Presence without_response(const Study&);
 Presence with_housing_modes(const Study&);
 Presence response_needs(const Study&);
+// bearing_response: only with sensor.response_Hz, and where sun and carrier move on bearings;
+// sun_phase_needs, carrier_phase_needs: required with the gain, else forbidden.
+Presence bearing_response(const Study&);
+Presence sun_phase_needs(const Study&);
+Presence carrier_phase_needs(const Study&);
 Presence with_bearings(const Study&);  // only with sensor.bearings
 Presence torque_sine(const Study&);    // only with operation.torque_fluctuation
 Presence torque_noise(const Study&);   // only with operation.torque_noise, and then required

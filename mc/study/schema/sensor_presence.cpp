@@ -45,6 +45,23 @@ Presence response_needs(const Study& s) {
                      required_by(kResponse));
 }
 
+Presence bearing_response(const Study& s) {
+    return companion(!s.sensor.response_Hz.empty(), "no response is given", kResponse,
+                     bearings_move(s));
+}
+
+Presence sun_phase_needs(const Study& s) {
+    constexpr std::string_view kGain = "sensor.sun_response_gain";
+    return companion(!s.sensor.sun_response_gain.empty(), "no gain is given", kGain,
+                     required_by(kGain));
+}
+
+Presence carrier_phase_needs(const Study& s) {
+    constexpr std::string_view kGain = "sensor.carrier_response_gain";
+    return companion(!s.sensor.carrier_response_gain.empty(), "no gain is given", kGain,
+                     required_by(kGain));
+}
+
 Presence without_response(const Study& s) {
     return companion(s.sensor.response_Hz.empty(), "a measured response contains the modes",
                      kResponse, acceleration_detail(s));

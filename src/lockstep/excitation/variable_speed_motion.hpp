@@ -66,8 +66,8 @@ struct VariableSpeedTranslational
                                                     const double* v, const double* a,
                                                     const double* row, double* __restrict out) {
         const FrameRotation<W> frame(p, row);
-        for (int n = 0; n < p.planets; ++n) {
-            const int x = (9 + 3 * n) * W, y = x + W;
+        for (int n = 0; n < p.sources; ++n) {
+            const int x = dynamics::source_motion_index(p.planets, n) * W, y = x + W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 out[2 * n * W + l] = a[x + l] - frame.x(l, q[x + l], q[y + l], v[y + l]);

@@ -35,8 +35,8 @@ struct ImplicitLanes {
     int row_entries = 0;
     int row_degree[dynamics::kMaxPairs][kMaxRowEntries] = {};
     double row_weight[dynamics::kMaxPairs][kMaxRowEntries] = {};
-    int source_degree[2 * dynamics::kMaxPlanets] = {};
-    double source_weight[2 * dynamics::kMaxPlanets] = {};
+    int source_degree[2 * dynamics::kMaxSources] = {};
+    double source_weight[2 * dynamics::kMaxSources] = {};
 
     alignas(64) double mesh_period[W] = {};  // s
     alignas(64) double backlash[W] = {};     // m

@@ -19,7 +19,7 @@ struct MatrixMotion {
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = ImplicitLanes<W>::kMaxDegrees;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
-    static constexpr int kMaxSources = dynamics::kMaxPlanets;
+    static constexpr int kMaxSources = dynamics::kMaxSources;
     using Lanes = ImplicitLanes<W>;
     using Mesh = MeshLaw;
     using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;

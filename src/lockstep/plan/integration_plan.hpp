@@ -36,7 +36,7 @@ struct TileState {
 
 // One recorded mesh period.
 // - acceleration: [sample][channel][lane], m/s^2, low-passed. Channels 2n and 2n+1 are the absolute
-//   acceleration of source n (planet, bearing) along x and y.
+//   acceleration of source n (dynamics::sources) along x and y.
 // - te: [sample][lane], rad.
 // - motion: [sample][degree of freedom][lane], m; empty unless requested.
 // - mesh_force: [sample][gear pair][lane], N, springs and mesh damping (MeshForces); empty unless

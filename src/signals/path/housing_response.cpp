@@ -11,8 +11,8 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// H without the measuring chain.
-Complex without_chain(const HousingResponse& response, double f_Hz) {
+// Values of the modes or the measured ones.
+Complex of_housing(const HousingResponse& response, double f_Hz) {
     if (response.measured) {
         return response.measured->at(f_Hz);
     }
@@ -30,8 +30,17 @@ Complex without_chain(const HousingResponse& response, double f_Hz) {
 }  // namespace
 
 Complex HousingResponse::at(double f_Hz) const {
-    const Complex housing = without_chain(*this, f_Hz);
+    Complex housing = of_housing(*this, f_Hz);
+    if (bearing) {
+        // The modes' sum is -A.
+        housing *= (measured ? 1.0 : -1.0) * bearing->force_per_acceleration(f_Hz);
+    }
     return chain ? housing * chain->at(f_Hz) : housing;
+}
+
+Complex BearingSupport::force_per_acceleration(double f_Hz) const {
+    const double w = 2.0 * std::numbers::pi * f_Hz;
+    return f_Hz == 0.0 ? 0.0 : -Complex(stiffness_N_m, w * damping_N_s_m) / (w * w);
 }
 
 Complex MeasuredResponse::at(double f_Hz) const {

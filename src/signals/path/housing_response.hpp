@@ -10,6 +10,16 @@
 // vibration is unchanged. At its natural frequency a mode adds phi / (2 zeta). One mode with phi =
 // 1 is a sensor on a resonant mounting. A measured frequency response is an alternative to modes.
 // The sensor's measuring chain, if it has one of its own, multiplies H.
+//
+// A bearing puts the force F = k u + c u' on the housing, with the displacement u of its shaft
+// along the direction of the sensor, F = -(k + i w c) / w^2 times the acceleration of the shaft, w
+// = 2 pi f. The modal equations give the sensor's acceleration per force, the accelerance (D. J.
+// Ewins, Modal Testing)
+//
+//     A(f) = -sum over the modes of R r^2 / (1 - r^2 + 2 i zeta r),
+//
+// with R the product of the mode shape at the bearing and at the sensor over the modal mass, 1/kg.
+// The response to the acceleration of the shaft is H(f) = -A(f) (k + i w c) / w^2, and 0 at f = 0.
 #pragma once
 
 #include <complex>
@@ -23,7 +33,8 @@
 namespace gearpod::signals {
 
 struct NaturalMode {
-    double frequency_Hz = 0.0, damping = 0.0, participation = 0.0;
+    double frequency_Hz = 0.0, damping = 0.0;
+    double participation = 0.0;  // phi; R for a bearing
 };
 
 // Measured H: complex values between the given frequencies are interpolated linearly, and H is 0
@@ -35,11 +46,22 @@ struct MeasuredResponse {
     std::complex<double> at(double f_Hz) const;
 };
 
+// Bearing in the housing.
+struct BearingSupport {
+    double stiffness_N_m = 0.0, damping_N_s_m = 0.0;  // k and c
+
+    // F at f Hz per acceleration of the shaft, kg.
+    std::complex<double> force_per_acceleration(double f_Hz) const;
+};
+
 struct HousingResponse {
     bool stiff_path = true;  // the 1 in H
     std::vector<NaturalMode> modes;
     std::optional<MeasuredResponse> measured;  // in place of the above
     std::optional<MeasuringChain> chain = {};  // factor on the above
+    // Bearing whose shaft's acceleration is the input. The modes, without stiff path, or the
+    // measured values are then the accelerance.
+    std::optional<BearingSupport> bearing = {};
 
     // H at f Hz.
     std::complex<double> at(double f_Hz) const;

@@ -83,6 +83,12 @@ PathGrid::PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int
              [&](double) { return along_x ? std::pair(1.0, 0.0) : std::pair(0.0, 1.0); });
 }
 
+PathGrid::PathGrid(const BearingSource& bearing, int phases, const SpanLayout& layout,
+                   CarrierSense sense, const SensorPlace& sensor)
+    : PathGrid(path_window("rectangular"), equally_spaced(1), phases, layout, sense, sensor) {
+    first_source_ = bearing.source;
+}
+
 PathGrid::Turn PathGrid::turn_of(const gears::PlanetPlaces& planets, CarrierSense sense,
                                  const SensorPlace& sensor) const {
     // Carrier, planet and sensor angles are whole steps of a turn, so that the wrap is exact.

@@ -50,6 +50,12 @@ struct RingLoad {
     Axis axis = Axis::x;
 };
 
+// Path from one source, a bearing of the housing, of which the whole acceleration reaches the
+// sensor at every carrier angle. Sources are numbered as in TileSignals.
+struct BearingSource {
+    int source = 0;
+};
+
 // Part of the path that all gearboxes of a study share, tabulated at every sample of a carrier
 // turn. At mesh c = 0..M_c - 1 and phase p/P, theta = 2 pi (c + p/P) / M_c, or its negative where
 // the carrier turns in the negative sense. For a stationary carrier theta = 0 at all phases.
@@ -75,10 +81,14 @@ class PathGrid {
     // Path to an elastic ring, whose weights take the place of the window.
     PathGrid(const RingLoad& load, const gears::PlanetPlaces& planets, int phases,
              const SpanLayout& layout, CarrierSense sense, const SensorPlace& sensor);
+    // Path of a bearing, as of a single planet with constant weight.
+    PathGrid(const BearingSource& bearing, int phases, const SpanLayout& layout, CarrierSense sense,
+             const SensorPlace& sensor);
     // Path of equally spaced planets.
     PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout);
 
     int planets() const { return planets_; }
+    int first_source() const { return first_source_; }  // its first planet among the sources
     int phases() const { return phases_; }
     int positions() const { return positions_; }  // M_c
 
@@ -112,6 +122,7 @@ class PathGrid {
                   Weight weight, Direction direction);
 
     int planets_;
+    int first_source_ = 0;
     int phases_;
     int positions_;
     std::vector<double> sine_;

@@ -46,12 +46,12 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
     const int first_mesh = meshes.empty() ? 0 : meshes.front();
     check_tile(tile, timeline);
     if (first < 0 || lanes > tile.lanes - first || first_mesh < 0 ||
-        path.planets() != tile.planets || path.phases() != tile.phases ||
+        path.first_source() + path.planets() > tile.sources() || path.phases() != tile.phases ||
         path.positions() != layout.carrier_meshes) {
         throw std::invalid_argument("sensor signal: tile, path and layout disagree in shape");
     }
     const std::size_t values = static_cast<std::size_t>(tile.phases) * tile.channels();
-    const std::size_t turn = static_cast<std::size_t>(path.positions()) * tile.planets;
+    const std::size_t turn = static_cast<std::size_t>(path.positions()) * path.planets();
     std::vector<double> whole_steps(path.positions() / 2 + 1), of_phase(turn);
     std::vector<double> accel(values * lanes);
     std::vector<std::vector<double>> weight, signal;
@@ -73,8 +73,9 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
             one.path = &path;
             one.carrier = static_cast<int>(k % path.positions());
             one.weight = weight[n].data() +
-                         static_cast<std::size_t>(one.carrier) * tile.phases * tile.planets;
+                         static_cast<std::size_t>(one.carrier) * tile.phases * path.planets();
             one.accel = accel.data() + n * values;
+            one.sources = tile.sources();
             one.tones = table[n].tones() > 0 ? &table[n] : nullptr;
             one.mesh = i;
             one.meshes = mesh_count;

@@ -13,10 +13,12 @@ SensorResponse::SensorResponse(const PathGrid& path, const SpanLayout& layout, c
       lanes_(static_cast<std::size_t>(tile.lanes)),
       te_phases_(tile.te_phases),
       kept_meshes_(tile.kept_meshes),
-      signal_meshes_(tile.signal_meshes) {
+      signal_meshes_(tile.signal_meshes),
+      sources_(tile.sources > 0 ? tile.sources : path.planets()) {
     if (!machine::is_lane_count(tile.lanes) || tile.exponents.size() != lanes_ || te_phases_ < 1 ||
         path.phases() % te_phases_ != 0 || path.positions() != layout.carrier_meshes ||
-        kept_meshes_ > signal_meshes_ || signal_meshes_ < layout.meshes()) {
+        kept_meshes_ > signal_meshes_ || signal_meshes_ < layout.meshes() ||
+        path.first_source() + path.planets() > sources_) {
         throw std::invalid_argument("sensor response: tile, path and layout disagree in shape");
     }
     const auto positions = static_cast<std::size_t>(path.positions());
@@ -55,6 +57,7 @@ void SensorResponse::record_mesh(int k, const double* accel, const double* te) {
     mesh.weight = weight_.data() + static_cast<std::size_t>(mesh.carrier) * samples(1) *
                                        static_cast<std::size_t>(path_->planets());
     mesh.accel = accel;
+    mesh.sources = sources_;
     mesh.tones = tones_ ? &*tones_ : nullptr;
     mesh.mesh = k;
     mesh.meshes = signal_meshes_;

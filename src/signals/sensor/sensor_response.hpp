@@ -23,6 +23,7 @@ class SensorResponse {
         int signal_meshes = 0;              // number of meshes of the signal
         int kept_meshes = 0;                // number of first meshes whose samples are kept
         bool keeps_te = false;              // true if those of the transmission error are kept, too
+        int sources = 0;  // recorded sources (TileSignals); 0: the planets of the path
     };
 
     // `path` must outlive the object. Throws std::invalid_argument if the shapes disagree.
@@ -51,7 +52,7 @@ class SensorResponse {
     const int phases_;
     const SpanLayout layout_;
     const std::size_t lanes_;
-    const int te_phases_, kept_meshes_, signal_meshes_;
+    const int te_phases_, kept_meshes_, signal_meshes_, sources_;
     machine::AlignedVector weight_, folded_, te_, signal_, te_signal_, discarded_;
     std::optional<ToneTable> tones_;
 };

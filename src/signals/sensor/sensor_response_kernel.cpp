@@ -48,10 +48,12 @@ GEARPOD_INLINE void add_tones_of_phase(const SensorResponseArguments& a, long p,
 template <int N, int W>
 GEARPOD_INLINE void compute_mesh_response(const SensorResponseArguments& a) {
     const PathGrid& path = *a.path;
+    const double* const first = a.accel + 2L * path.first_source() * W;
+    const long row = 2L * a.sources * W;
     for (long p = 0; p < path.phases(); ++p) {
         const long place = p * path.positions() + a.carrier;
         const double sine = path.sine()[place], cosine = path.cosine()[place];
-        const double* __restrict accel = a.accel + p * 2 * N * W;
+        const double* __restrict accel = first + p * row;
         const double* __restrict weight = a.weight + p * N * W;
         double* __restrict y = a.signal + p * W;
 #pragma omp simd

@@ -22,6 +22,7 @@ struct SensorResponseArguments {
     const PathGrid* path = nullptr;
     const double* weight = nullptr;    // at its carrier index, [p][n][lane]
     const double* accel = nullptr;     // [p][channel][lane]
+    int sources = 0;                   // two channels each; the path's begin with its first source
     const ToneTable* tones = nullptr;  // null without tones
     int mesh = 0;                      // index of the mesh in `tones`, which has `meshes` meshes
     int meshes = 0;

@@ -13,7 +13,7 @@ namespace {
 void check_shapes(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
                   std::size_t exponents) {
     check_tile(tile, {0, plan.largest_mesh()});
-    if (path.planets() != tile.planets || path.phases() != tile.phases ||
+    if (path.planets() != tile.sources() || path.phases() != tile.phases ||
         path.positions() != plan.layout().carrier_meshes ||
         exponents != static_cast<std::size_t>(tile.lanes)) {
         throw std::invalid_argument(

@@ -1,4 +1,6 @@
 // Superposition of gearboxes with real teeth, compared with full integration.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -90,6 +92,27 @@ TEST_CASE("Superposed gearboxes with real teeth, healthy and cracked, equal full
         for (std::size_t row = 0; row < few.status.size(); ++row) {
             CHECK(few.features[f].values[row] == Approx(all.features[f].values[row]).epsilon(1e-6));
         }
+    }
+}
+
+TEST_CASE("Superposed forces in the bearings of sun and carrier equal those of full integration") {
+    const std::vector<std::string> heavy{
+        "random.operation.torque_N_m={distribution=\"uniform\",low=6000,high=6500}"};
+    const auto with = [&](double per_kg) {
+        std::vector<std::string> all = heavy;
+        all.push_back(
+            fmt::format("sensor.housing_modes=[{{frequency_Hz=300, damping=0.03, "
+                        "participation=0.1, sun_bearing_per_kg={0}, "
+                        "carrier_bearing_per_kg=-{0}}}]",
+                        per_kg));
+        return all;
+    };
+    const Tile superposed(study_with("superposed", with(0.05))),
+        integrated(study_with("full", with(0.05))), without(study_with("full", with(0.0)));
+    CHECK(superposed->superposition_fallbacks == 0);
+    for (const int lane : {0, 7}) {
+        CHECK(relative_rms(superposed.sensor(lane), integrated.sensor(lane)) < 1e-8);
+        CHECK(relative_rms(superposed.sensor(lane), without.sensor(lane)) > 0.1);
     }
 }
 

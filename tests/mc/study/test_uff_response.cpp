@@ -105,6 +105,32 @@ TEST_CASE("Units above and below the fraction line are converted") {
           Approx(9.80665 * std::abs(response_at(kStep_Hz))).epsilon(1e-9));
 }
 
+TEST_CASE("Responses of bearings are accelerations over forces") {
+    const Folder folder;
+    const auto gain = [&](const std::string& text) {
+        return mc::uff_response_column(file_of(folder, text), "gain", mc::ResponseTo::force);
+    };
+    const double expected = std::abs(response_at(kStep_Hz));
+    CHECK(gain(dataset({.below = 13, .below_unit = "N"}))[1] == Approx(expected).epsilon(1e-9));
+    CHECK(gain(dataset({.below = 13, .above_unit = "g", .below_unit = "kN"}))[1] ==
+          Approx(9.80665e-3 * expected).epsilon(1e-9));
+    CHECK_THROWS_WITH(gain(dataset({})), Contains("a bearing needs acceleration over force"));
+    CHECK_THROWS_WITH(gain(dataset({.below = 13, .below_unit = "lbf"})),
+                      Contains("excitation force in lbf"));
+    const std::string path = file_of(folder, dataset({.below = 13, .below_unit = "N"}));
+    const auto column = [&](const std::string& name) {
+        return "{file='" + path + "', column='" + name + "'}";
+    };
+    const auto reading =
+        mc::read_study(test::kSmall, {"sensor.response_Hz=" + column("frequency"),
+                                      "sensor.response_gain=" + column("gain"),
+                                      "sensor.sun_response_gain=" + column("gain"),
+                                      "sensor.sun_response_phase_deg=" + column("phase")});
+    // Only the response of the housing needs a ratio of accelerations.
+    CHECK(mc::format(reading.problems).find("the housing needs") != std::string::npos);
+    CHECK(mc::format(reading.problems).find("a bearing needs") == std::string::npos);
+}
+
 TEST_CASE("Responses that are no ratio of accelerations are refused with the reason") {
     const Folder folder;
     const auto refused = [&](const std::string& text, const std::string& column,
