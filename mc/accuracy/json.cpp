@@ -43,7 +43,7 @@ Json setting_json(const AccuracyReport& report, const SettingResult& r) {
     }
     row.update({{"steps", r.steps},
                 {"settle_tolerance", r.setting.numerics.convergence_tolerance},
-                {"meshes_marched", r.meshes},
+                {"integrated_meshes", r.meshes},
                 {"failed", r.failed},
                 {"gearbox_s", r.integration_s},
                 {"gearbox_median_s", r.integration_median_s},

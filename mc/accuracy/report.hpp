@@ -127,8 +127,8 @@ std::string accuracy_headline(const AccuracyReport& report);
 std::string accuracy_text(const AccuracyReport& report);
 std::string accuracy_json(const AccuracyReport& report, const Study& study);
 
-// Reads a table of other programs' results (CSV: name, command, march_s, mesh_s, sensor, te, then
-// features by name). Throws std::runtime_error with file, line and problem.
+// Reads a table of other programs' results (CSV: name, command, integration_s, mesh_s, sensor, te,
+// then features by name; march_s is the former name of integration_s). Throws std::runtime_error with file, line and problem.
 std::vector<PeerResult> read_peers(const std::string& path);
 
 }  // namespace gearpod::mc

@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-PHASES = ["sampling", "stiffness", "march", "signals", "noise", "features", "output"]
+PHASES = ["sampling", "stiffness", "integration", "signals", "noise", "features", "output"]
 
 
 def processor_s() -> float:

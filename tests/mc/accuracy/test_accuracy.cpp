@@ -226,7 +226,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     const test::Folder folder;
     test::write_bytes(
         folder.file("peers.csv"),
-        "name,command,march_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
+        "name,command,integration_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
     const test::Outcome run = test::program(
         "accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
         " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " + folder.file("peers.csv") +
