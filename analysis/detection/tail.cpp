@@ -20,7 +20,7 @@ constexpr double kLargestShapeOverScale = 3.0, kLogScales = 2.0;
 constexpr int kTailNodes = 81;
 constexpr double kReach = 6.0;  // standard deviations of the posterior covered by the nodes
 
-// Survival function at x, with shape = pace * scale.
+// Survival function at x, with shape = shape_over_scale * scale.
 double survival_function(double shape_over_scale, double scale, double x) {
     const double argument = shape_over_scale * x;
     if (argument <= -1.0) {
@@ -111,7 +111,7 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     for (double& value : excess) {
         value /= unit_;
     }
-    // The distribution must extend beyond the largest value: 1 + pace * largest > 0.
+    // The distribution must extend beyond the largest value: 1 + shape_over_scale * largest > 0.
     const double least = -1.0 / *std::max_element(excess.begin(), excess.end());
     nodes_ = posterior(excess, least, kLargestShapeOverScale, -kLogScales, kLogScales);
     const Moments shape_over_scale =
@@ -126,7 +126,7 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     scale_ = unit_ * moments(nodes_, [](const Node& node) { return node.scale; }).mean;
 }
 
-// In pace and log scale, the sum over the excesses depends on the pace alone. The prior is then
+// In shape_over_scale and log scale, the sum over the excesses depends on shape_over_scale alone. The prior is then
 // scale / ((1 + shape) sqrt(1 + 2 shape)).
 std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
                                               double shape_over_scale_low,
@@ -138,7 +138,7 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
     std::vector<double> logs;
     double most = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < kTailNodes; ++i) {
-        // Midpoints, because the likelihood is 0 at the smallest pace.
+        // Midpoints, because the likelihood is 0 at the smallest shape_over_scale.
         const double shape_over_scale =
             shape_over_scale_low +
             (i + 0.5) / kTailNodes * (shape_over_scale_high - shape_over_scale_low);

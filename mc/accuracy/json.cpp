@@ -78,7 +78,7 @@ Json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
     return row;
 }
 
-Json effect_json(const AccuracyReport& report, const EffectPrice& e) {
+Json effect_json(const AccuracyReport& report, const MeasuredEffectCost& e) {
     Json row{{"effect", e.effect}, {"in_study", e.in_study}};
     if (!e.refusal.empty()) {
         row["refused"] = e.refusal;
@@ -143,7 +143,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     for (const ChoiceCheck& check : report.choices) {
         all["choices"].push_back(choice_json(report, check));
     }
-    for (const EffectPrice& effect : report.effects) {
+    for (const MeasuredEffectCost& effect : report.effects) {
         all["effects"].push_back(effect_json(report, effect));
     }
     const StabilityMap& map = report.stability;

@@ -2,7 +2,7 @@
 //
 //   /                      attributes: format, format_version and the provenance
 //   /instances/<parameter> one value per row, attribute `unit`
-//   /instances/group       0 threshold sample, 1 graded, 2 neither (recordings of unknown state)
+//   /instances/group       0 threshold sample, 1 test gearbox, 2 neither (recordings of unknown state)
 //   /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
 //   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
 //                          contact loss ratio. Absent if teeth cannot lose contact, and in files
@@ -106,7 +106,7 @@ struct Variant {
 // Beginning of the names of variants that are measured by additional sensors.
 inline const std::string kSensorVariant = "sensor_";
 // Name of the variant in which the healthy gearboxes of the threshold group have another fault than
-// that of the study (SourceRole::other_fault). Its values are NaN for graded gearboxes.
+// that of the study (SourceRole::other_fault). Its values are NaN for test gearboxes.
 inline constexpr const char* kOtherFault = "other_fault";
 
 struct Timing {
@@ -167,7 +167,7 @@ struct StepError {
 };
 
 // Results of an ensemble. A row is a gearbox, or in the threshold group a record of one. The
-// threshold group comes first, then the graded group.
+// threshold group comes first, then the test group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
     // Writer and reader handle the format and format_version themselves.

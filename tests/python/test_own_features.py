@@ -224,7 +224,7 @@ class OwnFeatures(PythonStudyCase):
                   "    return record.torque_Nm\n")
         out = self.run_study(self.study(source), "a.h5")
         self.assertRegex(self.output, r"own\.py:5: ValueError: torque is high \(fragile, "
-                                      r"(healthy|graded) gearbox \d+, row \d+ of the results, "
+                                      r"(healthy|test) gearbox \d+, row \d+ of the results, "
                                       r"noise x 1\)")
         self.assertEqual(self.output.count("ValueError"), 1)
         values = self.values(out)["fragile"]

@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mc/accuracy/effect_prices.hpp"
+#include "mc/accuracy/measured_effect_costs.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
@@ -313,7 +313,7 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     CHECK(headline.find(": 2 ms of integration.") != std::string::npos);
 }
 
-TEST_CASE("the price of an effect is the change of the pilot without it", "[accuracy]") {
+TEST_CASE("the cost of an effect is the change of the pilot without it", "[accuracy]") {
     const Study study = tian({"effects.shear=true"});
     AccuracyRequest request;
     request.repeats = 1;
@@ -323,7 +323,7 @@ TEST_CASE("the price of an effect is the change of the pilot without it", "[accu
     const Scene own(study);
     measure_effects(own, request, TimeBudget(0.0), report);
     const auto shear =
-        std::ranges::find(report.effects, "shear of the teeth", &EffectPrice::effect);
+        std::ranges::find(report.effects, "shear of the teeth", &MeasuredEffectCost::effect);
     REQUIRE(shear != report.effects.end());
     CHECK(shear->in_study);
     CHECK(shear->time_ratio > 0.0);
@@ -338,7 +338,7 @@ TEST_CASE("the price of an effect is the change of the pilot without it", "[accu
     // in a plane.
     for (const char* absent : {"tooth errors", "pin errors", "inertial terms"}) {
         INFO(absent);
-        CHECK(std::ranges::find(report.effects, absent, &EffectPrice::effect) ==
+        CHECK(std::ranges::find(report.effects, absent, &MeasuredEffectCost::effect) ==
               report.effects.end());
     }
 
