@@ -86,7 +86,7 @@ Json effect_json(const AccuracyReport& report, const MeasuredEffectCost& e) {
     }
     row["time_ratio"] = e.time_ratio;
     row["change"] = errors(report, e.change);
-    row["called_for"] = report.matters(e.change);
+    row["needed"] = report.matters(e.change);
     return row;
 }
 
@@ -138,7 +138,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
                {"gearbox_s", e.integration_s()},
                {"refused", e.refused}}}};
     for (const SettingResult& setting : report.settings) {
-        all["rungs"].push_back(setting_json(report, setting));
+        all["settings"].push_back(setting_json(report, setting));
     }
     for (const ChoiceCheck& check : report.choices) {
         all["choices"].push_back(choice_json(report, check));

@@ -19,7 +19,7 @@
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /numerical/<feature>/  after verification: rms, largest (levels), the changes of the feature in
 //                          some gearboxes with finer steps; after numerics.paired_gearboxes also
-//                          PairedCorrection (levels); attributes of /numerical: rung, finer,
+//                          PairedCorrection (levels); attributes of /numerical: setting, finer,
 //                          gearboxes, healthy_pairs, faulty_pairs
 //   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)

@@ -13,7 +13,7 @@ STYLES = {"double": "-", "single": (0, (4, 2)), "graded": (0, (1, 1)),
 class Accuracy:
     def __init__(self, data):
         self.data = data
-        rows = data["rungs"]
+        rows = data["settings"]
         self.measured = [row for row in rows if "refused" not in row]
         self.refused = [row for row in rows if "refused" in row]
         # Curves: settings with the tightest convergence, by integrator, precision and grid.
@@ -239,7 +239,7 @@ def _effects(report, page):
             (number(row["time_ratio"]),
              *(number(row["change"][name], 2) for name in ("sensor", "worst_feature",
                                                            "worst_of_scatter")),
-             "yes" if row["called_for"] else "no"))] for row in rows])
+             "yes" if row["needed"] else "no"))] for row in rows])
     return page.figure("Change of the features by each effect", charts,
                        "An effect is needed if it changes a feature by more than "
                        f"{report.data['share_of_scatter']:g} of its scatter between healthy "

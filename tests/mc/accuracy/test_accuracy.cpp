@@ -242,7 +242,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     CHECK(json["peers"][0]["worst_feature"].get<double>() == 0.3);
     std::vector<std::pair<double, double>> frontier;
     double fastest = 1e9, closest = 1e9;
-    for (const auto& solver_setting : json["rungs"]) {
+    for (const auto& solver_setting : json["settings"]) {
         // A solver setting may be unstable: then it has no error.
         if (solver_setting.contains("refused") ||
             solver_setting["error"]["worst_feature"].is_null()) {
