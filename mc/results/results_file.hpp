@@ -2,8 +2,8 @@
 //
 //   /                      attributes: format, format_version and the provenance
 //   /instances/<parameter> one value per row, attribute `unit`
-//   /instances/group       0 threshold sample, 1 test gearbox, 2 neither (recordings of unknown state)
-//   /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
+//   /instances/group       0 threshold sample, 1 test gearbox, 2 neither (recordings of unknown
+//   state) /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
 //   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
 //                          contact loss ratio. Absent if teeth cannot lose contact, and in files
 //                          of versions before 0.3
@@ -150,7 +150,7 @@ inline constexpr PairedCorrectionNumber kPairedCorrectionNumbers[] = {
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
     std::string setting, finer;  // solver settings of both integrations
-    int gearboxes = 0;           // graded ones, of which `rms` and `largest` are
+    int gearboxes = 0;           // test gearboxes of which `rms` and `largest` are
     // [feature * noise levels + level], in the feature's unit.
     std::vector<double> rms, largest;
     // After numerics.paired_gearboxes: number of healthy and of faulty ones; the same shape.
