@@ -163,7 +163,7 @@ TEST_CASE("the numerical error from finer steps equals the error against a refer
     CHECK_FALSE(find_numerical_error(Scene(tian())).has_value());
 }
 
-TEST_CASE("the share of verdicts that the numerical error could change is counted", "[accuracy]") {
+TEST_CASE("the share of decisions that the numerical error could change is counted", "[accuracy]") {
     Results r;
     r.parameters = {{"fault_depth_m", "m", {}}};
     r.noise_levels = {1.0};
@@ -185,7 +185,7 @@ TEST_CASE("the share of verdicts that the numerical error could change is counte
     level.threshold = 0.955;
     level.cells = {{{0.001, 0.001}, 100, 54, 0, 0.54, 0.44, 0.64, {}}};
     r.detection = {{"te_rms", analysis::Alarm::high, {level}, {}}};
-    // Verdicts within 2 x 0.01 of 0.955: 0.94, 0.95, 0.96 and 0.97.
+    // Decisions within 2 x 0.01 of 0.955: 0.94, 0.95, 0.96 and 0.97.
     r.numerical = NumericalError{"here", "finer", 8, {0.004}, {0.01}};
     const auto shares = numerical_contributions(r, ColumnRows(r), std::nullopt);
     REQUIRE(shares.size() == 1);
