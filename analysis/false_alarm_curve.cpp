@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTargetPod = 0.9;
 
-// Graded gearboxes with a value, by size: rows are sorted once for all thresholds.
+// Test gearboxes with a value, by size: rows are sorted once for all thresholds.
 struct GradedRows {
     std::vector<double> size, value;
     Alarm alarm;

@@ -1,6 +1,6 @@
 // Detectable size against false-alarm rate: a90 at thresholds for rates from 0.1 down to 1e-6, as
 // far as the healthy sample supports them (detection/tail.hpp). Also the threshold of least
-// expected cost, where an alarm and a miss have a price.
+// expected cost, where an alarm and a miss have a cost.
 #pragma once
 
 #include <array>

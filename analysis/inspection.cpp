@@ -166,7 +166,7 @@ void add_hit_miss(const Inspections& data, const InspectionRequest& request,
             result.hits_above += outcome.size >= bound.size && outcome.hit;
         }
         const double both_sides = std::max(1e-6, 2.0 * request.confidence - 1.0);
-        result.demonstrated =
+        result.demonstrated_pod =
             clopper_pearson_interval(result.hits_above, result.tests_above, both_sides).lower;
     }
 }

@@ -46,6 +46,7 @@ struct InspectionRequest {
     std::optional<double> threshold;        // none: derived from false_call_rate
     std::optional<double> false_call_rate;  // sets the threshold if none is given
     CensoringLimits limits;
+    // Box-Cox exponents of the response to try: 1 linear, 0 logarithm.
     std::vector<double> powers = {1.0, 0.0};
     bool accept_failed_checks = false;
 };
@@ -60,7 +61,7 @@ struct TradeOffPoint {
 struct InspectionResult {
     std::string refusal;  // reason why there is no result, or ""
     HitMissTable table;
-    bool once_per_specimen = false;  // the table divides specimens over their repeats
+    bool once_per_specimen = false;  // every specimen counts once, its repeats sharing its weight
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
     // Curve where no line through the responses passes the checks; needs default bounds and
@@ -76,7 +77,7 @@ struct InspectionResult {
     // Flaws of at least the upper bound of a90, hits among them, and the lower bound of their POD
     // without a curve (Clopper-Pearson). 0 tests without a bound, and with repeats.
     long tests_above = 0, hits_above = 0;
-    double demonstrated = 0.0;
+    double demonstrated_pod = 0.0;
     // Number of specimens of one size that must all be found to demonstrate Pd 0.9 at the
     // confidence.
     long all_found = 0;

@@ -24,7 +24,7 @@ std::vector<double> column(std::span<const double> values, std::size_t level, st
 struct LevelValues {
     std::vector<double> healthy, faulty;       // for AUC and ranking
     std::vector<double> thresholds;            // of the threshold sample
-    std::vector<double> graded;                // all graded gearboxes in order
+    std::vector<double> graded;                // all test gearboxes in order
     std::vector<std::vector<double>> by_size;  // faulty gearboxes by size group
 };
 

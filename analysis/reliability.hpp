@@ -80,7 +80,7 @@ struct ReliabilityData {
     std::span<const double> healthy_size;  // threshold sample
     std::span<const double> graded_size;
     std::vector<FeatureColumns> features;
-    std::vector<InputColumn> inputs;         // inputs of the graded gearboxes
+    std::vector<InputColumn> inputs;         // inputs of the test gearboxes
     std::vector<InputColumn> uncertain;      // epistemic inputs among them (uncertain_inputs.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
@@ -90,7 +90,7 @@ struct ReliabilityData {
 };
 
 // Evaluates all features. `detections` are the results of detect() in the order of data.features.
-// Healthy gearboxes are the threshold sample and the graded ones of size 0. Results do not depend
+// Healthy gearboxes are the threshold sample and the test gearboxes of size 0. Results do not depend
 // on the number of threads.
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,

@@ -1,4 +1,4 @@
-# Where an installed program and what it needs lie; nothing of it knows the prefix, which may move.
+# Places of an installed program and its files. They are independent of the prefix, which may move.
 install(TARGETS gearpod RUNTIME)
 set(share ${CMAKE_INSTALL_DATADIR}/gearpod)
 install(DIRECTORY studies/ DESTINATION ${share}/studies

@@ -134,7 +134,7 @@ void state_facts(Section& section, const ComparedResults& results, std::size_t f
     const std::string key = fmt::format("about.{}.", f);
     section.state(key + "pairs",
                   file.unpaired.empty()
-                      ? fmt::format("On {} graded gearboxes that are the same in both; differences "
+                      ? fmt::format("On {} test gearboxes that are the same in both; differences "
                                     "are taken gearbox by gearbox.",
                                     file.pairs)
                       : fmt::format("Different gearboxes ({}), compared as independent samples.",

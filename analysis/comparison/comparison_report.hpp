@@ -27,7 +27,7 @@ struct ComparedFile {
     std::vector<bool> without_threshold;
     std::string shortage;  // result of sample_shortage()
     // Comparison with A; empty for A itself.
-    long pairs = 0;                      // number of graded gearboxes common to both
+    long pairs = 0;                      // number of test gearboxes common to both
     std::string unpaired;                // reason why gearboxes are not paired, or ""
     std::vector<std::string> differing;  // inputs whose values differ in the pairs
     std::vector<std::string> left_out;   // features that only one of the two files has

@@ -36,12 +36,12 @@ double a90_of(const HitMissTable& table, const PodForm& form) {
 }  // namespace
 
 std::vector<int> bootstrap_counts(std::size_t count, std::mt19937_64& engine) {
-    std::vector<int> times(count, 0);
+    std::vector<int> counts(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         // Upper half of the product: uniform to count / 2^32, and the same with every library.
-        ++times[static_cast<std::size_t>((engine() >> 32) * count >> 32)];
+        ++counts[static_cast<std::size_t>((engine() >> 32) * count >> 32)];
     }
-    return times;
+    return counts;
 }
 
 Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
@@ -60,32 +60,32 @@ Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
             graded_.push_back({graded_size[i], sign_ * graded[i], i, group[i]});
         }
     }
-    std::sort(graded_.begin(), graded_.end(), [](const Graded& a, const Graded& b) {
+    std::sort(graded_.begin(), graded_.end(), [](const TestValue& a, const TestValue& b) {
         return a.size != b.size ? a.size < b.size : a.gearbox < b.gearbox;
     });
 }
 
-double Resampling::threshold(const std::vector<int>& times) const {
+double Resampling::threshold(const std::vector<int>& counts) const {
     long sample = 0, passed = 0;
     for (const auto& [value, gearbox] : healthy_) {
-        sample += times[gearbox];
+        sample += counts[gearbox];
     }
     const long rank = threshold_rank(sample, false_alarm_rate_);
     for (const auto& [value, gearbox] : healthy_) {
-        passed += times[gearbox];
+        passed += counts[gearbox];
         if (passed >= rank) {
             return value;
         }
     }
-    return tail_reaches(sample, false_alarm_rate_) ? beyond(times, sample) : kNan;
+    return tail_reaches(sample, false_alarm_rate_) ? beyond(counts, sample) : kNan;
 }
 
-double Resampling::beyond(const std::vector<int>& times, long sample) const {
+double Resampling::beyond(const std::vector<int>& counts, long sample) const {
     const auto needed = static_cast<std::size_t>(exceedances_of(sample)) + 1;
     std::vector<double> largest;
     for (auto at = healthy_.rbegin(); at != healthy_.rend() && largest.size() < needed; ++at) {
         const auto left = needed - largest.size();
-        largest.insert(largest.end(), std::min<std::size_t>(left, times[at->second]), at->first);
+        largest.insert(largest.end(), std::min<std::size_t>(left, counts[at->second]), at->first);
     }
     std::reverse(largest.begin(), largest.end());
     const TailFit tail(largest, sample);
@@ -97,7 +97,7 @@ ResampledDetection Resampling::detect(const std::vector<int>& healthy,
     const double limit = threshold(healthy);
     std::vector<double> tested(groups_, 0.0), found(groups_, 0.0);
     HitMissTable table;
-    for (const Graded& row : graded_) {
+    for (const TestValue& row : graded_) {
         const double weight = graded[row.gearbox];
         const double hits = row.value > limit ? weight : 0.0;
         if (row.group != kNoGroup) {

@@ -35,18 +35,18 @@ class Resampling {
                               const PodForm* form) const;
 
   private:
-    struct Graded {
+    struct TestValue {
         double size, value;
         std::size_t gearbox, group;
     };
-    double threshold(const std::vector<int>& times) const;
-    double beyond(const std::vector<int>& times, long sample) const;
+    double threshold(const std::vector<int>& counts) const;
+    double beyond(const std::vector<int>& counts, long sample) const;
 
     double sign_;  // factor that makes large values alarm
     double false_alarm_rate_;
     std::size_t groups_;
     std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending
-    std::vector<Graded> graded_;                           // ascending size
+    std::vector<TestValue> graded_;                        // ascending size
 };
 
 }  // namespace gearpod::analysis

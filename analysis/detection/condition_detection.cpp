@@ -50,7 +50,7 @@ void warn(const ConditionLevel& level, const ConditionColumn& column,
     }
     if (level.without > 0) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} graded gearboxes have a value of {} without a "
+            fmt::format("noise level {:g}: {} test gearboxes have a value of {} without a "
                         "threshold and are not counted",
                         level.noise_level, level.without, column.name));
     }

@@ -23,7 +23,7 @@ struct ConditionLevel {
     double noise_level = 0.0;
     std::vector<ConditionThreshold> thresholds;  // by ascending condition
     std::vector<DetectionCell> cells;  // every gearbox against the threshold of its condition
-    long without = 0;  // graded gearboxes whose condition has no threshold; they are in no cell
+    long without = 0;  // test gearboxes whose condition has no threshold; they are in no cell
 };
 
 struct ConditionDetection {

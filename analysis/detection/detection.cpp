@@ -50,7 +50,7 @@ double finite_median(std::vector<double> values) {
     return values.empty() ? kNan : machine::upper_median(values);
 }
 
-// Cell of the graded gearboxes without a fault, or nullptr.
+// Cell of the test gearboxes without a fault, or nullptr.
 const DetectionCell* healthy_cell(const LevelDetection& level) {
     return !level.cells.empty() && level.cells.front().size.high == 0.0 ? &level.cells.front()
                                                                         : nullptr;
@@ -142,7 +142,7 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
         !(clopper_pearson_interval(healthy->detected, healthy->tested, request.confidence).lower <=
           level.threshold_rate.upper)) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} graded healthy records alarm, more than the "
+            fmt::format("noise level {:g}: {} of {} healthy test records alarm, more than the "
                         "threshold's interval allows",
                         level.noise_level, healthy->detected, healthy->tested));
     }
@@ -179,7 +179,7 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
                                                      healthy->tested, kSurprising);
     if (expected.lower > rate || expected.upper < rate) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} graded healthy records alarm, which does not "
+            fmt::format("noise level {:g}: {} of {} healthy test records alarm, which does not "
                         "agree with a false-alarm rate of {:g} even within the threshold's "
                         "uncertainty (expected rate in [{:.2g}, {:.2g}])",
                         level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,

@@ -67,11 +67,11 @@ struct LevelDetection {
     // Interval of the false-alarm rate of this threshold from the healthy sample alone, whatever
     // the feature's distribution (false_alarm_rate.hpp, tail.hpp).
     Interval threshold_rate = {};
-    // False-alarm rate of this threshold with the graded healthy gearboxes included, its interval,
+    // False-alarm rate of this threshold with the healthy test gearboxes included, its interval,
     // and the interval of the expected rate over repeated studies, threshold scatter included. The
-    // last is NaN without graded healthy gearboxes and for an extrapolated threshold. Where healthy
+    // last is NaN without healthy test gearboxes and for an extrapolated threshold. Where healthy
     // values tie with the threshold, only the upper bound of threshold_rate is valid,
-    // healthy_rate_bounds is the Clopper-Pearson interval of the graded gearboxes and expected_rate
+    // healthy_rate_bounds is the Clopper-Pearson interval of the test gearboxes and expected_rate
     // is NaN.
     double healthy_rate = 0.0;
     Interval healthy_rate_bounds = {};

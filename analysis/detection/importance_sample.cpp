@@ -80,31 +80,31 @@ ImportanceSample::ImportanceSample(std::span<const double> values, std::span<con
         }
         for (std::size_t i = first; finite > 0 && i < end; ++i) {
             if (std::isfinite(values[i])) {
-                falling_.push_back({sign_ * values[i],
-                                    weights[i] / static_cast<double>(end - first),
-                                    static_cast<std::size_t>(gearboxes_)});
+                descending_.push_back({sign_ * values[i],
+                                       weights[i] / static_cast<double>(end - first),
+                                       static_cast<std::size_t>(gearboxes_)});
             }
         }
         records_ += finite;
         gearboxes_ += finite > 0 ? 1 : 0;
         first = end;
     }
-    std::stable_sort(falling_.begin(), falling_.end(),
+    std::stable_sort(descending_.begin(), descending_.end(),
                      [](const Record& a, const Record& b) { return a.value > b.value; });
     double sum = 0.0;
     cumulative_.push_back(0.0);
-    for (const Record& record : falling_) {
+    for (const Record& record : descending_) {
         sum += record.share / static_cast<double>(gearboxes_);
         cumulative_.push_back(sum);
     }
 }
 
-std::size_t ImportanceSample::beyond(double rate) const {
+std::size_t ImportanceSample::count_beyond(double rate) const {
     auto count = static_cast<std::size_t>(
         std::upper_bound(cumulative_.begin(), cumulative_.end(), rate) - cumulative_.begin() - 1);
     // Records equal to the threshold do not alarm.
-    while (count > 0 && count < falling_.size() &&
-           falling_[count - 1].value == falling_[count].value) {
+    while (count > 0 && count < descending_.size() &&
+           descending_[count - 1].value == descending_[count].value) {
         --count;
     }
     return count;
@@ -113,20 +113,20 @@ std::size_t ImportanceSample::beyond(double rate) const {
 std::vector<double> ImportanceSample::own_rates(std::size_t beyond) const {
     std::vector<double> rates(static_cast<std::size_t>(gearboxes_), 0.0);
     for (std::size_t i = 0; i < beyond; ++i) {
-        rates[falling_[i].gearbox] += falling_[i].share;
+        rates[descending_[i].gearbox] += descending_[i].share;
     }
     return rates;
 }
 
 std::optional<ImportanceSample::Estimate> ImportanceSample::threshold(double rate,
                                                                       double confidence) const {
-    const std::size_t count = beyond(rate);
-    if (count == falling_.size()) {
+    const std::size_t count = count_beyond(rate);
+    if (count == descending_.size()) {
         return std::nullopt;
     }
     auto found = estimate(count, rate, confidence);
     if (found) {
-        found->threshold = sign_ * falling_[count].value;
+        found->threshold = sign_ * descending_[count].value;
     }
     return found;
 }
@@ -134,9 +134,9 @@ std::optional<ImportanceSample::Estimate> ImportanceSample::threshold(double rat
 std::optional<ImportanceSample::Estimate> ImportanceSample::at(double threshold,
                                                                double confidence) const {
     const auto end = std::partition_point(
-        falling_.begin(), falling_.end(),
+        descending_.begin(), descending_.end(),
         [value = sign_ * threshold](const Record& record) { return record.value > value; });
-    const auto count = static_cast<std::size_t>(end - falling_.begin());
+    const auto count = static_cast<std::size_t>(end - descending_.begin());
     // Weights have the mean 1; for frequent values their sum may exceed it.
     auto found = estimate(count, std::min(1.0, cumulative_[count]), confidence);
     if (found) {
@@ -188,8 +188,8 @@ Interval ImportanceSample::threshold_interval(double rate, const Estimate& estim
     // rate.
     const auto value = [&](double bound) {
         const double target = rate * rate / bound;
-        const std::size_t count = std::min(beyond(target), falling_.size() - 1);
-        return sign_ * falling_[count].value;
+        const std::size_t count = std::min(count_beyond(target), descending_.size() - 1);
+        return sign_ * descending_[count].value;
     };
     const Interval values{value(estimate.rate.lower), value(estimate.rate.upper)};
     return sign_ > 0.0 ? values : Interval{values.upper, values.lower};

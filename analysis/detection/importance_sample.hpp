@@ -12,7 +12,8 @@
 // p)^2 / sum p^2 of the gearboxes' own rates p, is below kLeastContributing.
 //
 // Rare gearboxes with the most alarms may be missing from a sample that looks sufficient. Two
-// corrections account for this. First, the effective number is limited to that of normal scores
+// corrections account for this. They use scores: the score of a gearbox is the upper normal
+// quantile of its own alarm rate p. First, the effective number is limited to that of normal scores
 // with the scatter of the gearboxes that alarm more often than the median one. Second, the upper
 // bound includes the rate of gearboxes rarer than one in the sample under an exponential tail of
 // the scores, weighted by how exponential the tail looks; at most kMostUnseen of the rate.
@@ -63,14 +64,14 @@ class ImportanceSample {
         std::size_t gearbox;  // numbered from 0
     };
     // Number of the largest values with an estimated rate of at most `rate`.
-    std::size_t beyond(double rate) const;
+    std::size_t count_beyond(double rate) const;
     std::vector<double> own_rates(std::size_t beyond) const;
     // Estimate at a threshold with the given number of records beyond it and the given rate.
     std::optional<Estimate> estimate(std::size_t beyond, double rate, double confidence) const;
 
     double sign_;
     long records_ = 0, gearboxes_ = 0;
-    std::vector<Record> falling_;     // by falling value
+    std::vector<Record> descending_;  // by descending value
     std::vector<double> cumulative_;  // estimated rate of the first records
 };
 

@@ -18,16 +18,16 @@ constexpr long kTailDivisor = 10;  // a tenth of the sample
 // 2/3 there, a shape of -1/2 one of 1.7.
 constexpr double kLargestShapeOverScale = 3.0, kLogScales = 2.0;
 constexpr int kTailNodes = 81;
-constexpr double kReach = 6.0;  // standard deviations of the posterior covered by the nodes
+constexpr double kNodeRange = 6.0;  // standard deviations of the posterior covered by the nodes
 
-// Survival function at x, with shape = pace * scale.
+// Survival function at x, with shape = shape_over_scale * scale.
 double survival_function(double shape_over_scale, double scale, double x) {
     const double argument = shape_over_scale * x;
     if (argument <= -1.0) {
         return 0.0;
     }
-    constexpr double kStraight = 1e-9;  // exponential to rounding
-    return std::abs(argument) < kStraight
+    constexpr double kExponentialLimit = 1e-9;  // exponential to rounding
+    return std::abs(argument) < kExponentialLimit
                ? std::exp(-x / scale)
                : std::exp(-std::log1p(argument) / (shape_over_scale * scale));
 }
@@ -111,23 +111,23 @@ TailFit::TailFit(std::span<const double> largest, long sample)
     for (double& value : excess) {
         value /= unit_;
     }
-    // The distribution must extend beyond the largest value: 1 + pace * largest > 0.
+    // The distribution must extend beyond the largest value: 1 + shape_over_scale * largest > 0.
     const double least = -1.0 / *std::max_element(excess.begin(), excess.end());
     nodes_ = posterior(excess, least, kLargestShapeOverScale, -kLogScales, kLogScales);
     const Moments shape_over_scale =
         moments(nodes_, [](const Node& node) { return node.shape_over_scale; });
     const Moments scale = moments(nodes_, [](const Node& node) { return std::log(node.scale); });
     nodes_ = posterior(
-        excess, std::max(least, shape_over_scale.mean - kReach * shape_over_scale.deviation),
-        shape_over_scale.mean + kReach * shape_over_scale.deviation,
-        scale.mean - kReach * scale.deviation, scale.mean + kReach * scale.deviation);
+        excess, std::max(least, shape_over_scale.mean - kNodeRange * shape_over_scale.deviation),
+        shape_over_scale.mean + kNodeRange * shape_over_scale.deviation,
+        scale.mean - kNodeRange * scale.deviation, scale.mean + kNodeRange * scale.deviation);
     shape_ =
         moments(nodes_, [](const Node& node) { return node.shape_over_scale * node.scale; }).mean;
     scale_ = unit_ * moments(nodes_, [](const Node& node) { return node.scale; }).mean;
 }
 
-// In pace and log scale, the sum over the excesses depends on the pace alone. The prior is then
-// scale / ((1 + shape) sqrt(1 + 2 shape)).
+// In shape_over_scale and log scale, the sum over the excesses depends on shape_over_scale alone.
+// The prior is then scale / ((1 + shape) sqrt(1 + 2 shape)).
 std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
                                               double shape_over_scale_low,
                                               double shape_over_scale_high, double log_scale_low,
@@ -138,7 +138,7 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
     std::vector<double> logs;
     double most = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < kTailNodes; ++i) {
-        // Midpoints, because the likelihood is 0 at the smallest pace.
+        // Midpoints, because the likelihood is 0 at the smallest shape_over_scale.
         const double shape_over_scale =
             shape_over_scale_low +
             (i + 0.5) / kTailNodes * (shape_over_scale_high - shape_over_scale_low);
@@ -165,8 +165,9 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         weight += nodes[i].weight = std::exp(logs[i] - most);
     }
-    constexpr double kNothing = 1e-12;
-    std::erase_if(nodes, [&](const Node& node) { return node.weight < kNothing * weight; });
+    constexpr double kNegligibleWeight = 1e-12;
+    std::erase_if(nodes,
+                  [&](const Node& node) { return node.weight < kNegligibleWeight * weight; });
     for (Node& node : nodes) {
         node.weight /= weight;
     }
@@ -239,20 +240,20 @@ Interval TailFit::threshold_interval(double rate, double confidence) const {
 }
 
 double TailFit::threshold(double rate) const {
-    const auto log_miss = [&](double x) {
-        constexpr double kNever = 1e-300;  // beyond the end of every distribution
-        return std::log(std::max(kNever, this->rate(above_ + unit_ * x) / rate));
+    const auto log_rate_ratio = [&](double x) {
+        constexpr double kTinyRate = 1e-300;  // beyond the end of every distribution
+        return std::log(std::max(kTinyRate, this->rate(above_ + unit_ * x) / rate));
     };
-    if (log_miss(0.0) <= 0.0) {
+    if (log_rate_ratio(0.0) <= 0.0) {
         return above_;
     }
     double high = 1.0;
-    while (log_miss(high) > 0.0) {
+    while (log_rate_ratio(high) > 0.0) {
         high *= 2.0;
     }
     std::uintmax_t steps = 100;
     const auto bracket = boost::math::tools::toms748_solve(
-        log_miss, 0.5 * (high > 1.0 ? high : 0.0), high,
+        log_rate_ratio, 0.5 * (high > 1.0 ? high : 0.0), high,
         boost::math::tools::eps_tolerance<double>(40), steps, QuietPolicy());
     // The end of the bracket that does not exceed the rate.
     return above_ + unit_ * bracket.second;

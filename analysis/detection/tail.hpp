@@ -59,8 +59,7 @@ class TailFit {
 
   private:
     struct Node {
-        double shape_over_scale, scale,
-            weight;  // pace: shape / scale; in units of the median excess
+        double shape_over_scale, scale, weight;  // in units of the median excess
     };
     std::vector<Node> posterior(const std::vector<double>& excess, double shape_over_scale_low,
                                 double shape_over_scale_high, double log_scale_low,

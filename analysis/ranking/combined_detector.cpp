@@ -18,7 +18,7 @@ constexpr double kRidge = 1.0;
 constexpr long kFewestTraining = 50;
 constexpr int kCombinedBandPoints = 5;
 
-// Row indices of one half of the gearboxes, in the threshold sample and in the graded ones.
+// Row indices of one half of the gearboxes, in the threshold sample and among the test gearboxes.
 struct Half {
     std::vector<std::size_t> healthy, graded;
 };
@@ -45,7 +45,7 @@ std::vector<double> picked(std::span<const double> values, const std::vector<std
     return out;
 }
 
-// Values of one feature for a half, in the order healthy, graded.
+// Values of one feature for a half, healthy gearboxes first, then test gearboxes.
 std::vector<double> values_of(const CombinedFeature& feature, const Half& half) {
     std::vector<double> values = picked(feature.healthy, half.healthy);
     const std::vector<double> graded = picked(feature.graded, half.graded);

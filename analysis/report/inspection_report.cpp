@@ -207,11 +207,11 @@ void add_hits(Section& section, const InspectionResult& result) {
                                  ? "The bounds include curves that level off below 1."
                                  : "The curves assume that large enough flaws are always found.");
     if (result.tests_above > 0) {
-        section.state(
-            "demonstrated",
-            fmt::format("Without a curve, the {} of {} flaws found above the upper bound "
-                        "of a90 demonstrate a POD of {}.",
-                        result.hits_above, result.tests_above, percent_text(result.demonstrated)));
+        section.state("demonstrated",
+                      fmt::format("Without a curve, the {} of {} flaws found above the upper bound "
+                                  "of a90 demonstrate a POD of {}.",
+                                  result.hits_above, result.tests_above,
+                                  percent_text(result.demonstrated_pod)));
     }
 }
 

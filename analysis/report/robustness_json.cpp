@@ -36,7 +36,7 @@ const InputEffect* effect_of(const LevelReliability& level, const std::string& i
     return nullptr;
 }
 
-// Name and unit of every input that varies among the graded gearboxes of any feature.
+// Name and unit of every input that varies among the test gearboxes of any feature.
 std::vector<std::pair<std::string, std::string>> inputs_of(const Reliability& reliability) {
     std::vector<std::pair<std::string, std::string>> inputs;
     for (const FeatureReliability& feature : reliability.features) {

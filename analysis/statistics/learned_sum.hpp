@@ -16,7 +16,7 @@ struct LearningSample {
     std::vector<std::vector<double>> values;  // [value][specimen]; NaN where one is missing
     std::vector<bool> faulty;                 // by specimen
     // Half to which a specimen belongs, 0 or 1. The weights of each half are learned in the other
-    // one, so that no specimen is graded by weights that it has influenced.
+    // one, so that no specimen is evaluated by weights that it has influenced.
     std::vector<int> half;
 };
 

@@ -43,7 +43,7 @@ Json setting_json(const AccuracyReport& report, const SettingResult& r) {
     }
     row.update({{"steps", r.steps},
                 {"settle_tolerance", r.setting.numerics.convergence_tolerance},
-                {"meshes_marched", r.meshes},
+                {"integrated_meshes", r.meshes},
                 {"failed", r.failed},
                 {"gearbox_s", r.integration_s},
                 {"gearbox_median_s", r.integration_median_s},
@@ -78,7 +78,7 @@ Json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
     return row;
 }
 
-Json effect_json(const AccuracyReport& report, const EffectPrice& e) {
+Json effect_json(const AccuracyReport& report, const MeasuredEffectCost& e) {
     Json row{{"effect", e.effect}, {"in_study", e.in_study}};
     if (!e.refusal.empty()) {
         row["refused"] = e.refusal;
@@ -86,7 +86,7 @@ Json effect_json(const AccuracyReport& report, const EffectPrice& e) {
     }
     row["time_ratio"] = e.time_ratio;
     row["change"] = errors(report, e.change);
-    row["called_for"] = report.matters(e.change);
+    row["needed"] = report.matters(e.change);
     return row;
 }
 
@@ -138,12 +138,12 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
                {"gearbox_s", e.integration_s()},
                {"refused", e.refused}}}};
     for (const SettingResult& setting : report.settings) {
-        all["rungs"].push_back(setting_json(report, setting));
+        all["settings"].push_back(setting_json(report, setting));
     }
     for (const ChoiceCheck& check : report.choices) {
         all["choices"].push_back(choice_json(report, check));
     }
-    for (const EffectPrice& effect : report.effects) {
+    for (const MeasuredEffectCost& effect : report.effects) {
         all["effects"].push_back(effect_json(report, effect));
     }
     const StabilityMap& map = report.stability;

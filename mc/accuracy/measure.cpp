@@ -7,7 +7,7 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "machine/upper_median.hpp"
-#include "mc/accuracy/effect_prices.hpp"
+#include "mc/accuracy/measured_effect_costs.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/measure_detection.hpp"
 #include "mc/accuracy/report.hpp"

@@ -49,11 +49,13 @@ std::vector<PeerResult> read_peers(const std::string& path) {
     if (!file || !std::getline(file, line)) {
         throw std::runtime_error(path + ": cannot be read or is empty");
     }
-    const std::vector<std::string> head = cells_of(line);
-    const std::vector<std::string> first{"name", "command", "march_s", "mesh_s", "sensor", "te"};
+    std::vector<std::string> head = cells_of(line);
+    std::ranges::replace(head, "march_s", "integration_s");  // name in earlier versions
+    const std::vector<std::string> first{"name",   "command", "integration_s",
+                                         "mesh_s", "sensor",  "te"};
     if (head.size() < first.size() || !std::equal(first.begin(), first.end(), head.begin())) {
         throw std::runtime_error(path +
-                                 ":1: must begin with name,command,march_s,mesh_s,sensor,te");
+                                 ":1: must begin with name,command,integration_s,mesh_s,sensor,te");
     }
     std::vector<PeerResult> peers;
     for (int number = 2; std::getline(file, line); ++number) {

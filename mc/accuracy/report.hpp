@@ -39,7 +39,7 @@ struct SettingResult {
 };
 
 // Effect that the study includes and was left out of it, or that was added to it.
-struct EffectPrice {
+struct MeasuredEffectCost {
     std::string effect;
     bool in_study = false;
     std::string refusal;      // why it was not measured; the members below are then empty
@@ -87,7 +87,7 @@ struct AccuracyReport {
     std::vector<SettingResult> settings;
     int own = 0;  // index of the study's own setting
     std::vector<ChoiceCheck> choices;
-    std::vector<EffectPrice> effects;
+    std::vector<MeasuredEffectCost> effects;
     StabilityMap stability;
     std::vector<PeerResult> peers;
     std::vector<std::string> step_costs;  // comparison of the cost model with the measurement
@@ -127,8 +127,8 @@ std::string accuracy_headline(const AccuracyReport& report);
 std::string accuracy_text(const AccuracyReport& report);
 std::string accuracy_json(const AccuracyReport& report, const Study& study);
 
-// Reads a table of other programs' results (CSV: name, command, march_s, mesh_s, sensor, te, then
-// features by name). Throws std::runtime_error with file, line and problem.
+// Reads a table of other programs' results (CSV: name, command, integration_s, mesh_s, sensor, te,
+// then features by name; march_s is the former name of integration_s). Throws std::runtime_error with file, line and problem.
 std::vector<PeerResult> read_peers(const std::string& path);
 
 }  // namespace gearpod::mc

@@ -192,7 +192,7 @@ void add_detection(const AccuracyReport& report, Text out) {
         return;
     }
     fmt::format_to(out,
-                   "\ndetection: the same {} graded gearboxes with the most accurate setting and\n"
+                   "\ndetection: the same {} test gearboxes with the most accurate setting and\n"
                    "with these; largest change over features, sizes and noise levels\n"
                    "error/scatter: largest error of a feature over its standard deviation\n"
                    "between healthy gearboxes\n"
@@ -216,16 +216,16 @@ void add_effects(const AccuracyReport& report, Text out) {
     }
     fmt::format_to(out, "\n");
     add_words(fmt::format(
-                  "price of effects: the pilot without an effect of the study, or with one that it "
+                  "cost of effects: the pilot without an effect of the study, or with one that it "
                   "leaves out. time: of a gearbox with it over that without; change: of the "
-                  "sensor signal, and of the feature that changes most; called for: it changes a "
+                  "sensor signal, and of the feature that changes most; needed: it changes a "
                   "feature by more than {:g} of its scatter between healthy gearboxes, or by {:g} "
                   "of its value where the scatter was not measured",
                   kShareOfScatter, kChangeOfFeature),
               0, out);
     fmt::format_to(out, "{:<24} {:<8} {:>5} {:>8} {:>8} {:>9}  {:<10} {}\n", "effect", "in study",
-                   "time", "sensor", "feature", "/scatter", "called for", "most");
-    for (const EffectPrice& e : report.effects) {
+                   "time", "sensor", "feature", "/scatter", "needed", "most");
+    for (const MeasuredEffectCost& e : report.effects) {
         fmt::format_to(out, "{:<24} {:<8} ", e.effect, e.in_study ? "yes" : "no");
         if (!e.refusal.empty()) {
             fmt::format_to(out, "not possible\n");

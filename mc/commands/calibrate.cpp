@@ -296,7 +296,7 @@ class Command {
         json["records"] = set_.records;
         json["gearboxes"] = set_.lengths.size();
         json["left_out"] = set_.left_out;
-        json["marched_draws"] = kCalibrationRounds * task.integrated;
+        json["integrated_draws"] = kCalibrationRounds * task.integrated;
         json["simulated_sets"] = result.sets;
         json["failed_sets"] = result.failed;
         json["inputs"] = nlohmann::ordered_json::array();
@@ -309,8 +309,8 @@ class Command {
                                       {"low", one.low},
                                       {"high", one.high},
                                       {"left", one.width_ratio},
-                                      {"told", one.is_informed},
-                                      {"told_by", one.strongest_summaries}});
+                                      {"is_informed", one.is_informed},
+                                      {"informed_by", one.strongest_summaries}});
         }
         json["together"] = nlohmann::ordered_json::array();
         for (const CorrelatedPair& pair : result.pairs) {

@@ -55,11 +55,11 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal,
 }
 
 // Comparison of the features with the healthy gearboxes of --against.
-std::string verdict_text(const PopulationVerdicts& against, const MeasuredSignal& signal,
-                         const Scene& scene) {
+std::string decisions_text(const PopulationDecisions& against, const MeasuredSignal& signal,
+                           const Scene& scene) {
     std::string text = fmt::format("\n{:<22}{:>13}{:>13}{:>8}{:>24}\n", "feature", "value",
                                    "threshold", "", "healthy less extreme");
-    for (const Verdict& one : against.verdicts) {
+    for (const AlarmDecision& one : against.decisions) {
         text += fmt::format("{:<22}{:>13.6g}{:>13.6g}{:>8}{:>14} of {}\n", one.population->name,
                             one.value, one.population->threshold, one.alarm ? "ALARM" : "",
                             one.less_extreme, one.population->healthy.size());
@@ -124,7 +124,7 @@ int features_command(const FeaturesOptions& options) {
         }
         print_text(found.measured, found.signal, found.notes, *scene);
         if (found.against) {
-            fmt::print("{}", verdict_text(*found.against, found.signal, *scene));
+            fmt::print("{}", decisions_text(*found.against, found.signal, *scene));
         }
         return kDone;
     } catch (const SignalError& error) {

@@ -75,15 +75,15 @@ RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
 }
 
 // Prints one sentence for each recording.
-void print_verdicts(const FeaturesOptions& options, const Population& population,
-                    std::span<const features::Feature* const> features, const RecordingList& list,
-                    const std::vector<MeasuredRecording>& measured) {
+void print_decisions(const FeaturesOptions& options, const Population& population,
+                     std::span<const features::Feature* const> features, const RecordingList& list,
+                     const std::vector<MeasuredRecording>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (measured[i].problem.empty()) {
-            const auto verdicts =
+            const auto decisions =
                 compare_with_population(population, features, measured[i].values, options.feature);
-            fmt::print("{}\n", wrapped_text(verdict_sentence(list.recordings[i].name(), population,
-                                                             verdicts.front(), measured[i].teeth),
+            fmt::print("{}\n", wrapped_text(decision_sentence(list.recordings[i].name(), population,
+                                                              decisions.front(), measured[i].teeth),
                                             2));
         }
     }
@@ -184,7 +184,7 @@ int recordings_command(const FeaturesOptions& options) {
                           recordings_results(list, measured, features, *scene, threads, compared));
         }
         if (population) {
-            print_verdicts(options, *population, features, list, measured);
+            print_decisions(options, *population, features, list, measured);
         }
         return csv_good ? summary(options, measured) : kBadInput;
     } catch (const std::exception& error) {

@@ -45,7 +45,7 @@ struct BatchTask {
     const IntegrationCache cache;
     const HealthyReference healthy;
     std::vector<HealthyReference> additional;  // of the additional sensors
-    // Noise of graded gearboxes with several records. If it is tilted, the study must use
+    // Noise of test gearboxes with several records. If it is tilted, the study must use
     // importance sampling, so that its rows have a column for the weights.
     NoiseSampling graded_noise = NoiseSampling::plain;
 };

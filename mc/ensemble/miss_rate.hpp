@@ -23,7 +23,7 @@ struct MissRateRequest {
 
 // Study restricted to one of its features and one noise level.
 Study of_feature(const Study& study, const std::string& feature, double noise_level);
-// Study in which all graded gearboxes have a fault of this size (SI). The other inputs keep their
+// Study in which all test gearboxes have a fault of this size (SI). The other inputs keep their
 // distributions.
 Study with_fault(const Study& study, double size);
 // Study restricted to the feature, noise level and fault size of the question, with its numbers of

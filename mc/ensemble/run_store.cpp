@@ -95,7 +95,7 @@ std::unique_ptr<Checkpoint> extend_results(const std::string& results_path, cons
     });
     if (rows.rows() - healthy > plan.graded_rows()) {
         throw std::runtime_error(
-            fmt::format("{}: cannot be continued: it has {} graded gearboxes, more than the {} "
+            fmt::format("{}: cannot be continued: it has {} test gearboxes, more than the {} "
                         "requested; raise --instances",
                         results_path, rows.rows() - healthy, plan.graded_rows()));
     }

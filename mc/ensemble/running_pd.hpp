@@ -27,7 +27,7 @@ class RunningPd {
     // For example "Pd(window_ratio, 3 mm, noise x 1) = 0.93 [0.91, 0.95]"; "" before the first
     // tested gearbox.
     std::string text() const;
-    // Estimated number of further graded gearboxes that ensemble.until needs; empty if unknown.
+    // Estimated number of further test gearboxes that ensemble.until needs; empty if unknown.
     std::optional<std::size_t> rows_left() const;
 
   private:

@@ -149,7 +149,7 @@ void RealizationFeatures::add_python_values(const Realization& realization,
                                             std::vector<double>& values) {
     const GearboxId& id = realization.id;
     const std::string work = fmt::format("{} gearbox {}, row {} of the results",
-                                         id.group == Group::threshold ? "healthy" : "graded",
+                                         id.group == Group::threshold ? "healthy" : "test",
                                          id.index, row_of_id(scene_.study(), id));
     const std::vector<double> own = python_.compute(work);
     print_python_problems(python_.problems(), work);

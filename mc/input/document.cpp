@@ -118,7 +118,7 @@ bool parse_value(const std::string& text, Value& value, std::string& why) {
     }
 }
 
-bool breaks(std::string_view text) {
+bool violates_assertion(std::string_view text) {
     try {
         static_cast<void>(toml::parse(text));
     } catch (const toml::parse_error&) {
@@ -136,8 +136,9 @@ int breaking_line(std::string_view text) {
          end = text.find('\n', end + 1)) {
         ends.push_back(end);
     }
-    const auto whole = std::partition_point(
-        ends.begin(), ends.end(), [&](std::size_t end) { return !breaks(text.substr(0, end)); });
+    const auto whole = std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) {
+        return !violates_assertion(text.substr(0, end));
+    });
     return 1 + static_cast<int>(whole - ends.begin());
 }
 

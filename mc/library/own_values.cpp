@@ -17,7 +17,7 @@ namespace {
 
 void check_own_values(const std::string& path, const Results& results, const OwnValues& own) {
     if (results.provenance_value("kind") == kLivesKind) {
-        throw BadInput(path + ": contains lives; values are graded for the gearboxes of `run`");
+        throw BadInput(path + ": contains lives; values are evaluated for the gearboxes of `run`");
     }
     if (own.values.size() != results.status.size()) {
         throw BadInput(fmt::format("{}: has {} rows, but {} has {} values; give one per row", path,
@@ -26,7 +26,7 @@ void check_own_values(const std::string& path, const Results& results, const Own
     if (std::ranges::count(results.parameters, kNoiseWeight, &ParameterResult::name) > 0) {
         throw BadInput(path +
                        ": its threshold records are importance-sampled (ensemble.threshold_tilt), "
-                       "so values without weights cannot be graded; run the study without it");
+                       "so values without weights cannot be evaluated; run the study without it");
     }
 }
 

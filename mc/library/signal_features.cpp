@@ -39,18 +39,18 @@ void check_any_feature(const std::vector<MeasuredFeature>& all, const std::strin
                     name, signal.sensor_meshes, signal.te_meshes, shortest));
 }
 
-PopulationVerdicts compared(const SignalRequest& request, const Measurement& measured,
-                            const Scene& scene) {
-    PopulationVerdicts compared;
+PopulationDecisions compared(const SignalRequest& request, const Measurement& measured,
+                             const Scene& scene) {
+    PopulationDecisions compared;
     compared.population = read_population(request.against, request.noise_level, scene.study());
     std::vector<const features::Feature*> features;
     for (const MeasuredFeature& one : measured.features) {
         features.push_back(one.feature);
     }
-    compared.verdicts = compare_with_population(compared.population, features,
-                                                values_of(measured.features), request.feature);
-    compared.sentence = verdict_sentence(request.signal.name, compared.population,
-                                         compared.verdicts.front(), measured.teeth);
+    compared.decisions = compare_with_population(compared.population, features,
+                                                 values_of(measured.features), request.feature);
+    compared.sentence = decision_sentence(request.signal.name, compared.population,
+                                          compared.decisions.front(), measured.teeth);
     return compared;
 }
 
@@ -77,11 +77,11 @@ nlohmann::ordered_json measured_json(const SignalFeatures& measured, const Scene
     return json;
 }
 
-nlohmann::ordered_json verdicts_json(const PopulationVerdicts& against,
-                                     const std::vector<WorstTooth>& worst,
-                                     const std::string& file) {
+nlohmann::ordered_json decisions_json(const PopulationDecisions& against,
+                                      const std::vector<WorstTooth>& worst,
+                                      const std::string& file) {
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
-    for (const Verdict& one : against.verdicts) {
+    for (const AlarmDecision& one : against.decisions) {
         const auto healthy = static_cast<double>(one.population->healthy.size());
         features.push_back({{"feature", one.population->name},
                             {"value", one.value},
@@ -99,8 +99,8 @@ nlohmann::ordered_json verdicts_json(const PopulationVerdicts& against,
                          {"ratio", tooth.ratio}});
     }
     return {{"file", file},
-            {"alarm", against.verdicts.front().alarm},
-            {"feature", against.verdicts.front().population->name},
+            {"alarm", against.decisions.front().alarm},
+            {"feature", against.decisions.front().population->name},
             {"sentence", against.sentence},
             {"features", features},
             {"teeth", teeth}};
@@ -144,7 +144,7 @@ nlohmann::ordered_json signal_features_json(const SignalFeatures& features,
     }
     if (features.against) {
         json["against"] =
-            verdicts_json(*features.against, features.measured.teeth, request.against);
+            decisions_json(*features.against, features.measured.teeth, request.against);
     }
     return json;
 }

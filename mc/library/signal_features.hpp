@@ -21,17 +21,17 @@ struct SignalRequest {
     std::string feature;                // decides the alarm; "": the best ranked one in `against`
 };
 
-// Comparison with the healthy gearboxes of a results file. Verdicts point into the population.
-struct PopulationVerdicts {
+// Comparison with the healthy gearboxes of a results file. Decisions point into the population.
+struct PopulationDecisions {
     Population population;
-    std::vector<Verdict> verdicts;
-    std::string sentence;  // on the first verdict
+    std::vector<AlarmDecision> decisions;
+    std::string sentence;  // on the first decision
 };
 
 struct SignalFeatures {
     MeasuredSignal signal;
     Measurement measured;
-    std::optional<PopulationVerdicts> against;
+    std::optional<PopulationDecisions> against;
     // Statements of the recordings that are not used, and assumptions (MeasuredSignal).
     std::vector<std::string> notes;
 };

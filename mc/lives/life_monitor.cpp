@@ -20,19 +20,20 @@ class LifeMonitor::MonitoredDeviations {
         for (const features::Feature* feature : used_features(study)) {
             alarms_.push_back(analysis::alarm_of(*feature));
         }
-        setting_ = healthy(campaign.threshold_lives);
+        threshold_lives_ = healthy(campaign.threshold_lives);
         healthy_ = healthy(campaign.healthy);
         cracked_ = cracked(campaign.cracked);
     }
 
-    analysis::MonitorPerformance by(const analysis::Detector& detector, double per_1000_h) const {
-        return analysis::monitor_performance(detector, setting_, healthy_, cracked_, per_1000_h,
-                                             study_.detection.confidence);
+    analysis::MonitorPerformance performance(const analysis::Detector& detector,
+                                             double per_1000_h) const {
+        return analysis::monitor_performance(detector, threshold_lives_, healthy_, cracked_,
+                                             per_1000_h, study_.detection.confidence);
     }
 
-    FeatureQuantiles fan(const std::string& name) const {
-        constexpr std::size_t kDrawn = 32;
-        FeatureQuantiles fan{name, {}, {}, {}, {}};
+    FeatureQuantiles quantiles(const std::string& name) const {
+        constexpr std::size_t kPlottedLives = 32;
+        FeatureQuantiles result{name, {}, {}, {}, {}};
         for (std::size_t r = 0; r < static_cast<std::size_t>(study_.life.records); ++r) {
             std::vector<double> all;
             for (const analysis::HealthyLife& life : healthy_) {
@@ -42,16 +43,16 @@ class LifeMonitor::MonitoredDeviations {
             }
             std::ranges::sort(all);
             for (const auto& [share, into] :
-                 {std::pair{0.05, &fan.low}, {0.5, &fan.median}, {0.95, &fan.high}}) {
+                 {std::pair{0.05, &result.low}, {0.5, &result.median}, {0.95, &result.high}}) {
                 into->push_back(all.empty() ? std::nan("")
                                             : all[static_cast<std::size_t>(
                                                   share * static_cast<double>(all.size() - 1))]);
             }
         }
-        for (std::size_t g = 0; g < std::min(kDrawn, cracked_.size()); ++g) {
-            fan.lives.push_back(cracked_[g].values);
+        for (std::size_t g = 0; g < std::min(kPlottedLives, cracked_.size()); ++g) {
+            result.lives.push_back(cracked_[g].values);
         }
-        return fan;
+        return result;
     }
 
   private:
@@ -106,7 +107,7 @@ class LifeMonitor::MonitoredDeviations {
     const Study& study_;
     const std::vector<std::size_t> features_;
     std::vector<analysis::Alarm> alarms_;
-    std::vector<analysis::HealthyLife> setting_, healthy_;
+    std::vector<analysis::HealthyLife> threshold_lives_, healthy_;
     std::vector<analysis::CrackedLife> cracked_;
 };
 
@@ -135,7 +136,8 @@ LifeMonitor::LifeMonitor(const Study& study, const Campaign& campaign)
     for (const NamedDeviations& one : monitored_) {
         for (const std::string& text : study.monitoring.detectors) {
             results_.push_back(
-                {one.name, text, one.deviations_of.by(*analysis::parse_detector(text), rate)});
+                {one.name, text,
+                 one.deviations_of.performance(*analysis::parse_detector(text), rate)});
             results_.back().unranked = analysis::why_unranked(results_.back().performance, rate);
         }
     }
@@ -171,7 +173,7 @@ std::vector<TradeOff> LifeMonitor::trade_offs() const {
         for (const double factor : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
             const double rate = factor * study_.monitoring.false_alarms_per_1000_h;
             const auto performance =
-                one.deviations_of.by(*analysis::parse_detector(best->detector), rate);
+                one.deviations_of.performance(*analysis::parse_detector(best->detector), rate);
             if (!std::isnan(performance.threshold.value)) {
                 trade.points.push_back({rate, performance.false_alarms.per_1000_h,
                                         performance.share, performance.size_50.value,
@@ -186,7 +188,7 @@ std::vector<TradeOff> LifeMonitor::trade_offs() const {
 std::vector<FeatureQuantiles> LifeMonitor::feature_quantiles() const {
     std::vector<FeatureQuantiles> all;
     for (const NamedDeviations& one : monitored_) {
-        all.push_back(one.deviations_of.fan(one.name));
+        all.push_back(one.deviations_of.quantiles(one.name));
     }
     return all;
 }

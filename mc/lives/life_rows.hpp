@@ -8,7 +8,7 @@ namespace gearpod::mc {
 
 // Batches of lives. The threshold group contains the healthy lives: first
 // ensemble.threshold_instances that determine the thresholds, then life.healthy_lives that count
-// false alarms. Cracks grow in the graded group.
+// false alarms. Cracks grow in the test group.
 BatchPlan lives_plan(const Study& study);
 
 // Results of kind kLivesKind without rows; the columns are empty.

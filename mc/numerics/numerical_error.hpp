@@ -26,7 +26,7 @@ FinerScene with_finer_steps(const Scene& scene);
 // The same; empty unless the study has a tolerance, numerics.verify or numerics.paired_gearboxes.
 FinerScene finer_scene(const Scene& scene);
 
-// Integrates eight graded gearboxes, spread over the ensemble, as the run did and again with
+// Integrates eight test gearboxes, spread over the ensemble, as the run did and again with
 // finer_scene(); with numerics.paired_gearboxes that many, and as many healthy ones. For methods of
 // order 2 and above, the difference is the error of the run's own steps to within a sixteenth.
 // Empty if there is no finer scene.

@@ -30,7 +30,7 @@ struct PilotRecord {
     double mesh_s() const;
 };
 
-// Gearboxes `first`, `first` + `stride`, ... of the graded group: one tile of eight, independent of
+// Gearboxes `first`, `first` + `stride`, ... of the test group: one tile of eight, independent of
 // numerics.lanes, so that results do not depend on it.
 std::vector<GearboxId> pilot_gearboxes(std::uint64_t first = 0, std::uint64_t stride = 1);
 

@@ -11,7 +11,7 @@
 
 namespace gearpod::mc {
 
-// Integrates eight graded gearboxes over a few mesh periods as a run does, and again with finer
+// Integrates eight test gearboxes over a few mesh periods as a run does, and again with finer
 // steps in double precision. Empty if teeth cannot separate, if the study is quasi-static, or if no
 // gearbox of the pilot succeeds. Also empty if the pilot costs more than `most_meshes` mesh periods
 // of a tile with the scene's own steps.

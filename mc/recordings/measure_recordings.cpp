@@ -51,12 +51,12 @@ std::string unit_or_one(const TableColumn& column) {
     return column.unit.empty() ? "1" : column.unit;
 }
 
-// Quantity by which rows are graded: the fault size, or the label.
+// Size of the fault of each row: the fault size, or the label.
 struct Grading {
     std::string name, unit;
     bool sized;
 
-    // Faulty rows without a size are not graded if other rows have one.
+    // Faulty rows without a size are not evaluated if other rows have one.
     int group(const Recording& recording) const {
         if (recording.condition == Condition::healthy) {
             return static_cast<int>(Group::threshold);

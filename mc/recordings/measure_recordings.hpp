@@ -64,7 +64,7 @@ std::string recordings_csv(const RecordingList& list,
                            std::span<const features::Feature* const> features, bool compared);
 
 // Returns results in the format of a run, with a row for each recording that has features. Healthy
-// recordings set the thresholds. Faulty recordings are graded by their size, or as size 1 if no
+// recordings set the thresholds. Faulty recordings are evaluated by their size, or as size 1 if no
 // recording has a size. Recordings of unknown condition are only stored. Features without any value
 // are omitted. The provenance has the recording names, and with `compared` their alignments and
 // tooth maps.

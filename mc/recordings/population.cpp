@@ -117,11 +117,10 @@ Population read_population(const std::string& path, double noise_level, const St
     return population;
 }
 
-std::vector<Verdict> compare_with_population(const Population& population,
-                                             std::span<const features::Feature* const> features,
-                                             const std::vector<double>& measured,
-                                             const std::string& feature) {
-    std::vector<Verdict> verdicts;
+std::vector<AlarmDecision> compare_with_population(
+    const Population& population, std::span<const features::Feature* const> features,
+    const std::vector<double>& measured, const std::string& feature) {
+    std::vector<AlarmDecision> decisions;
     for (const PopulationFeature& known : population.features) {
         const auto at = static_cast<std::size_t>(
             std::ranges::find(features, known.name, &features::Feature::name) - features.begin());
@@ -129,29 +128,30 @@ std::vector<Verdict> compare_with_population(const Population& population,
         if (!std::isfinite(value)) {
             continue;
         }
-        Verdict verdict;
-        verdict.population = &known;
-        verdict.value = value;
-        verdict.alarm = analysis::is_alarm(value, known.threshold, known.alarm);
+        AlarmDecision decision;
+        decision.population = &known;
+        decision.value = value;
+        decision.alarm = analysis::is_alarm(value, known.threshold, known.alarm);
         const double side = analysis::alarm_sign(known.alarm);
-        verdict.margin = side * (value - known.threshold) / std::abs(known.threshold);
-        verdict.less_extreme =
+        decision.margin = side * (value - known.threshold) / std::abs(known.threshold);
+        decision.less_extreme =
             std::count_if(known.healthy.begin(), known.healthy.end(),
                           [&](double healthy) { return side * healthy < side * value; });
-        verdicts.push_back(verdict);
+        decisions.push_back(decision);
     }
-    const auto named = std::find_if(verdicts.begin(), verdicts.end(), [&](const Verdict& one) {
-        return feature.empty() || one.population->name == feature;
-    });
-    if (named == verdicts.end()) {
+    const auto named =
+        std::find_if(decisions.begin(), decisions.end(), [&](const AlarmDecision& one) {
+            return feature.empty() || one.population->name == feature;
+        });
+    if (named == decisions.end()) {
         refuse(population.file,
                feature.empty()
                    ? "has no feature in common with the recording"
                    : fmt::format("the feature {} is missing in this file or in the recording",
                                  feature));
     }
-    std::rotate(verdicts.begin(), named, named + 1);
-    return verdicts;
+    std::rotate(decisions.begin(), named, named + 1);
+    return decisions;
 }
 
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
@@ -162,19 +162,19 @@ std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
     return values;
 }
 
-std::string verdict_sentence(const std::string& recording, const Population& population,
-                             const Verdict& verdict, const std::vector<WorstTooth>& teeth) {
-    const PopulationFeature& known = *verdict.population;
+std::string decision_sentence(const std::string& recording, const Population& population,
+                              const AlarmDecision& decision, const std::vector<WorstTooth>& teeth) {
+    const PopulationFeature& known = *decision.population;
     const char* whom = population.recordings ? "healthy recordings" : "simulated healthy gearboxes";
     std::string text = fmt::format(
         "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} (from {} {} at {:.3g} % false "
         "alarms), and {} than {} of {} healthy values ({:.4g} %)",
-        printable(recording), verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
-        100.0 * std::abs(verdict.margin), verdict.alarm ? "beyond" : "short of", known.threshold,
+        printable(recording), decision.alarm ? "ALARM" : "no alarm", known.name, decision.value,
+        100.0 * std::abs(decision.margin), decision.alarm ? "beyond" : "short of", known.threshold,
         known.sample, whom, 100.0 * population.false_alarm_rate,
-        known.alarm == analysis::Alarm::high ? "larger" : "smaller", verdict.less_extreme,
+        known.alarm == analysis::Alarm::high ? "larger" : "smaller", decision.less_extreme,
         known.healthy.size(),
-        100.0 * static_cast<double>(verdict.less_extreme) /
+        100.0 * static_cast<double>(decision.less_extreme) /
             static_cast<double>(known.healthy.size()));
     for (const WorstTooth& tooth : teeth) {
         text += fmt::format(

@@ -33,7 +33,7 @@ struct Population {
 Population read_population(const std::string& path, double noise_level, const Study& study);
 
 // Comparison of one feature.
-struct Verdict {
+struct AlarmDecision {
     const PopulationFeature* population = nullptr;
     double value = 0.0;
     bool alarm = false;
@@ -44,15 +44,14 @@ struct Verdict {
 // Compares the features that both recording and population have, in the population's order. A
 // non-empty `feature` is moved to the front. `measured` has the values of `features`, NaN: no
 // value. Throws std::runtime_error if there is no common feature, or not the named one.
-std::vector<Verdict> compare_with_population(const Population& population,
-                                             std::span<const features::Feature* const> features,
-                                             const std::vector<double>& measured,
-                                             const std::string& feature);
+std::vector<AlarmDecision> compare_with_population(
+    const Population& population, std::span<const features::Feature* const> features,
+    const std::vector<double>& measured, const std::string& feature);
 
 std::vector<double> values_of(const std::vector<MeasuredFeature>& measured);
 
-// Returns a sentence on the verdict and on the teeth with the largest vibration.
-std::string verdict_sentence(const std::string& recording, const Population& population,
-                             const Verdict& verdict, const std::vector<WorstTooth>& teeth);
+// Returns a sentence on the decision and on the teeth with the largest vibration.
+std::string decision_sentence(const std::string& recording, const Population& population,
+                              const AlarmDecision& decision, const std::vector<WorstTooth>& teeth);
 
 }  // namespace gearpod::mc

@@ -132,7 +132,7 @@ class Dataset {
                        : "row in the results of the whole study, as in `simulate --instance`"},
             {"gearbox", "identity", "", "specimen; all its rows are in one split"},
             {"group", "identity", "",
-             "threshold: sets thresholds in reports, graded: tested against them, neither: of "
+             "threshold: sets thresholds in reports, graded: test gearbox, neither: of "
              "unknown state"},
             {"record", "identity", "1", "number of the record of this gearbox, from 0"},
             {"sensor", "condition", "", "accelerometer; transmission error is the same for all"},

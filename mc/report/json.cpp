@@ -37,7 +37,7 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
     if (!frame.numerical) {
         return nullptr;
     }
-    Json json{{"rung", frame.numerical->setting},
+    Json json{{"setting", frame.numerical->setting},
               {"finer", frame.numerical->finer},
               {"gearboxes", frame.numerical->gearboxes},
               {"healthy_pairs", frame.numerical->healthy_pairs},

@@ -74,8 +74,8 @@ struct Part {
 // Parses "2/4"; "" is the whole ensemble. Empty if the text is invalid.
 std::optional<Part> read_part(const std::string& text);
 
-// All batches of an ensemble: first those of the threshold group, then those of the graded group. A
-// larger graded group begins with the batches of a smaller one, except for the last, which may be
+// All batches of an ensemble: first those of the threshold group, then those of the test group. A
+// larger test group begins with the batches of a smaller one, except for the last, which may be
 // incomplete. For a part of an ensemble, its own batches and rows are numbered from 0 in the same
 // order.
 class BatchPlan {
@@ -94,7 +94,7 @@ class BatchPlan {
     std::size_t threshold_records() const { return records_; }
     // Name of a row: "gearboxes", or "records" if some gearboxes have several.
     const char* counted() const { return records_ > 1 ? "records" : "gearboxes"; }
-    // Graded gearboxes of the whole ensemble.
+    // Test gearboxes of the whole ensemble.
     std::size_t graded_instances() const { return graded_; }
     std::size_t batches() const { return own_of(all_threshold_batches() + batches_of(graded_)); }
     std::size_t threshold_batches() const { return own_of(all_threshold_batches()); }

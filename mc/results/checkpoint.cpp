@@ -275,7 +275,7 @@ std::uint64_t Checkpoint::synced_before() {
     }
     if (number_at(bytes, 0) > plan_.graded_instances()) {
         fail(
-            fmt::format("belongs to a run with {} graded gearboxes, more than the {} requested; "
+            fmt::format("belongs to a run with {} test gearboxes, more than the {} requested; "
                         "raise --instances, or delete it to start again",
                         number_at(bytes, 0), plan_.graded_instances()));
     }

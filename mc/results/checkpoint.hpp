@@ -3,7 +3,7 @@
 //
 //   header      "gearpod tiles 2\n", length of the text (u64), text with the run's identity,
 //               FNV-1a of all that
-//   counter     graded gearboxes requested (u64), batches safe at the last sync (u64), FNV-1a of
+//   counter     test gearboxes requested (u64), batches safe at the last sync (u64), FNV-1a of
 //               both
 //   worker      256 bytes: process that uses the file, and since when, as text; valid while locked
 //   batch b     from the next multiple of 4096 on; one size per group: mark, rows (u64), status

@@ -15,7 +15,7 @@ inline constexpr const char* kContactLossMeaning =
     "contact loss ratio: the share of its engagement, within the nominal path of contact, in which "
     "a "
     "tooth pair carries no load, averaged over the tooth pairs of the mesh";
-inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded, 2 neither";
+inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 test gearboxes, 2 neither";
 
 // Name of the dataset with the values that belong to the columns of a feature.
 inline const char* columns_name(const Results& frame) {

@@ -10,7 +10,7 @@ namespace {
 
 void write_numerical(hid_t root, const NumericalError& error, const Results& frame) {
     const Hdf5Handle group = create_group(root, "numerical");
-    write_text(group.get(), ".", "rung", error.setting);
+    write_text(group.get(), ".", "setting", error.setting);
     write_text(group.get(), ".", "finer", error.finer);
     write_number(group.get(), ".", "gearboxes", error.gearboxes);
     if (!error.corrections.empty()) {
@@ -39,7 +39,9 @@ void write_numerical(hid_t root, const NumericalError& error, const Results& fra
 
 NumericalError read_numerical(hid_t root, std::size_t most, const Results& results) {
     const Hdf5Handle group = open_group(root, "numerical");
-    NumericalError error{read_text(group.get(), ".", "rung"),
+    // Files of earlier versions have the attribute `rung`.
+    const bool former = std::ranges::count(attribute_names(group.get()), "rung") > 0;
+    NumericalError error{read_text(group.get(), ".", former ? "rung" : "setting"),
                          read_text(group.get(), ".", "finer"),
                          static_cast<int>(read_number(group.get(), ".", "gearboxes")),
                          {},

@@ -2,8 +2,8 @@
 //
 //   /                      attributes: format, format_version and the provenance
 //   /instances/<parameter> one value per row, attribute `unit`
-//   /instances/group       0 threshold sample, 1 graded, 2 neither (recordings of unknown state)
-//   /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
+//   /instances/group       0 threshold sample, 1 test gearbox, 2 neither (recordings of unknown
+//   state) /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
 //   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
 //                          contact loss ratio. Absent if teeth cannot lose contact, and in files
 //                          of versions before 0.3
@@ -19,7 +19,7 @@
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /numerical/<feature>/  after verification: rms, largest (levels), the changes of the feature in
 //                          some gearboxes with finer steps; after numerics.paired_gearboxes also
-//                          PairedCorrection (levels); attributes of /numerical: rung, finer,
+//                          PairedCorrection (levels); attributes of /numerical: setting, finer,
 //                          gearboxes, healthy_pairs, faulty_pairs
 //   /step_error            if teeth lose contact and the run is long enough: attributes sensor,
 //                          te, steps, finer_steps, gearboxes, meshes (StepError)
@@ -106,7 +106,7 @@ struct Variant {
 // Beginning of the names of variants that are measured by additional sensors.
 inline const std::string kSensorVariant = "sensor_";
 // Name of the variant in which the healthy gearboxes of the threshold group have another fault than
-// that of the study (SourceRole::other_fault). Its values are NaN for graded gearboxes.
+// that of the study (SourceRole::other_fault). Its values are NaN for test gearboxes.
 inline constexpr const char* kOtherFault = "other_fault";
 
 struct Timing {
@@ -150,7 +150,7 @@ inline constexpr PairedCorrectionNumber kPairedCorrectionNumbers[] = {
 // Change of the features of some gearboxes when they are integrated with finer steps.
 struct NumericalError {
     std::string setting, finer;  // solver settings of both integrations
-    int gearboxes = 0;           // graded ones, of which `rms` and `largest` are
+    int gearboxes = 0;           // test gearboxes of which `rms` and `largest` are
     // [feature * noise levels + level], in the feature's unit.
     std::vector<double> rms, largest;
     // After numerics.paired_gearboxes: number of healthy and of faulty ones; the same shape.
@@ -167,7 +167,7 @@ struct StepError {
 };
 
 // Results of an ensemble. A row is a gearbox, or in the threshold group a record of one. The
-// threshold group comes first, then the graded group.
+// threshold group comes first, then the test group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
     // Writer and reader handle the format and format_version themselves.

@@ -16,7 +16,7 @@ struct RunIdentity {
     std::string part = {};  // Part::text()
 };
 
-// Omits the title, the number of graded gearboxes, the stopping rule, and all settings of threads,
+// Omits the title, the number of test gearboxes, the stopping rule, and all settings of threads,
 // lanes, instruction set and checkpoints.
 RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part = {});
 

@@ -90,6 +90,7 @@ Normals Normals::of_noise(const Study& study, const GearboxId& id, StreamPurpose
     return {study, id, noise_purpose(id, purpose)};
 }
 
+// Mixes variates so that the sum stays standard normal: own^2 + other^2 = 1.
 double Normals::operator()() {
     double number = unit_(engine_);
     for (Exchange& exchange : exchanges_) {

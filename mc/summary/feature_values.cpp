@@ -28,7 +28,7 @@ bool any_threshold(const Results& frame) {
     });
 }
 
-// Returns the graded rows, or none if there are more than kMostRead.
+// Returns the test rows, or none if there are more than kMostRead.
 std::vector<ReadRow> graded_rows(const RowShape& shape, const RowSource& rows) {
     std::vector<ReadRow> graded;
     std::size_t seen = 0;

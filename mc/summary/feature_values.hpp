@@ -7,7 +7,7 @@
 
 namespace gearpod::mc {
 
-// Returns the values of the graded rows at every noise level, with the inputs that differ between
+// Returns the values of the test rows at every noise level, with the inputs that differ between
 // the rows. Empty if a feature has a threshold, or if there are more than 60 rows.
 // `frame.detection` must be up to date (detect_all).
 analysis::Section feature_values(const Results& frame, const RowSource& rows);

@@ -1,4 +1,4 @@
-// Teams of OpenMP threads. No other file knows OpenMP.
+// Teams of OpenMP threads. No other file uses OpenMP.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
     tests/bench/instances.py [--rounds 2] [--most 8000] [--study studies/reference-10k.toml]
                              [--program build/gearpod]
 
-A round runs the study with 1/32, 1/16, ..., 1/1 of the largest number of graded gearboxes, each
+A round runs the study with 1/32, 1/16, ..., 1/1 of the largest number of test gearboxes, each
 with a quarter as many healthy ones for the thresholds. It then runs `report` on the results, whose
 time is that of detection rates, curves and their intervals. Prints processor seconds of the fastest
 round (least disturbed by other programs), the straight line of least relative deviations through
@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-PHASES = ["sampling", "stiffness", "march", "signals", "noise", "features", "output"]
+PHASES = ["sampling", "stiffness", "integration", "signals", "noise", "features", "output"]
 
 
 def processor_s() -> float:

@@ -1,5 +1,5 @@
-// Checks features of the change since the baseline record against closed forms. Their numpy twins:
-// tests/features/reference.
+// Checks features of the change since the baseline record against closed forms. Their numpy
+// counterparts: tests/features/reference.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

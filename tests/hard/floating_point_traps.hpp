@@ -1,4 +1,5 @@
-// Floating-point exceptions as faults by glibc's feenableexcept. New threads inherit them.
+// Turns floating-point exceptions into SIGFPE with glibc's feenableexcept. New threads inherit
+// them.
 #pragma once
 
 #include <cfenv>
@@ -29,7 +30,7 @@ class FloatingPointTraps {
 };
 
 // Disables traps during its lifetime: a realization that is meant to diverge overflows before it is
-// retired.
+// stopped.
 class ExpectedOverflow {
   public:
     ExpectedOverflow() : before_(fedisableexcept(FE_ALL_EXCEPT)) {}

@@ -1,8 +1,9 @@
 """Checks the language of names, comments and pages: python3 prose.py TREE [GLOSSARY]
 
 Prints every offence as file:line and exits with 1 if a limit is exceeded. Limits: openings of
-comments and paragraphs with a fragment word, names with a word of glossary.txt, lines of the README
-and of pages, words of sentences.
+comments and paragraphs with a fragment word, names with a word of glossary.txt, messages of C++ and
+comments of studies with a word that is marked there, lines of the README and of pages, words of
+sentences.
 """
 
 import ast
@@ -32,6 +33,9 @@ CPP = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|R"(?P<mark>[^(\s]{0,16})\(.*?
 TITLE = re.compile(r'\b(?:TEST_CASE|SECTION)\w*\(\s*((?:"(?:\\.|[^"\\])*"\s*)+)')
 # Standard terms that contain a listed word.
 STANDARD = re.compile(r"periodic orbits?|exponentially tilted")
+TOML_COMMENT = re.compile(r"""^(?:[^"'#\n]|"(?:\\.|[^"\\\n])*"|'[^'\n]*')*#(.*)""", re.M)
+KEY = re.compile(r"\w*[_.]\w[\w.]*")    # identifier within a text
+IN_TEXTS = "(also in texts)"
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 DIRECTIVE = re.compile(r"(NOLINT|clang-format|noqa|type:|shellcheck|pylint|!)")
 SENTENCE_END = re.compile(r'(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bvs)(?<!\bFig)(?<!\bFigs)(?<!\bEq)'
@@ -40,15 +44,24 @@ SENTENCE_END = re.compile(r'(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bvs)(?<!\bFig)(?
 
 class Glossary:
     def __init__(self, text):
-        self.words, self.kept, self.known = [], set(), {}
+        self.words, self.in_texts, self.kept, self.known = [], [], set(), {}
         for line in text.splitlines():
             line = line.partition("#")[0].rstrip()
             if line.startswith("keep "):
                 self.kept.add(line.split()[1])
             elif line:
                 pattern, term = re.split(r"\s\s+", line, maxsplit=1)
-                self.words.append((re.compile(rf"\b{pattern.replace('*', '[a-z]*')}\b"),
-                                   pattern, term))
+                expression = re.compile(rf"\b{pattern.replace('*', '[a-z]*')}\b")
+                if term.endswith(IN_TEXTS):
+                    term = term.removesuffix(IN_TEXTS).rstrip()
+                    self.in_texts.append((expression, pattern, term))
+                self.words.append((expression, pattern, term))
+
+    def text_offence(self, text):
+        """The word of a message or comment that is listed for texts, and the term, or nothing."""
+        plain_text = STANDARD.sub("", KEY.sub(" ", text).lower())
+        return next(((pattern, term) for expression, pattern, term in self.in_texts
+                     if expression.search(plain_text)), None)
 
     def offence(self, name):
         """The listed word and the standard term, or nothing."""
@@ -69,7 +82,8 @@ def sources(root):
                   and not SKIPPED.intersection(path.relative_to(root).parts)
                   and not any(part.startswith(".") for part in path.relative_to(root).parts)]
     found = [path.relative_to(root).as_posix() for path in sorted(set(found))]
-    return [file for file in found if not file.startswith("studies/") or is_page(file)]
+    return [file for file in found if not file.startswith("studies/") or is_page(file)
+            or file.endswith(".toml")]
 
 
 def is_page(file):
@@ -189,6 +203,18 @@ def names(file, text):
                 yield token.start[0], token.string
 
 
+def user_texts(file, text):
+    """Messages (string literals with a space) of C++ outside tests, and comments of studies."""
+    lines = Lines(text)
+    if file.endswith(".toml"):
+        for match in TOML_COMMENT.finditer(text):
+            yield lines.at(match.start(1)), match.group(1)
+    elif file.endswith(CODE) and not file.startswith("tests/"):
+        for match in CPP.finditer(text):
+            if re.match(r'R?"', match.group()) and " " in match.group():
+                yield lines.at(match.start()), match.group()
+
+
 class Report:
     """Offences by check, and a line of counts for each check."""
 
@@ -228,6 +254,18 @@ def check_names(files, texts, glossary, report):
                bool(offences))
 
 
+def check_texts(texts, glossary, report):
+    offences, total = [], 0
+    for file, text in texts.items():
+        for line, words in user_texts(file, text):
+            total += 1
+            if bad := glossary.text_offence(words):
+                offences.append((file, line, f"{' '.join(words.split())[:80]} has '{bad[0]}', "
+                                 f"use: {bad[1]}"))
+    report.add(f"texts: {len(offences)} of {total} with a word of the glossary, at most 0",
+               offences, bool(offences))
+
+
 def check_pages(texts, report):
     lengths = {file: len(text.splitlines()) for file, text in texts.items() if is_page(file)}
     limit = {"README.md": MOST_README_LINES}
@@ -251,10 +289,11 @@ def main(arguments):
     glossary = Glossary(pathlib.Path(listed[0]).read_text(encoding="utf-8"))
     files = sources(root)
     texts = {file: (root / file).read_text(encoding="utf-8") for file in files
-             if file.endswith(CODE + SCRIPTS + (".py", ".md"))}
+             if file.endswith(CODE + SCRIPTS + (".py", ".md", ".toml"))}
     report = Report()
     check_openings(texts, report)
     check_names(files, texts, glossary, report)
+    check_texts(texts, glossary, report)
     check_pages(texts, report)
     print(report.text())
     return 1 if report.failed else 0

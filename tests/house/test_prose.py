@@ -11,6 +11,7 @@ GLOSSARY = """
 march*        integrate
 own baseline  baseline record
 orbit         periodic orbit
+abreast       in lockstep (also in texts)
 keep march_hare   a person
 """
 SOUND = {
@@ -19,6 +20,8 @@ SOUND = {
                          "int integrate();  // of a step\n",
     "tests/test_integrate.cpp": 'TEST_CASE("Steps converge", "[march]") { step("march"); }\n',
     "analysis/report.py": '"""Writes the report."""\n\nTITLE = "march"  # a title\n',
+    "mc/a.cpp": 'const char* key = "abreast", *text = "see life.abreast_rows and a march";\n',
+    "studies/a.toml": 'title = "# abreast"  # a march\n',
     "docs/index.md": "# Pages\n\n- A list item.\n- What is a mesh?\n\n    of code\n\n"
                      "$$\nof = 1\n$$\n",
 }
@@ -38,7 +41,7 @@ class Prose(unittest.TestCase):
                                   root / "glossary.txt"], capture_output=True, text=True,
                                  check=False)
         self.assertEqual(run.stderr, "")
-        return run.stdout.splitlines()[:-4], run.returncode
+        return run.stdout.splitlines()[:-5], run.returncode
 
     def refused(self, changes, *offences):
         """Checks that these offences and no others are reported."""
@@ -80,6 +83,13 @@ class Prose(unittest.TestCase):
                      'tests/a.cpp:2: "A march " "of steps" has \'march*\', use: integrate')
         self.refused({"mc/march_plan.hpp": ""},
                      "mc/march_plan.hpp:1: file name with 'march*', use: integrate")
+
+    def test_messages_and_comments_of_studies_with_a_listed_word(self):
+        self.refused({"mc/a.cpp": '\nauto a = f("{} rows abreast");\n'},
+                     'mc/a.cpp:2: "{} rows abreast" has \'abreast\', use: in lockstep')
+        self.refused({"studies/a.toml": 'a = "x # y"\nb = 1  # Abreast.\n'},
+                     "studies/a.toml:2: Abreast. has 'abreast', use: in lockstep")
+        self.assertEqual(self.run_on({"tests/a.cpp": 'auto a = "rows abreast";\n'})[1], 0)
 
     def test_long_pages(self):
         self.refused({"README.md": "\n" * 121}, "README.md:120: 121 lines, at most 120")

@@ -12,7 +12,7 @@
 
 namespace gearpod::test {
 
-// Simulates the graded gearbox of that number alone.
+// Simulates the test gearbox of that number alone.
 inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};

@@ -1,6 +1,6 @@
 """Checks features in Python: python3 test_own_features.py PROGRAM SOURCES [MPIEXEC]
 
-Twins of the program's features in numpy must have their values, in runs that are split, resumed and
+Counterparts of the program's features in numpy must have their values, in runs that are split, resumed and
 repeated. Files and functions with errors of every kind must give one message each.
 """
 
@@ -17,7 +17,7 @@ import unittest
 from python_study_case import PROGRAM, PythonStudyCase, h5py, np
 
 MPIEXEC = sys.argv[3] if len(sys.argv) > 3 else ""
-TWINS = '''
+COUNTERPARTS = '''
 import numpy as np
 print("printed by the file")
 
@@ -99,7 +99,7 @@ class OwnFeatures(PythonStudyCase):
             self.assertEqual(values.tobytes(), second[name].tobytes(), name)
 
     def test_twins_have_the_values_and_grades_of_the_program(self):
-        study = self.study(TWINS, use=json.dumps(list(PAIRS.values())))
+        study = self.study(COUNTERPARTS, use=json.dumps(list(PAIRS.values())))
         out = self.run_study(study, "a.h5")
         values = self.values(out)
         self.assertEqual(set(values), set(PAIRS) | set(PAIRS.values()))
@@ -118,7 +118,7 @@ class OwnFeatures(PythonStudyCase):
                 self.assertEqual(level["sizes"], other["sizes"], own)
 
     def test_values_do_not_depend_on_how_a_run_is_split(self):
-        study = self.study(TWINS)
+        study = self.study(COUNTERPARTS)
         whole = self.run_study(study, "whole.h5", "--set", "numerics.threads=1")
         self.assert_same(whole, self.run_study(study, "threads.h5", "--set", "numerics.threads=3"))
         for part in (1, 2):
@@ -141,7 +141,7 @@ class OwnFeatures(PythonStudyCase):
         return study
 
     def test_lives_have_the_values_of_the_program(self):
-        source = TWINS + COMPARED + "def speed(record):\n    return record.speed_rpm\n"
+        source = COUNTERPARTS + COMPARED + "def speed(record):\n    return record.speed_rpm\n"
         use = [*PAIRS.values(), "own_sensor_rms", "change_sensor_rms"]
         study = self.life_study(source, json.dumps(use))
         outs = [self.folder / f"{threads}.h5" for threads in (1, 2)]
@@ -189,7 +189,7 @@ class OwnFeatures(PythonStudyCase):
             np.testing.assert_allclose(values["added"], values["change_sensor_rms"], rtol=1e-9)
 
     def test_results_are_read_without_the_file(self):
-        study = self.study(TWINS)
+        study = self.study(COUNTERPARTS)
         out = self.run_study(study, "a.h5")
         first = self.program("report", out).stdout
         (self.folder / "own.py").unlink()
@@ -201,12 +201,12 @@ class OwnFeatures(PythonStudyCase):
         self.program("run", study, code=2)
         self.assertIn("own.py: cannot be read: No such file or directory", self.output)
         with h5py.File(out) as file:
-            self.assertIn(hashlib.sha256(TWINS.encode()).hexdigest(), str(file.attrs["study"]))
+            self.assertIn(hashlib.sha256(COUNTERPARTS.encode()).hexdigest(), str(file.attrs["study"]))
 
     def test_reading_results_runs_no_code(self):
-        study = self.study(TWINS)
+        study = self.study(COUNTERPARTS)
         out = self.run_study(study, "a.h5", "--instances", "7")
-        self.write("evil.py", f"open({str(self.folder / 'was-run')!r}, 'w')\n" + TWINS)
+        self.write("evil.py", f"open({str(self.folder / 'was-run')!r}, 'w')\n" + COUNTERPARTS)
         with h5py.File(out, "r+") as file:
             stored = file.attrs["study"]
             stored = stored if isinstance(stored, str) else stored.decode()
@@ -224,7 +224,7 @@ class OwnFeatures(PythonStudyCase):
                   "    return record.torque_Nm\n")
         out = self.run_study(self.study(source), "a.h5")
         self.assertRegex(self.output, r"own\.py:5: ValueError: torque is high \(fragile, "
-                                      r"(healthy|graded) gearbox \d+, row \d+ of the results, "
+                                      r"(healthy|test) gearbox \d+, row \d+ of the results, "
                                       r"noise x 1\)")
         self.assertEqual(self.output.count("ValueError"), 1)
         values = self.values(out)["fragile"]
@@ -290,7 +290,7 @@ class OwnFeatures(PythonStudyCase):
             study = self.study("def f(record):\n    return 1\n", files=files)
             self.program("run", study, code=2)
             self.assertIn(message, self.output)
-        self.program("describe", self.study(TWINS), code=2, GEARPOD_PYTHON="/no/python")
+        self.program("describe", self.study(COUNTERPARTS), code=2, GEARPOD_PYTHON="/no/python")
         self.assertIn("/no/python: cannot be started", self.output)
 
     def test_output_cannot_disturb_the_protocol(self):
@@ -358,14 +358,14 @@ class OwnFeatures(PythonStudyCase):
         self.assertTrue(self.is_gone(pid))
 
     def test_describe_lists_features_and_is_not_stopped_by_one_that_hangs(self):
-        self.program("describe", self.study(TWINS))
+        self.program("describe", self.study(COUNTERPARTS))
         self.assertIn("features in Python", self.output)
         self.assertIn("level in Python; unit m/s^2, high values alarm", self.output)
         self.program("describe", self.study(self.HANGS), "--seconds", "2")
         self.assertIn("omitted", self.output)
 
     def test_recordings_have_the_features(self):
-        study = self.study(TWINS, use='["sensor_rms"]')
+        study = self.study(COUNTERPARTS, use='["sensor_rms"]')
         record = self.folder / "record.h5"
         self.program("simulate", study, "--instance", 20, "--meshes", 2511, "--out", record)
         self.program("features", record, "--study", study, "--json", self.folder / "f.json")
@@ -381,7 +381,7 @@ class OwnFeatures(PythonStudyCase):
         self.assertIn("broken: " + str(self.folder / "own.py") + ":2: ZeroDivisionError", self.output)
 
     def test_sweeps_and_watching(self):
-        study = self.study(TWINS)
+        study = self.study(COUNTERPARTS)
         self.program("sweep", study, "--vary", "sensor.noise_m_s2=[1,2]", "--out", self.folder / "s",
                      "--instances", "7")
         self.program("run", study, "--watch", "ratio", "--out", self.folder / "w.h5")

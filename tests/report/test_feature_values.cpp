@@ -37,7 +37,7 @@ TEST_CASE("A study without noise prints the values of its file, not dashes") {
     REQUIRE(report.code == 0);
     CHECK(!report.mentions("-    "));
     CHECK(report.mentions("Feature values"));
-    // Line of each graded gearbox: row, loss of stiffness, then the four features.
+    // Line of each test gearbox: row, loss of stiffness, then the four features.
     const mc::Results results = mc::read_results(file);
     int found = 0;
     std::istringstream lines(report.output);

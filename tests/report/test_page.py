@@ -326,7 +326,7 @@ class Program(unittest.TestCase):
         html = pathlib.Path(self.html()).read_text()
         self.assertEqual(html, build_page.page_html(json.loads(both.stdout)))
         shown_text = PageHtml(html).text()
-        for words_ in ("B against A", "On 350 graded gearboxes that are the same in both",
+        for words_ in ("B against A", "On 350 test gearboxes that are the same in both",
                        "Different gearboxes (seed 2 and 8)", "Difference of a90 at noise",
                        "minus A"):
             self.assertIn(words_, shown_text)

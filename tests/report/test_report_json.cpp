@@ -40,7 +40,7 @@ void check_numbers(const Json& json) {
     }
 }
 
-// Checks that every graded gearbox is in one cell, as tested or as failed.
+// Checks that every test gearbox is in one cell, as tested or as failed.
 void check_cells(const Json& json, std::size_t graded) {
     for (const Json& feature : json["detection"]["features"]) {
         for (const Json& level : feature["levels"]) {

@@ -15,7 +15,7 @@ using namespace gearpod::stiffness;
 
 namespace {
 
-constexpr double kNewtonPerSquareMillimetre = 1e6;
+constexpr double kPaPerMPa = 1e6;
 
 gears::Gear standard_gear(int teeth, bool internal = false) {
     gears::Gear gear;
@@ -49,11 +49,9 @@ TEST_CASE("nominal tooth stresses match those printed by KISSsoft for the NREL 5
             printed.tangential_N / std::cos(pair->geometry.gear(1).pressure_angle_rad);
         const ToothStress stress =
             iso_6336_stress(pair->geometry, pair->helix_rad, pair->material, force_N);
-        CHECK(stress.contact_Pa / kNewtonPerSquareMillimetre ==
-              Approx(printed.contact).epsilon(1e-3));
-        CHECK(stress.root_1_Pa / kNewtonPerSquareMillimetre ==
-              Approx(printed.root_1).epsilon(2e-3));
-        CHECK(stress.root_2_Pa / kNewtonPerSquareMillimetre ==
+        CHECK(stress.contact_Pa / kPaPerMPa == Approx(printed.contact).epsilon(1e-3));
+        CHECK(stress.root_1_Pa / kPaPerMPa == Approx(printed.root_1).epsilon(2e-3));
+        CHECK(stress.root_2_Pa / kPaPerMPa ==
               Approx(printed.root_2).epsilon(printed.root_2_margin));
     }
 }

@@ -30,7 +30,7 @@ datasheet_to_pod() {
 compare_two_sensors() {
     gearpod run "$studies/planet-crack-ideal.toml" $few --quiet --out a.h5 &&
     gearpod run "$studies/planet-crack-ideal.toml" $few --quiet --set 'sensor.noise_m_s2={distribution="lognormal", median=2, cv=0.2}' --out b.h5 &&
-    gearpod compare a.h5 b.h5 --html compare.html > out && has out 'graded gearboxes that are the same' &&
+    gearpod compare a.h5 b.h5 --html compare.html > out && has out 'test gearboxes that are the same' &&
     has out 'Smallest fault found with 90 % probability'
 }
 record_length_and_interval() {

@@ -10,7 +10,7 @@
     results = gearpod.run("studies/planet-crack.toml", set={"sensor.noise_levels": [2]})
     results = gearpod.open("planet-crack.h5")
     results.frame(noise=1.0)              # one row per gearbox: inputs and features (pandas)
-    results.pod(values)                   # your own feature, graded like the program's
+    results.pod(values)                   # your own feature, evaluated like the program's
     gearpod.figures.detection(results, "window_ratio")    # matplotlib axes
 
 numpy and h5py are needed; pandas for frames, xarray for datasets, matplotlib for figures, the

@@ -49,7 +49,7 @@ class Lives:
 
 class Results:
     """Results of `gearpod run` or `gearpod lives`, read on demand. Each row is a gearbox or a life;
-    those that set the thresholds come first, then the graded ones."""
+    those that set the thresholds come first, then the test gearboxes."""
 
     def __init__(self, path: PathLike) -> None:
         self.path = pathlib.Path(path)
@@ -121,7 +121,7 @@ class Results:
     def variant(self, name: str, feature: str) -> Array:
         """Values of a feature of other signals, gearboxes x noise levels. The variant "sensor_NAME"
         is an additional sensor. "other_fault" has healthy gearboxes with a faulty bearing, and NaN
-        for graded ones."""
+        for test gearboxes."""
         if name not in self.variants:
             raise KeyError(f"no variant {name}; available: {', '.join(self.variants) or 'none'}")
         return self._read(f"variants/{name}", feature, self.features)
@@ -145,7 +145,7 @@ class Results:
         return 1.0 if 1.0 in levels else float(above[0] if above.size else levels[0])
 
     def rows(self, group: str = "graded") -> Array:
-        """Row numbers of a group: threshold, graded or neither."""
+        """Row numbers of a group: threshold, graded (test gearboxes) or neither."""
         return np.flatnonzero(self.group == GROUPS[group])
 
     def columns(self, noise: Optional[float] = None) -> Dict[str, Array]:
@@ -184,8 +184,8 @@ class Results:
 
     def pod(self, values: Any, *, name: str = "values", alarm: str = "high", unit: str = "1",
             noise: Optional[float] = None) -> library.Pod:
-        """Grades values of your own, one per gearbox in the order of the rows, as the program
-        grades its features: threshold at the study's false-alarm rate from the threshold group,
+        """Evaluates values of your own, one per gearbox in the order of the rows, as the program
+        evaluates its features: threshold at the study's false-alarm rate from the threshold group,
         detection rates, POD curve. `alarm` is the side of the threshold that is an alarm, `noise`
         the noise level of the values, for the report only.
 

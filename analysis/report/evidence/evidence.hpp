@@ -32,8 +32,8 @@ struct EvidenceSource {
 // Keys of added blocks begin with "evidence.".
 Report evidence_report(const EvidenceSource& source);
 
-// Alarms of healthy rows: those that set the threshold, and the graded ones of size 0, with the
-// Clopper-Pearson interval of the latter. Without graded healthy rows a dash.
+// Alarms of healthy rows: those that set the threshold, and the test gearboxes of size 0, with the
+// Clopper-Pearson interval of the latter. Without healthy test rows a dash.
 Table healthy_alarms_table(const std::vector<FeatureDetection>& detection,
                            const DetectionRequest& request, const std::string& rows);
 

@@ -13,7 +13,7 @@ STYLES = {"double": "-", "single": (0, (4, 2)), "graded": (0, (1, 1)),
 class Accuracy:
     def __init__(self, data):
         self.data = data
-        rows = data["rungs"]
+        rows = data["settings"]
         self.measured = [row for row in rows if "refused" not in row]
         self.refused = [row for row in rows if "refused" in row]
         # Curves: settings with the tightest convergence, by integrator, precision and grid.
@@ -189,14 +189,14 @@ def _detection(report, page):
     head = ["Setting", "Time, ms", "Alarms changed", "Pd changed", "Half width", "a90 changed",
             "a90 interval"]
     table = blocks.table(
-        f"The same {count(gearboxes)} graded gearboxes with these settings and with the most "
+        f"The same {count(gearboxes)} test gearboxes with these settings and with the most "
         "accurate one", head,
         [[row["name"], number(1e3 * row["gearbox_s"]),
           percent(row["detection"]["alarms_changed"]),
           *(number(row["detection"][key], 2) for key in ("pd_change", "pd_half_width",
                                                          "a90_change", "a90_interval"))]
          for row in rows])
-    return page.figure(f"Change of the answer, {count(gearboxes)} graded gearboxes", charts,
+    return page.figure(f"Change of the answer, {count(gearboxes)} test gearboxes", charts,
                        "Largest change over features, sizes and noise levels against the most "
                        "accurate setting, and the statistical uncertainty of the same quantity. "
                        "Changes below 0.00001 are drawn there.", table)
@@ -206,7 +206,7 @@ def _effects(report, page):
     """Change and cost of each optional effect, next to the change that matters."""
     rows = report.data.get("effects", [])
     if not rows:
-        return blocks.note("The price of effects was not measured: the time was used up.")
+        return blocks.note("The cost of effects was not measured: the time was used up.")
     measured = [row for row in rows if "refused" not in row]
     known = any(row["change"]["worst_of_scatter"] is not None for row in measured)
     key = "worst_of_scatter" if known else "worst_feature"
@@ -231,7 +231,7 @@ def _effects(report, page):
         charts.append(to_svg(figure, "Change of the features by each effect", "; ".join(
             f"{row['effect']}: {number(row['change'][key])}" for row in drawn), page.names))
     head = ["Effect", "In the study", "Time with / without", "Sensor changes", "Features change",
-            "Over scatter", "Called for"]
+            "Over scatter", "Needed"]
     table = blocks.table(
         "The pilot without an effect of the study, or with one that it leaves out", head,
         [[row["effect"], "yes" if row["in_study"] else "no",
@@ -239,9 +239,9 @@ def _effects(report, page):
             (number(row["time_ratio"]),
              *(number(row["change"][name], 2) for name in ("sensor", "worst_feature",
                                                            "worst_of_scatter")),
-             "yes" if row["called_for"] else "no"))] for row in rows])
+             "yes" if row["needed"] else "no"))] for row in rows])
     return page.figure("Change of the features by each effect", charts,
-                       "An effect is called for if it changes a feature by more than "
+                       "An effect is needed if it changes a feature by more than "
                        f"{report.data['share_of_scatter']:g} of its scatter between healthy "
                        f"gearboxes, or by {report.data['change_of_feature']:g} of its value where "
                        "the scatter was not measured.", table)
@@ -314,7 +314,7 @@ def parts(data, page):
     body += page.section("signals", "Signals", _signals(report, page))
     body += page.section("detection", "Numerical against statistical error",
                          _detection(report, page))
-    body += page.section("effects", "Price of each effect", _effects(report, page))
+    body += page.section("effects", "Cost of each effect", _effects(report, page))
     body += page.section("stability", "Stability", _stability(report, page))
     body += page.section("limits", "Settings that were not measured", _limits(report))
     return data["title"] or "Accuracy and computing time", headline, summary, body

@@ -28,8 +28,8 @@ struct Pits : FaultShape {
 // clang-format off
 constexpr FaultSize kPittingSize{"pit_width_mm", number<&Pits::width_m>, kMm, kNotNegative, "width of the pitted band along the face width"};
 constexpr FaultKey kPittingOthers[] = {
-    {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the band along the tooth height"},
-    {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "radius of the band's centre"},
+    {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the pitted band along the involute profile"},
+    {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "distance of the band's centre from the gear's axis"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
     {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "number of neighbouring pitted teeth"},
     {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "centre of the pits along the face width of helical teeth, from the end that engages first; by default half the face width"},

@@ -45,9 +45,9 @@ void check_loads(StudyDraft& draft) {
         });
         const std::optional<int>& nodes =
             quantity == RecordQuantity::torque ? life.polynomial_torques : life.polynomial_speeds;
-        const std::string name = (nodes ? "life.integrated_" : "life.marched_") + (key + "s"s);
+        const std::string name = (nodes ? "life.integrated_" : "life.linear_") + (key + "s"s);
         if (given_count && nodes) {
-            draft.reject(name, fmt::format("conflicts with life.marched_{}s", key),
+            draft.reject(name, fmt::format("conflicts with life.linear_{}s", key),
                          "remove one of them");
         }
         if ((given_count || nodes) && scatter == 0.0 && !by_law) {

@@ -36,13 +36,36 @@ bool is_former_key(const std::string& path) {
     return std::ranges::find(kFormerKeys, path) != std::end(kFormerKeys);
 }
 
+// Keys of earlier versions that have another name now.
+struct RenamedKey {
+    std::string_view section, former, current;
+};
+constexpr RenamedKey kRenamedKeys[] = {{"life", "marched_torques", "linear_torques"},
+                                       {"life", "marched_speeds", "linear_speeds"}};
+
+// Replaces a former name of a key by its current one, with a notice.
+void rename_former_key(StudyDraft& draft, const std::string& section, Entry& entry) {
+    for (const RenamedKey& key : kRenamedKeys) {
+        if (section == key.section && entry.name == key.former) {
+            draft.notices.push_back(
+                {entry.position.file, entry.position.line, section + "." + entry.name,
+                 "is the name of an earlier version", fmt::format("write {}", key.current)});
+            entry.name = key.current;
+        }
+    }
+}
+
 // `prefix`: name of the table within the section and a dot, or empty.
 void read_entries(StudyDraft& draft, const std::string& section, const std::string& prefix,
                   const std::vector<Entry>& entries) {
     for (Entry entry : entries) {
         entry.name = prefix + entry.name;
+        rename_former_key(draft, section, entry);
         const Key* key = find_key(section, entry.name);
-        if (key != nullptr) {
+        if (key != nullptr && draft.is_given(key->path())) {
+            draft.reject(entry.position, key->path(), "is also given by its earlier name",
+                         "remove one of them");
+        } else if (key != nullptr) {
             read_value(draft, *key, entry);
         } else if (const std::string path = section + "." + entry.name; is_former_key(path)) {
             draft.notices.push_back({entry.position.file, entry.position.line, path,

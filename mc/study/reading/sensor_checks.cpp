@@ -102,7 +102,7 @@ void check_tones_and_bearings(StudyDraft& draft) {
         draft.usable("ensemble.threshold_tilt")) {
         draft.reject(
             "sensor.additional",
-            "importance sampling (ensemble.threshold_tilt, or `misses`) tilts the noise of one "
+            "importance sampling (ensemble.threshold_tilt, or `misses`) applies to the noise of one "
             "sensor only",
             "remove them");
     }

@@ -11,7 +11,7 @@ void choose_instruction_set(std::optional<machine::InstructionSet> requested) {
     const machine::InstructionSet best = machine::best_instruction_set();
     if (requested && *requested <= best &&
         std::find(built.begin(), built.end(), *requested) == built.end()) {
-        throw MissingKernel(fmt::format("this program was built without {} (it marches {})",
+        throw MissingKernel(fmt::format("this build has no kernels for {} (built: {})",
                                         machine::name(*requested), built_kernels()));
     }
     if (requested) {
@@ -36,8 +36,8 @@ int lanes_for(Precision precision, int gearboxes) {
 void check_lanes(Precision precision, int lanes) {
     const std::vector<int> built = built_lanes(precision);
     if (std::find(built.begin(), built.end(), lanes) == built.end()) {
-        throw MissingKernel(fmt::format("this program was built without {} lanes (it marches {})",
-                                        lanes, built_kernels()));
+        throw MissingKernel(fmt::format("this build has no kernels for {} lanes (built: {})", lanes,
+                                        built_kernels()));
     }
 }
 

@@ -49,14 +49,14 @@ KernelTable::Function KernelTable::find(KernelKey key, std::type_index lanes) co
             continue;
         }
         if (found->second.lanes != lanes) {
-            throw std::logic_error("a kernel was asked for with lanes that it does not take");
+            throw std::logic_error("kernel requested for an unsupported number of lanes");
         }
         return found->second.kernel;
     }
-    throw MissingKernel(
-        fmt::format("this program marches {}, not {} {} by {}", built_kernels(), key.lanes,
-                    key.precision == Precision::double_precision ? "doubles" : "singles",
-                    name(key.integrator)));
+    throw MissingKernel(fmt::format(
+        "this build has no {} kernel for {} {}-precision lanes (built: {})", name(key.integrator),
+        key.lanes, key.precision == Precision::double_precision ? "double" : "single",
+        built_kernels()));
 }
 
 const KernelTable& kernel_table() {
@@ -95,7 +95,7 @@ std::string built_kernels() {
     for (const machine::InstructionSet set : built_instruction_sets()) {
         sets += fmt::format("{}{}", sets.empty() ? "" : ", ", machine::name(set));
     }
-    return fmt::format("{} doubles or {} singles abreast for {}",
+    return fmt::format("{} lanes in double precision, {} in single precision, for {}",
                        text_of(built_lanes(Precision::double_precision)),
                        text_of(built_lanes(Precision::single_precision)), sets);
 }

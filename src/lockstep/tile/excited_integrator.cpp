@@ -58,8 +58,8 @@ std::unique_ptr<ExcitedIntegrator<W>> make_excited_integrator(
     assert(inputs.size() == W);
     if (!supports_excitation(plan, excitation)) {
         throw std::invalid_argument(fmt::format(
-            "only {} march doubles under varying forces, and at a varying speed only {} "
-            "on a grid with a node on every sample",
+            "varying forces need double precision and one of: {}; a varying speed needs {} and a "
+            "grid with a node on every sample",
             names_of(&IntegratorFacts::supports_varying_forces),
             names_of(&IntegratorFacts::supports_variable_speed)));
     }

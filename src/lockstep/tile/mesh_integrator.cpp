@@ -55,8 +55,8 @@ std::unique_ptr<const MeshIntegrator<W>> make_mesh_integrator(
         return make_kernel_integrator<W, double>(plan, inputs);
     }
     throw std::invalid_argument(
-        fmt::format("only {} march singles, and doubles march at most eight abreast",
-                    names_of(&IntegratorFacts::has_single_precision)));
+        fmt::format("only {} support single precision; double precision supports at most {} lanes",
+                    names_of(&IntegratorFacts::has_single_precision), kMostDoubleLanes));
 }
 
 #define GEARPOD_MESH_INTEGRATOR(W)                                             \

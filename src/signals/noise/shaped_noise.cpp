@@ -73,9 +73,9 @@ ShapedNoise::ShapedNoise(const NoiseSpectrum& spectrum, double low_pass_Hz, doub
     for (std::size_t k = 0; k <= kCount / 2; ++k) {
         const double f = static_cast<double>(k) / static_cast<double>(kCount) * sampling_Hz;
         double sum = 0.0;
-        const auto add = [&](double folded) {
-            const double density = spectrum.at(folded);
-            sum += density * density * passed(folded, low_pass_Hz);
+        const auto add = [&](double aliased_Hz) {
+            const double density = spectrum.at(aliased_Hz);
+            sum += density * density * passed(aliased_Hz, low_pass_Hz);
         };
         add(f);
         const double last = std::min(spectrum.frequency_Hz.back(), kMostPassed * low_pass_Hz);

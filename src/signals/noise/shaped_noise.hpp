@@ -1,6 +1,6 @@
 // Gaussian noise with a given power density before the sensor's anti-alias low-pass (Butterworth,
 // order 4): the background of a machine. With the one-sided density D(f)^2, the samples have the
-// density D(f)^2 |H(f)|^2, frequencies above half the sampling rate folded back.
+// density D(f)^2 |H(f)|^2, frequencies above half the sampling rate being aliased.
 //
 // The samples are independent normal variates, convolved with a filter of kTaps coefficients. Its
 // frequency response is the root of the samples' density at kTaps frequencies, under a Hann window.

@@ -103,7 +103,7 @@ void PeriodicResponse::add(std::span<const double> signal, double sampling_Hz,
 
 // Harmonic k of n samples has the same values at `own` of them as harmonic k modulo `own`. Both
 // signs of k contribute to a one-sided sum: at 0 and at half the rate their imaginary parts cancel.
-void PeriodicResponse::fold(std::size_t own) {
+void PeriodicResponse::alias(std::size_t own) {
     const std::size_t count = own * (2 * half() / samples_);
     for (std::size_t k = count / 2 + (count % 2 == 0 ? 0 : 1); k <= half(); ++k) {
         // Half the sampling rate occurs once, half of it with each sign.
@@ -126,7 +126,7 @@ std::vector<double> PeriodicResponse::take(const std::optional<MeasuringChain>& 
                                            double sampling_Hz) {
     const std::size_t own = chain ? chain->own_samples(samples_, sampling_Hz) : samples_;
     if (own < samples_) {
-        fold(own);
+        alias(own);
     }
     for (std::size_t k = 0; k < half(); ++k) {
         const Complex a = sum_[k], b = std::conj(sum_[half() - k]);

@@ -68,8 +68,8 @@ struct HousingResponse {
 };
 
 // Steady response to periodic signals of a given number of samples, exact at their harmonics.
-// Harmonics above half the sampling rate, which the sensor's low-pass leaves small, respond at the
-// frequency to which sampling folds them. Holds scratch memory: use one object per thread.
+// Harmonics above half the sampling rate, which the sensor's low-pass leaves small, respond at their
+// alias frequency. Holds scratch memory: use one object per thread.
 //
 // The samples are transformed as complex numbers, two in one (J. W. Cooley, P. A. W. Lewis and P.
 // D. Welch, J. Sound Vib. 12 (1970), 315-337). An odd number of samples is taken twice.
@@ -83,13 +83,13 @@ class PeriodicResponse {
     // Returns the sum of the responses since the last call, as the converter of a measuring chain
     // samples it. A lower rate of its own takes equally spaced samples, the first one with the
     // first sample of the signal. They are interpolated without frequencies above half that rate;
-    // frequencies of the sum above it have folded below it.
+    // frequencies of the sum above it are aliased.
     std::vector<double> take(const std::optional<MeasuringChain>& chain = {},
                              double sampling_Hz = 0.0);
 
   private:
-    // Folds the sum as `own` samples of it do.
-    void fold(std::size_t own);
+    // Replaces the sum by the aliased spectrum of `own` samples of it.
+    void alias(std::size_t own);
     std::size_t half() const { return values_.size(); }
 
     std::size_t samples_;

@@ -23,7 +23,7 @@ constexpr double kNegligibleExponent = -45.0;
 NoiseImportanceSampler::NoiseImportanceSampler(const SpanLayout& layout, int phases, double taper) {
     const std::vector<double> window = tukey_window(phases, taper);
     if (layout.meshes() < 1) {
-        throw std::invalid_argument("noise tilt: the span has no meshes");
+        throw std::invalid_argument("importance sampling of noise: the span has no meshes");
     }
     const double energy = std::inner_product(window.begin(), window.end(), window.begin(), 0.0);
     length_ = static_cast<std::size_t>(std::max(1L, std::lround(energy)));
@@ -54,7 +54,7 @@ std::vector<double> NoiseImportanceSampler::stretch_sums(std::span<const double>
 void NoiseImportanceSampler::load(std::span<const double> folded, std::span<const double> sigmas,
                                   TargetTail towards) {
     if (folded.size() != bins_) {
-        throw std::invalid_argument("noise tilt: bins and layout disagree in number");
+        throw std::invalid_argument("importance sampling of noise: bins and layout disagree in number");
     }
     squares_ = stretch_sums(folded);
     root_.assign(folded.begin(), folded.end());

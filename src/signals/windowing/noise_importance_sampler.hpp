@@ -48,14 +48,14 @@ class NoiseImportanceSampler {
     // std::invalid_argument if the number of bins disagrees with the layout.
     void load(std::span<const double> folded, std::span<const double> sigmas, TargetTail towards);
 
-    // Turns untilted noise into noise of the given kind. `pick`, uniform in [0, 1), selects level
+    // Turns plain noise into noise of the given kind. `pick`, uniform in [0, 1), selects level
     // and stretch.
     void sample(std::size_t kind, double pick, NoiseVariates& draw) const;
     // Importance weight of noise of any kind.
     double weight(const NoiseVariates& draw) const;
 
   private:
-    // Parameters that tilt a stretch to energy u.
+    // Parameters that raise the expected energy of a stretch to u by exponential tilting.
     struct Stretch {
         double tilting_parameter = 0.0;  // k / 2
         double growth = 1.0;             // x

@@ -57,9 +57,9 @@ class PittingFault : public ToothFault {
         family_.healthy_beam_(tau, compliance);
         SectionMoments lost;
         double u = family_.band_root_;
-        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
+        const bool root_to_tip = family_.contact_rate_ < 0;
         for (std::size_t i = 0; i < tau.size(); ++i) {
-            const std::size_t next = climbs ? i : tau.size() - 1 - i;
+            const std::size_t next = root_to_tip ? i : tau.size() - 1 - i;
             const double contact = family_.angle_at(tau[next]);
             add_band(u, std::max(contact, family_.band_tip_), lost);
             compliance[next] += stiffness::compliance(lost, family_.profile_, family_.material_,

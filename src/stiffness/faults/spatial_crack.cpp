@@ -31,7 +31,7 @@ struct ContactPoint {
     FoundationCompliance foundation;  // zero without one
 };
 
-double inverse(double x) {
+double inverse_or_zero(double x) {
     return x > 0 ? 1 / x : 0;
 }
 
@@ -51,10 +51,11 @@ class SpatialCrackFault : public ToothFault {
         find_heights();
         find_breaks();
         const SectionSweep whole = swept_to(healthy_, family.angle_at(family.contact_ratio_ / 2));
-        const double soft =
+        const double healthy_compliance =
             compliance(whole.moments(), family.profile_, family.material_,
                        family.profile_.involute_angle(family.angle_at(family.contact_ratio_ / 2)));
-        const ToothPairFit fit((surface.uniform() ? kUniformTolerance : kTolerance) / soft);
+        const ToothPairFit fit((surface.uniform() ? kUniformTolerance : kTolerance) /
+                               healthy_compliance);
         curve_ = fit([this](std::span<const double> tau,
                             std::span<double> stiffness) { sum_slices(tau, stiffness); },
                      breaks_, family.contact_ratio_);
@@ -96,7 +97,7 @@ class SpatialCrackFault : public ToothFault {
         const double cut =
             below > 0 ? below * std::tan(crack.angle_rad) : 0;  // of the root's width
         const double root_width = 2 * family_.profile_.root_half_thickness();
-        lever_factor_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
+        lever_factor_.push_back(inverse_or_zero(std::max(0.0, 1 - cut / root_width)));
     }
 
     // Height of the section at u above the section from which the cracks' heights are measured.
@@ -136,7 +137,7 @@ class SpatialCrackFault : public ToothFault {
             breaks_.push_back(tau);
     }
 
-    ContactPoint touch_at(double tau) const {
+    ContactPoint contact_at(double tau) const {
         const double u = family_.angle_at(tau), angle = family_.profile_.involute_angle(u);
         return {u, std::cos(angle), std::sin(angle),
                 family_.foundation_ ? family_.foundation_->self(angle) : FoundationCompliance{}};
@@ -145,10 +146,10 @@ class SpatialCrackFault : public ToothFault {
     // Stiffness of the tooth, N/m, at ascending positions.
     void sum_slices(std::span<const double> tau, std::span<double> stiffness) const {
         const std::size_t n = tau.size(), count = slices_.size();
-        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
-        std::vector<ContactPoint> touches(n);           // from the root
+        const bool root_to_tip = family_.contact_rate_ < 0;
+        std::vector<ContactPoint> touches(n);  // from the root
         for (std::size_t i = 0; i < n; ++i)
-            touches[i] = touch_at(tau[climbs ? i : n - 1 - i]);
+            touches[i] = contact_at(tau[root_to_tip ? i : n - 1 - i]);
         std::vector<SliceStiffness> at(n * count);
         for (std::size_t slice = 0; slice < count; ++slice) {
             SectionSweep sweep(family_.profile_, slices_[slice]);
@@ -158,7 +159,7 @@ class SpatialCrackFault : public ToothFault {
         SectionSweep sweep(family_.profile_, healthy_);
         for (std::size_t i = 0; i < n; ++i) {
             const std::span<const SliceStiffness> slices(at.data() + i * count, count);
-            stiffness[climbs ? i : n - 1 - i] =
+            stiffness[root_to_tip ? i : n - 1 - i] =
                 by_sections() ? tooth_stiffness(touches[i], sweep, slices)
                               : stiffness_in_series(touches[i], sweep, slices);
         }
@@ -180,11 +181,11 @@ class SpatialCrackFault : public ToothFault {
 
     SliceStiffness stiffness_of(const SectionMoments& moments, const ContactPoint& touch,
                                 double lever, double added = 0) const {
-        return {
-            inverse(bending_compliance(moments, family_.profile_, family_.material_, touch.cosine) +
+        return {inverse_or_zero(
+                    bending_compliance(moments, family_.profile_, family_.material_, touch.cosine) +
                     added),
-            inverse(shear_compliance(moments, family_.material_, touch.cosine)),
-            lever > 0 ? inverse(touch.foundation.total(lever)) : 0};
+                inverse_or_zero(shear_compliance(moments, family_.material_, touch.cosine)),
+                lever > 0 ? inverse_or_zero(touch.foundation.total(lever)) : 0};
     }
 
     // Stiffness of the tooth by fracture mechanics. Each slice is in series with a slice of the
@@ -232,13 +233,13 @@ class SpatialCrackFault : public ToothFault {
         sum.bending += (1 - cracked) * whole.bending;
         sum.shear += (1 - cracked) * whole.shear;
         sum.foundation += (1 - cracked) * whole.foundation;
-        double soft =
+        double total_compliance =
             1 / sum.bending + axial_compliance(sweep.moments(), family_.material_, touch.sine);
         if (whole.shear > 0)
-            soft += 1 / sum.shear;
+            total_compliance += 1 / sum.shear;
         if (whole.foundation > 0)
-            soft += 1 / sum.foundation - 1 / whole.foundation;
-        return sum.bending > 0 ? 1 / soft : 0;
+            total_compliance += 1 / sum.foundation - 1 / whole.foundation;
+        return sum.bending > 0 ? 1 / total_compliance : 0;
     }
 
     // Weights of the slices whose crack affects a contact at that height.

@@ -31,9 +31,9 @@ class CrackBySections : public ToothFault {
             return;
         }
         SectionSweep sweep(family_.profile_, sections_);
-        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
+        const bool root_to_tip = family_.contact_rate_ < 0;
         for (std::size_t i = 0; i < tau.size(); ++i) {
-            const std::size_t next = climbs ? i : tau.size() - 1 - i;
+            const std::size_t next = root_to_tip ? i : tau.size() - 1 - i;
             compliance[next] = touched_at(family_.angle_at(tau[next]), sweep);
         }
     }
@@ -77,9 +77,9 @@ class CrackByFractureMechanics : public ToothFault {
             return;
         }
         SectionSweep sweep(family_.profile_, healthy_);
-        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
+        const bool root_to_tip = family_.contact_rate_ < 0;
         for (std::size_t i = 0; i < tau.size(); ++i) {
-            const std::size_t next = climbs ? i : tau.size() - 1 - i;
+            const std::size_t next = root_to_tip ? i : tau.size() - 1 - i;
             const double u = family_.angle_at(tau[next]);
             const double angle = family_.profile_.involute_angle(u);
             sweep.advance(u);

@@ -16,7 +16,8 @@
 
 namespace gearpod::stiffness {
 
-// Size: depth along the crack, m. Depths beyond the largest are treated as it and carry no load.
+// Size: depth along the crack, m. Larger depths are treated as the largest; the tooth then carries
+// no load.
 class ToothCrack : public ToothFaultFamily {
   public:
     // which: gear with the cracked tooth (1 or 2 of the geometry). crack_angle_rad: angle between

@@ -15,7 +15,7 @@ namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Threshold sample and graded gearboxes of a study with any number of features.
+// Threshold sample and test gearboxes of a study with any number of features.
 struct Study {
     std::vector<double> healthy_size, graded_size;
     std::vector<std::vector<double>> healthy, graded;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mc/accuracy/effect_prices.hpp"
+#include "mc/accuracy/measured_effect_costs.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
@@ -163,7 +163,7 @@ TEST_CASE("the numerical error from finer steps equals the error against a refer
     CHECK_FALSE(find_numerical_error(Scene(tian())).has_value());
 }
 
-TEST_CASE("the share of verdicts that the numerical error could change is counted", "[accuracy]") {
+TEST_CASE("the share of decisions that the numerical error could change is counted", "[accuracy]") {
     Results r;
     r.parameters = {{"fault_depth_m", "m", {}}};
     r.noise_levels = {1.0};
@@ -185,7 +185,7 @@ TEST_CASE("the share of verdicts that the numerical error could change is counte
     level.threshold = 0.955;
     level.cells = {{{0.001, 0.001}, 100, 54, 0, 0.54, 0.44, 0.64, {}}};
     r.detection = {{"te_rms", analysis::Alarm::high, {level}, {}}};
-    // Verdicts within 2 x 0.01 of 0.955: 0.94, 0.95, 0.96 and 0.97.
+    // Decisions within 2 x 0.01 of 0.955: 0.94, 0.95, 0.96 and 0.97.
     r.numerical = NumericalError{"here", "finer", 8, {0.004}, {0.01}};
     const auto shares = numerical_contributions(r, ColumnRows(r), std::nullopt);
     REQUIRE(shares.size() == 1);
@@ -226,7 +226,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     const test::Folder folder;
     test::write_bytes(
         folder.file("peers.csv"),
-        "name,command,march_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
+        "name,command,integration_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
     const test::Outcome run = test::program(
         "accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
         " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " + folder.file("peers.csv") +
@@ -242,7 +242,7 @@ TEST_CASE("accuracy lists every solver setting, marks the frontier and reports w
     CHECK(json["peers"][0]["worst_feature"].get<double>() == 0.3);
     std::vector<std::pair<double, double>> frontier;
     double fastest = 1e9, closest = 1e9;
-    for (const auto& solver_setting : json["rungs"]) {
+    for (const auto& solver_setting : json["settings"]) {
         // A solver setting may be unstable: then it has no error.
         if (solver_setting.contains("refused") ||
             solver_setting["error"]["worst_feature"].is_null()) {
@@ -313,7 +313,7 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     CHECK(headline.find(": 2 ms of integration.") != std::string::npos);
 }
 
-TEST_CASE("the price of an effect is the change of the pilot without it", "[accuracy]") {
+TEST_CASE("the cost of an effect is the change of the pilot without it", "[accuracy]") {
     const Study study = tian({"effects.shear=true"});
     AccuracyRequest request;
     request.repeats = 1;
@@ -323,7 +323,7 @@ TEST_CASE("the price of an effect is the change of the pilot without it", "[accu
     const Scene own(study);
     measure_effects(own, request, TimeBudget(0.0), report);
     const auto shear =
-        std::ranges::find(report.effects, "shear of the teeth", &EffectPrice::effect);
+        std::ranges::find(report.effects, "shear of the teeth", &MeasuredEffectCost::effect);
     REQUIRE(shear != report.effects.end());
     CHECK(shear->in_study);
     CHECK(shear->time_ratio > 0.0);
@@ -338,7 +338,7 @@ TEST_CASE("the price of an effect is the change of the pilot without it", "[accu
     // in a plane.
     for (const char* absent : {"tooth errors", "pin errors", "inertial terms"}) {
         INFO(absent);
-        CHECK(std::ranges::find(report.effects, absent, &EffectPrice::effect) ==
+        CHECK(std::ranges::find(report.effects, absent, &MeasuredEffectCost::effect) ==
               report.effects.end());
     }
 

@@ -190,9 +190,9 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
         CHECK(low - (high - low) <= truth[p]);
         CHECK(high + (high - low) >= truth[p]);
     }
-    CHECK(inputs[1]["told"] == true);
+    CHECK(inputs[1]["is_informed"] == true);
     // The sensor signal is not sensitive to the encoders.
-    CHECK(inputs[3]["told"] == false);
+    CHECK(inputs[3]["is_informed"] == false);
     CHECK(inputs[3]["left"].get<double>() > 0.8);
     CHECK(outcome.mentions("NOT DETERMINED by the recordings: this is the prior"));
     CHECK(json["features"][0]["name"] == "sensor_rms");

@@ -179,7 +179,7 @@ TEST_CASE("Records of a gearbox stay together, and stored signals are written") 
     for (const auto& [gearbox, in] : splits) {
         CHECK(in.size() == 1);
     }
-    // Row 110 is graded gearbox 5, after 35 gearboxes with three records.
+    // Row 110 is test gearbox 5, after 35 gearboxes with three records.
     const mc::TextTable stored = mc::read_text_table(data + "/signals_110.csv");
     const std::string simulated = folder.file("simulated.csv");
     REQUIRE(

@@ -244,7 +244,7 @@ TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a 
 
     const Outcome fewer = test::program(run_of(out, 20) + " --resume");
     CHECK(fewer.code == 2);
-    CHECK(fewer.mentions("r.h5: cannot be continued: it has 50 graded gearboxes"));
+    CHECK(fewer.mentions("r.h5: cannot be continued: it has 50 test gearboxes"));
     const Outcome seed = test::program(run_of(out) + " --resume --seed 9");
     CHECK(seed.code == 2);
     CHECK(seed.mentions("has seed 2, this run has 9"));

@@ -45,7 +45,7 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval requires, in
     const double z2 = 1.959963984540054 * 1.959963984540054;
     const auto needed = static_cast<std::size_t>(std::ceil(z2 * (1.0 / 0.2 - 1.0)));
     REQUIRE(needed == 16);
-    // Seven interleaved sizes, the largest last: its n-th gearbox is graded gearbox 7 n - 1.
+    // Seven interleaved sizes, the largest last: its n-th gearbox is test gearbox 7 n - 1.
     const std::size_t batches = 3 + (7 * needed - 1) / kBatchRows + 1;
 
     std::vector<std::size_t> order(plan.batches());
@@ -75,7 +75,7 @@ TEST_CASE(
     RunningPd watch(study, plan, "");
     CHECK_FALSE(watch.rows_left().has_value());
     CHECK(watch.text().empty());
-    // The threshold group and 64 graded gearboxes: nine of the largest size, 16 required.
+    // The threshold group and 64 test gearboxes: nine of the largest size, 16 required.
     for (std::size_t batch = 0; batch < 7; ++batch) {
         store.write(batch, rows_of(study, plan.batch(batch)));
     }

@@ -33,7 +33,7 @@ Study study_with(const std::string& horizon, const std::vector<std::string>& mor
     return study;
 }
 
-// Graded gearboxes 0 to 7.
+// Test gearboxes 0 to 7.
 class Tile {
   public:
     explicit Tile(const Study& study) : scene_(study), path_(sensor_paths(scene_)) {

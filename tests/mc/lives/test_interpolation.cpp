@@ -87,8 +87,8 @@ TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept"
     CHECK(least.loads >= choice.loads);
     // Numbers that are given stay.
     const auto given = mc::choose_interpolation(
-        mc::Scene(varying({"life.marched_torques=2", "life.marched_speeds=3"})));
-    CHECK(given.life == varying({"life.marched_torques=2", "life.marched_speeds=3"}).life);
+        mc::Scene(varying({"life.linear_torques=2", "life.linear_speeds=3"})));
+    CHECK(given.life == varying({"life.linear_torques=2", "life.linear_speeds=3"}).life);
     CHECK(given.error > 0.1);
     CHECK(mc::choose_interpolation(mc::Scene(life_study())).error == 0.0);
 }

@@ -330,7 +330,7 @@ TEST_CASE("Too coarse an interpolation withholds the results, and quiet runs pri
     CHECK(loud.mentions("Effect of the crack"));
     CHECK(loud.mentions("count as false"));
     command +=
-        " --set life.speed_scatter=0.02 --set life.marched_speeds=2 "
+        " --set life.speed_scatter=0.02 --set life.linear_speeds=2 "
         "--set life.interpolation_tolerance=0.1";
     const Outcome withheld = program(command + " --quiet");
     CHECK(withheld.code == 2);

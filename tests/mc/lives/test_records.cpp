@@ -132,7 +132,7 @@ TEST_CASE("More integrated torques and speeds reduce the interpolation error") {
         const std::string count = std::to_string(integrated);
         const mc::Scene scene(
             quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05",
-                         "life.marched_torques=" + count, "life.marched_speeds=" + count}));
+                         "life.linear_torques=" + count, "life.linear_speeds=" + count}));
         const mc::LifeTiles tiles(scene);
         CHECK(tiles.load_count() == static_cast<std::size_t>(integrated * integrated));
         const mc::GearboxId id{mc::Group::graded, 1};
@@ -191,9 +191,9 @@ TEST_CASE("Invalid records and curves are refused with the key") {
     CHECK(refused("--set 'life.curve_h=[0,1]' --set 'life.curve_depth_mm=[1,4]'")
               .mentions("life.first_depth_mm"));
     CHECK(refused("--set 'life.curve_depth_mm=[1,4]'").mentions("only with life.curve_h"));
-    CHECK(refused("--set life.marched_speeds=3").mentions("all records have the same speed"));
-    CHECK(refused("--set life.marched_torques=1 --set life.torque_scatter=0.1")
-              .mentions("life.marched_torques: must be between 2 and 16"));
+    CHECK(refused("--set life.linear_speeds=3").mentions("all records have the same speed"));
+    CHECK(refused("--set life.linear_torques=1 --set life.torque_scatter=0.1")
+              .mentions("life.linear_torques: must be between 2 and 16"));
     CHECK(refused("--set monitoring.baseline_records=2").mentions("use at least 3, or 0"));
     CHECK(refused("--set monitoring.baseline_records=3 --set monitoring.torque_regression=true")
               .mentions("about a line in the torque"));

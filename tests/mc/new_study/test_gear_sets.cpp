@@ -22,7 +22,7 @@ bool within_kernels(const GearSet& set) {
     return set.tooth_pairs <= dynamics::kMostToothPairs;
 }
 
-// Text with a crack of half the root thickness in half of the graded gearboxes.
+// Text with a crack of half the root thickness in half of the test gearboxes.
 std::string with_half_crack(std::string text, double deepest_mm) {
     const std::size_t begin = text.find("fault.depth_mm = {");
     REQUIRE(begin != std::string::npos);

@@ -73,7 +73,7 @@ bool contains(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE(
-    "A plan's batches hold every row once, with the threshold group and graded gearboxes in "
+    "A plan's batches hold every row once, with the threshold group and test gearboxes in "
     "separate batches") {
     std::size_t row = 0;
     for (std::size_t batch = 0; batch < kPlan.batches(); ++batch) {
@@ -184,7 +184,7 @@ TEST_CASE("A larger ensemble keeps all batches except the one that it fills") {
     for (std::size_t batch = 0; batch < larger.batches(); ++batch) {
         CHECK(checkpoint->has(batch) == (batch < 4));
     }
-    CHECK(contains(reason_of(path, kIdentity, BatchPlan(20, 40)), "80 graded gearboxes"));
+    CHECK(contains(reason_of(path, kIdentity, BatchPlan(20, 40)), "80 test gearboxes"));
 }
 
 TEST_CASE("Another study, seed or version is refused with the reason") {

@@ -59,7 +59,7 @@ Results example() {
         }
         r.detection.push_back(detection);
     }
-    r.timing = {{"march", 1.5}, {"total", 2.5}};
+    r.timing = {{"integration", 1.5}, {"total", 2.5}};
     return r;
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("Results read back as they were written") {
     CHECK(level.cells[2].pd == 0.75);
     CHECK(level.cells[2].detected == 5);
     REQUIRE(back.timing.size() == 2);
-    CHECK(back.timing[0].name == "march");
+    CHECK(back.timing[0].name == "integration");
     CHECK(back.timing[1].seconds == 2.5);
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("h5dump shows the documented layout") {
                              "/detection/te_fc/detected",
                              "/detection/te_fc/tested",
                              "/detection/te_fc/failed",
-                             "/timing/march"}) {
+                             "/timing/integration"}) {
         INFO(name);
         CHECK(contains(dump, name));
     }

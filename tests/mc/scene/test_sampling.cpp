@@ -182,7 +182,7 @@ TEST_CASE("Truncated normals keep their bounds even far in the tails") {
     }
 }
 
-TEST_CASE("Levels and grids alternate in the graded group and are 0 in the threshold group") {
+TEST_CASE("Levels and grids alternate in the test group and are 0 in the threshold group") {
     const Sampler sampler(study_with({}));
     const double depths_mm[] = {0, 1, 2, 3, 4.3};
     for (std::uint64_t i = 0; i < 12; ++i) {

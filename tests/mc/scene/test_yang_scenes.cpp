@@ -55,7 +55,7 @@ RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
 // and planets (40) repeat in this span.
 constexpr int kRigMeshes = 1120, kRigCarrier = 10, kRigSun = 35;
 
-// Signal of the first graded gearbox, whose teeth are the same at any depth of the crack.
+// Signal of the first test gearbox, whose teeth are the same at any depth of the crack.
 std::vector<double> rig_signal(double depth_mm, bool alike) {
     mc::Study study =
         shipped_study("published/yang-test-rig.toml",

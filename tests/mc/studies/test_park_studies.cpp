@@ -88,7 +88,7 @@ double sun_force_N(const mc::Study& study) {
 }
 
 struct FeatureTable {
-    std::vector<double> rms, kurtosis, fc, fm0;  // of the graded gearboxes
+    std::vector<double> rms, kurtosis, fc, fm0;  // of the test gearboxes
 };
 
 FeatureTable feature_table(const mc::Study& study) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMesh_Hz = 570.0;
 constexpr int kPinionTeeth = 19;
 
-// Studies whose graded gearbox 0 is healthy and 1 faulty.
+// Studies whose test gearbox 0 is healthy and 1 faulty.
 const std::vector<std::string> kFaults{"published/tian-fig-4-6.toml", "published/tian-fig-4-9.toml",
                                        "published/tian-fig-4-12.toml"};
 

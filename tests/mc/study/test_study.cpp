@@ -13,6 +13,7 @@
 #include "mc/study/study.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
+#include "tests/shipped_studies.hpp"
 
 namespace test_study {
 
@@ -195,6 +196,21 @@ TEST_CASE("Spellings of earlier versions are accepted with a notice") {
     CHECK(former.notices[0].key == "numerics.horizon");
     CHECK(former.notices[0].remedy == "write \"full\"");
     CHECK(read_study_text(kExampleStudy, "s.toml", {}).notices.empty());
+}
+
+TEST_CASE("Keys with a new name are accepted under their earlier name, with a notice") {
+    const auto read = [](const std::vector<std::string>& overrides) {
+        return read_study(gearpod::test::study_path("planet-life.toml"), overrides);
+    };
+    const auto former = read({"life.marched_torques=3"});
+    REQUIRE(former.study);
+    CHECK(*former.study == *read({"life.linear_torques=3"}).study);
+    REQUIRE(former.notices.size() == 1);
+    CHECK(former.notices[0].key == "life.marched_torques");
+    CHECK(former.notices[0].remedy == "write linear_torques");
+    const auto twice = read({"life.linear_torques=4", "life.marched_torques=3"});
+    REQUIRE(twice.problems.size() == 1);
+    CHECK(twice.problems[0].what == "is also given by its earlier name");
 }
 
 TEST_CASE("Keys of earlier versions are ignored with a notice") {

@@ -45,7 +45,7 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
     }
     // Paired as in `compare`: the same seed, gearboxes and fault sizes.
     CHECK(
-        program("compare " + one + " " + three).mentions("22 graded gearboxes that are the same"));
+        program("compare " + one + " " + three).mentions("22 test gearboxes that are the same"));
 
     const auto json = nlohmann::json::parse(bytes_of(folder.file("s.json")));
     REQUIRE(json["points"].size() == 2);

@@ -188,7 +188,7 @@ void grade(const mc::Study& study, const std::vector<std::string>& arguments) {
     const mc::Scene scene(study);
     const mc::Pilot pilot(scene);
     const mc::Reference reference = mc::converged_reference(study, pilot, {});
-    fmt::print("name,command,march_s,mesh_s,sensor,te,{}\n", fmt::join(study.features.use, ","));
+    fmt::print("name,command,integration_s,mesh_s,sensor,te,{}\n", fmt::join(study.features.use, ","));
     for (const std::string& argument : arguments) {
         const Signals signals = read_signals(scene, argument);
         const mc::PilotRecord record =

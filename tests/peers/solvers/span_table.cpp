@@ -33,7 +33,7 @@ SpanTable::SpanTable(const Options& options, GearpodSolver& own, const mc::Pilot
                      mc::pilot_error(record, reference.record),
                      0.0,
                      static_cast<double>(record.steps)});
-    rows_.push_back({"gearpod, rk4 in doubles, every mesh marched",
+    rows_.push_back({"gearpod, rk4 in doubles, every mesh integrated",
                      {},
                      span_,
                      {},
@@ -144,7 +144,7 @@ void SpanTable::print() const {
 
 void SpanTable::write(const std::string& path) const {
     std::ofstream file(path);
-    file << "name,command,march_s,mesh_s,sensor,te";
+    file << "name,command,integration_s,mesh_s,sensor,te";
     for (const std::string& feature : own_.scene().study().features.use) {
         file << ',' << feature;
     }

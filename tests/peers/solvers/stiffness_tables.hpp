@@ -11,7 +11,7 @@
 
 namespace gearpod::peers {
 
-// Eight realizations of the scene's graded group; where they are integrated one by one, the one
+// Eight realizations of the scene's test group; where they are integrated one by one, the one
 // with the largest crack.
 inline constexpr int kGearboxes = 8, kLargestCrack = 6;
 

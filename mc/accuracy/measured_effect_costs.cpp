@@ -1,4 +1,4 @@
-#include "mc/accuracy/effect_prices.hpp"
+#include "mc/accuracy/measured_effect_costs.hpp"
 
 #include <fmt/format.h>
 
@@ -153,23 +153,23 @@ TimedPilot timed_pilot(const Scene& scene, int repeats) {
     return timed;
 }
 
-// Fills `price` with the change from the pilot `before` when `changed` replaces its study.
-void measure(TimedPilot before, const Study& changed, int repeats, EffectPrice& price) {
+// Fills `cost` with the change from the pilot `before` when `changed` replaces its study.
+void measure(TimedPilot before, const Study& changed, int repeats, MeasuredEffectCost& cost) {
     const StudyReading reading = read_study_text(resolved_text(changed), "");
     if (!reading.study) {
         const Problem& problem = reading.problems.front();
-        price.refusal = problem.key + ": " + problem.what;
+        cost.refusal = problem.key + ": " + problem.what;
         return;
     }
     try {
         TimedPilot after = timed_pilot(Scene(*reading.study), repeats);
-        price.time_ratio =
-            price.in_study ? before.least_s / after.least_s : after.least_s / before.least_s;
+        cost.time_ratio =
+            cost.in_study ? before.least_s / after.least_s : after.least_s / before.least_s;
         keep_common(after.record.sensor, before.record.sensor);
         keep_common(after.record.te, before.record.te);
-        price.change = pilot_error(after.record, before.record);
+        cost.change = pilot_error(after.record, before.record);
     } catch (const SceneError& error) {
-        price.refusal = error.key() + ": " + error.what();
+        cost.refusal = error.key() + ": " + error.what();
     }
 }
 
@@ -184,27 +184,27 @@ void measure_effects(const Scene& own, const AccuracyRequest& request, const Tim
     std::string omitted;
     std::optional<TimedPilot> before;
     for (const OptionalEffect& effect : kOptionalEffects) {
-        EffectPrice price;
-        price.effect = effect.name;
-        price.in_study = effect.present(study);
-        if (!effect.applies(study) || (!price.in_study && effect.add == nullptr)) {
+        MeasuredEffectCost cost;
+        cost.effect = effect.name;
+        cost.in_study = effect.present(study);
+        if (!effect.applies(study) || (!cost.in_study && effect.add == nullptr)) {
             continue;
         }
         if (!own_time.enough()) {
             omitted += fmt::format("{}{}", omitted.empty() ? "" : ", ", effect.name);
             continue;
         }
-        request.progress(fmt::format("{} {}", price.in_study ? "without" : "with", effect.name));
+        request.progress(fmt::format("{} {}", cost.in_study ? "without" : "with", effect.name));
         if (!before) {
             before = timed_pilot(own, request.repeats);
         }
         Study changed = study;
-        (price.in_study ? effect.remove : effect.add)(changed);
-        measure(*before, changed, request.repeats, price);
-        report.effects.push_back(price);
+        (cost.in_study ? effect.remove : effect.add)(changed);
+        measure(*before, changed, request.repeats, cost);
+        report.effects.push_back(cost);
     }
     if (!omitted.empty()) {
-        report.left_out.push_back("price of effects: " + omitted);
+        report.left_out.push_back("cost of effects: " + omitted);
     }
 }
 

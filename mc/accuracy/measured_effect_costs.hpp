@@ -1,4 +1,4 @@
-// Price of a study's optional effects: time and change of the features when an effect is left out,
+// Cost of a study's optional effects: time and change of the features when an effect is left out,
 // or added where the study leaves it out.
 #pragma once
 
