@@ -7,9 +7,9 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "machine/upper_median.hpp"
-#include "mc/accuracy/measured_effect_costs.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/measure_detection.hpp"
+#include "mc/accuracy/measured_effect_costs.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/accuracy/setting_scenes.hpp"
 #include "mc/accuracy/time_budget.hpp"
@@ -288,8 +288,7 @@ class AccuracyMeasurement {
             for (const std::size_t place : contenders) {
                 if (!time_.enough()) {
                     record_omission(
-                        fmt::format("repeated timings of the fastest settings ({} of {} done)",
-                                    repeat, kContenderRepeats));
+                        fmt::format("repeated timings ({} of {} done)", repeat, kContenderRepeats));
                     return;
                 }
                 measure_setting(place, false);
