@@ -2,8 +2,8 @@
 //
 //   /                      attributes: format, format_version and the provenance
 //   /instances/<parameter> one value per row, attribute `unit`
-//   /instances/group       0 threshold sample, 1 test gearbox, 2 neither (recordings of unknown
-//   state) /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
+//   /instances/group       0 threshold sample, 1 test gearbox, 2 recording of unknown state
+//   /features/<feature>    rows x noise levels, attributes `unit` and `alarm`
 //   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
 //                          contact loss ratio. Absent if teeth cannot lose contact, and in files
 //                          of versions before 0.3

@@ -118,7 +118,7 @@ inline std::vector<GearSet> test_rigs() {
         {"SpectraQuest DDS", with_input(wide(teeth(28, 36, 100, 4, 1), 0, 20), "sun", 2, 1800), 2,
          kUnloaded},
         // Inputs of earlier bug reports; the powers chosen for usual stresses of the teeth.
-        {"28/36/100", with_input(wide(teeth(28, 36, 100, 4, 1), 0, 20), "sun", 20, 1800)},
+        {"28/36/100", with_input(wide(teeth(28, 36, 100, 4, 1), 0, 20), "sun", 34, 1800)},
         {"20/28/76", with_input(wide(teeth(20, 28, 76, 3, 2), 0, 20), "sun", 0.9, 288)},
         {"23/29/81", with_input(teeth(23, 29, 81, 3, 3), "sun", 12.6, 200)},
         {"24/20/64", with_input(teeth(24, 20, 64, 4, 3), "sun", 16.8, 200)},
