@@ -205,7 +205,9 @@ NumberDifference auc_difference(const ComparedSample& a, const ComparedSample& b
     const double both = request.paired ? auc_covariance(one, two) : 0.0;
     const auto interval = [&](const Areas& areas, double area, double variance) {
         const auto pairs = static_cast<long>(std::min(areas.healthy.size(), areas.faulty.size()));
-        return auc_interval(area, variance, pairs, request.confidence);
+        const Interval known = auc_interval(area, variance, pairs, request.confidence);
+        // The area of constant values is known.
+        return std::isnan(known.lower) ? Interval{area, area} : known;
     };
     result.a = one.auc;
     result.b = two.auc;

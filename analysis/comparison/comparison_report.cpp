@@ -88,12 +88,12 @@ std::string smallest_text(const ComparedResults& results, const ComparedFile& fi
 Section headline(const ComparedResults& results) {
     Section section{"headline", "", {}};
     std::string found;
-    Table table{"files", "", {"", "file", "study", "gearboxes"}, {}};
+    Table table{"files", "", {"", "file", "gearboxes", "study"}, {}};
     for (std::size_t f = 0; f < results.files.size(); ++f) {
         const ComparedFile& file = results.files[f];
         found +=
             fmt::format("{}{}: {}", f > 0 ? "; " : "", letter(f), smallest_text(results, file));
-        table.rows.push_back({letter(f), file.path, file.title, std::to_string(file.gearboxes)});
+        table.rows.push_back({letter(f), file.path, std::to_string(file.gearboxes), file.title});
     }
     section.state("headline", fmt::format("Smallest fault found with 90 % probability at {} "
                                           "confidence, {}: {}.",
@@ -118,7 +118,7 @@ Section headline(const ComparedResults& results) {
 void add_differences(Section& section, const ComparedResults& results, const std::string& key,
                      const std::string& title, NumberDifference Comparison::*number,
                      const ValueText& text) {
-    Table table{key, title, {"feature", "file", "A", "file's", "difference", "p"}, {}, true};
+    Table table{key, title, {"feature", "file", "A", "file's", "difference", "p"}, {}, true, 2};
     for (std::size_t f = 1; f < results.files.size(); ++f) {
         for_shown(results, results.files[f], [&](const ComparedFeature& feature, std::size_t) {
             const NumberDifference& value = feature.comparison.*number;

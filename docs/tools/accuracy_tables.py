@@ -4,6 +4,7 @@ Each file is the output of `gearpod accuracy STUDY --json FILE`.
 """
 
 import json
+import math
 import sys
 
 
@@ -26,13 +27,28 @@ def worst_feature(errors):
     return max(errors["features"], key=lambda name: errors["features"][name] or 0.0)
 
 
+def shown_settings(report):
+    """The study's own setting, and the fastest one of the frontier in each decade of the error."""
+    fastest = {}
+    for setting in report["settings"]:
+        if "refused" in setting or not setting["error"]["worst_feature"]:
+            continue
+        decade = math.floor(math.log10(setting["error"]["worst_feature"]))
+        if setting["frontier"] and (decade not in fastest or
+                                    setting["gearbox_s"] < fastest[decade]["gearbox_s"]):
+            fastest[decade] = setting
+    chosen = list(fastest.values())
+    chosen += [setting for setting in report["settings"]
+               if setting["name"] == report["own"] and "refused" not in setting
+               and setting not in chosen]
+    return sorted(chosen, key=lambda setting: setting["gearbox_s"])
+
+
 def print_frontier(report):
     print("| setting | time of a gearbox | sensor | worst feature | over its scatter "
           "| change of Pd |")
     print("| --- | --- | --- | --- | --- | --- |")
-    for setting in report["settings"]:
-        if "refused" in setting or not (setting["frontier"] or setting["name"] == report["own"]):
-            continue
+    for setting in shown_settings(report):
         error = setting["error"]
         mark = " (the study's own)" if setting["name"] == report["own"] else ""
         print(f"| {setting['name']}{mark} | {time_text(setting['gearbox_s'])} "

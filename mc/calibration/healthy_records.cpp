@@ -133,7 +133,11 @@ std::vector<const Feature*> select_features(const std::vector<HealthyRecord>& re
     for (const std::string& name : requested) {
         const auto known = usable_names();
         const Feature* feature = record_feature(name);
-        if (std::ranges::find(known, name) == known.end()) {
+        if (features::find_feature(name) != nullptr && feature == nullptr) {
+            problems.push_back({"--feature", 0, name,
+                                "needs a baseline record, which calibration does not simulate",
+                                "use a feature of one record, for example window_ratio"});
+        } else if (std::ranges::find(known, name) == known.end()) {
             problems.push_back({"--feature", 0, name, "is not a feature of a single sensor record",
                                 suggest(name, known)});
         } else if (!all_have(records, *feature)) {

@@ -1,6 +1,7 @@
 #include "mc/description/describe_sensors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +115,20 @@ std::string chain_text(const Study& study, const AdditionalSensor& sensor) {
     }
     if (sensor.range_m_s2) {
         text += fmt::format("; range {:g} m/s^2", *sensor.range_m_s2);
+    }
+    const auto list = [&](const char* name, const std::vector<double>& values) {
+        text += values.empty()
+                    ? ""
+                    : fmt::format("; {} of the modes {:g}", name, fmt::join(values, ", "));
+    };
+    list("participation", sensor.participation);
+    for (const HousingBearing& bearing : kHousingBearings) {
+        list(bearing.per_kg_name, sensor.*bearing.own_per_kg);
+        if (const std::vector<double>& gain = sensor.*bearing.own_gain; !gain.empty()) {
+            text +=
+                fmt::format("; a force of 1 N in the bearing of the {} gives at most {:.3g} m/s^2",
+                            member_name(bearing.shaft), std::ranges::max(gain));
+        }
     }
     if (sensor.low_pass_Hz || sensor.quantisation_m_s2) {
         text += fmt::format("; noise {:.4g} m/s^2 rms times the noise level",

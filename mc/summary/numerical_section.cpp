@@ -26,6 +26,7 @@ analysis::Table error_table(const Results& frame,
                           {"feature", "noise", "rms", "spread of healthy gearboxes", "of Pd",
                            "half width of Pd", "of a90", "a90 to its bound", "larger"},
                           {}};
+    table.labels = 2;
     for (const NumericalContribution& one : contributions) {
         table.rows.push_back({one.feature, "x " + number_text(one.noise_level),
                               number_text(one.rms, 2), number_text(one.spread, 2),
@@ -53,6 +54,7 @@ analysis::Table correction_table(const Results& frame,
         {"feature", "noise", "of healthy", "of faulty", "scatter x", "change of Pd",
          "a90 corrected", "its 95 % interval"},
         {}};
+    table.labels = 2;
     for (const NumericalContribution& one : contributions) {
         if (!one.correction) {
             continue;

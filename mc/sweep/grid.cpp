@@ -54,6 +54,16 @@ const Value& nested_value(const Value& document, std::size_t depth) {
     return depth == 0 ? document : nested_value(document.entries.front().value, depth - 1);
 }
 
+// TOML text of a value without names, braces and quotation marks.
+std::string without_names(const std::string& toml) {
+    static const std::regex decoration("[{}\"]|\\w+ *= *");
+    const std::string text = std::regex_replace(toml, decoration, "");
+    const std::size_t first = text.find_first_not_of(' ');
+    return first == std::string::npos
+               ? ""
+               : printable(text.substr(first, text.find_last_not_of(' ') + 1 - first));
+}
+
 // Replaces characters that are not portable in file names.
 std::string file_name(const std::string& text) {
     std::string name;
@@ -97,21 +107,27 @@ std::string short_key(const std::string& key) {
     return dot == std::string::npos ? key : key.substr(dot + 1);
 }
 
-std::string value_text(const std::string& toml) {
+std::vector<std::string> value_labels(const std::vector<std::string>& toml) {
     constexpr std::size_t kLongest = 18;
-    static const std::regex decoration("[{}\"]|\\w+ *= *");
-    std::string text = std::regex_replace(toml, decoration, "");
-    const std::size_t first = text.find_first_not_of(' ');
-    text = first == std::string::npos ? ""
-                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
-    return printable(text.size() <= kLongest ? text : text.substr(0, kLongest - 3) + "...");
+    std::vector<std::string> labels;
+    for (const std::string& value : toml) {
+        const std::string text = without_names(value);
+        labels.push_back(text.size() <= kLongest ? text : text.substr(0, kLongest - 3) + "...");
+    }
+    const std::vector<std::string> clipped = labels;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (std::ranges::count(clipped, clipped[i]) > 1) {
+            labels[i] = fmt::format("{}: {}", i + 1, clipped[i]);
+        }
+    }
+    return labels;
 }
 
 std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& point) {
     std::string text;
     for (std::size_t k = 0; k < keys.size(); ++k) {
-        text += fmt::format("{}{} = {}", k > 0 ? ", " : "", short_key(keys[k].key),
-                            value_text(point.values[k]));
+        text +=
+            fmt::format("{}{} = {}", k > 0 ? ", " : "", short_key(keys[k].key), point.labels[k]);
     }
     return text;
 }
@@ -125,11 +141,7 @@ std::vector<std::string> key_columns(const std::vector<VariedKey>& keys) {
 }
 
 std::vector<std::string> value_cells(const SweepPoint& point) {
-    std::vector<std::string> cells;
-    for (const std::string& value : point.values) {
-        cells.push_back(value_text(value));
-    }
-    return cells;
+    return point.labels;
 }
 
 std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
@@ -165,8 +177,11 @@ analysis::Section files_section(const std::vector<VariedKey>& keys,
     std::vector<std::string> varied;
     for (const VariedKey& key : keys) {
         std::vector<std::string> values;
+        const std::vector<std::string> labels = value_labels(key.values);
         for (std::size_t i = 0; i < std::min(kMostNamed, key.values.size()); ++i) {
-            values.push_back(value_text(key.values[i]));
+            values.push_back(labels[i].ends_with("...")
+                                 ? fmt::format("{} {}", i + 1, without_names(key.values[i]))
+                                 : labels[i]);
         }
         varied.push_back(fmt::format("{} = {}", key.key, fmt::join(values, ", ")));
     }
@@ -227,11 +242,13 @@ std::vector<SweepPoint> grid_of(const std::vector<VariedKey>& keys) {
             return {};
         }
         std::vector<SweepPoint> more;
+        const std::vector<std::string> labels = value_labels(key.values);
         for (const SweepPoint& point : points) {
-            for (const std::string& value : key.values) {
+            for (std::size_t i = 0; i < key.values.size(); ++i) {
                 SweepPoint next = point;
-                next.values.push_back(value);
-                next.overrides.push_back(key.key + "=" + value);
+                next.values.push_back(key.values[i]);
+                next.labels.push_back(labels[i]);
+                next.overrides.push_back(key.key + "=" + key.values[i]);
                 more.push_back(std::move(next));
             }
         }

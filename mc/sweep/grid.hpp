@@ -20,6 +20,7 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
 
 struct SweepPoint {
     std::vector<std::string> values;     // in the order of the keys
+    std::vector<std::string> labels;     // of the values, for tables and sentences
     std::vector<std::string> overrides;  // "section.key=value", as for `run --set`
     std::string name;                    // file name without extension: "noise_m_s2=2_gain=1"
 };
@@ -33,8 +34,9 @@ std::vector<SweepPoint> grid_of(const std::vector<VariedKey>& keys);
 
 // Returns the key without its section.
 std::string short_key(const std::string& key);
-// Value for tables: "uniform, 1, 2" for { distribution = "uniform", low = 1, high = 2 }; clipped.
-std::string value_text(const std::string& toml);
+// Labels of a key's values: "uniform, 1, 2" for { distribution = "uniform", low = 1, high = 2 }.
+// Long ones are clipped, and numbered where they would be the same.
+std::vector<std::string> value_labels(const std::vector<std::string>& toml);
 // "noise_m_s2 = 2, gain = 1".
 std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& point);
 // Columns of a table with a row for each point: the keys, and the values of a point.

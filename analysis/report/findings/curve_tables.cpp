@@ -144,7 +144,8 @@ void add_false_alarms(Section& section, const Findings& findings, std::size_t n)
                 {"feature", "false-alarm rate", "alarm beyond", "rarer than one in the sample",
                  in_unit("a90", unit), "lower bound", "upper bound"},
                 {},
-                n != findings.reference};
+                n != findings.reference,
+                2};
     int features = 0;
     for (const std::size_t f : findings.order[n]) {
         const LevelReliability& level = findings.reliable(f, n);
@@ -191,6 +192,7 @@ void add_costs(Section& section, const Findings& findings, std::size_t n) {
                             findings.at_noise(n), findings.percent()),
                 {"feature", "alarm beyond", "false-alarm rate", "Pd", "cost", "without any alarm"},
                 {}};
+    table.labels = 2;
     std::vector<std::string> rarest;
     for (const std::size_t f : findings.order[n]) {
         const auto& least = findings.reliable(f, n).least_cost;

@@ -50,6 +50,20 @@ TEST_CASE("Equal key names in two sections, and values that are no file names, s
     CHECK(tables[0].name.size() < 120);
 }
 
+TEST_CASE("Labels of long values that differ at their end are numbered") {
+    Problems problems;
+    const std::string mode = "[{frequency_Hz=180, damping=0.03, nodal_diameters=2, participation=";
+    const auto points =
+        grid_of(read_varied({"sensor.housing_modes=[" + mode + "1.25}], " + mode + "1.5}]]",
+                             "sensor.gain=[{distribution='uniform', low=1, high=2}]"},
+                            problems));
+    CHECK(format(problems).empty());
+    REQUIRE(points.size() == 2);
+    CHECK_THAT(points[0].labels[0], Catch::StartsWith("1: [") && Catch::EndsWith("..."));
+    CHECK_THAT(points[1].labels[0], Catch::StartsWith("2: [") && Catch::EndsWith("..."));
+    CHECK(points[0].labels[1] == "uniform, 1, 2");
+}
+
 TEST_CASE("Malformed lists of values are refused with their key") {
     for (const char* bad : {"sensor.gain=3", "sensor.gain=[]", "sensor.gain", "sensor.gain=[1, 1]",
                             "sensor.gain=[1"}) {
