@@ -54,10 +54,11 @@ const Value& nested_value(const Value& document, std::size_t depth) {
     return depth == 0 ? document : nested_value(document.entries.front().value, depth - 1);
 }
 
-// TOML text of a value without names, braces and quotation marks.
-std::string without_names(const std::string& toml) {
-    static const std::regex decoration("[{}\"]|\\w+ *= *");
-    const std::string text = std::regex_replace(toml, decoration, "");
+// TOML text of a value without braces, quotation marks and the name of a distribution's kind.
+std::string plain_text(const std::string& toml) {
+    static const std::regex decoration("[{}\"]|distribution *= *"), equals(" *= *");
+    const std::string text =
+        std::regex_replace(std::regex_replace(toml, decoration, ""), equals, "=");
     const std::size_t first = text.find_first_not_of(' ');
     return first == std::string::npos
                ? ""
@@ -108,10 +109,10 @@ std::string short_key(const std::string& key) {
 }
 
 std::vector<std::string> value_labels(const std::vector<std::string>& toml) {
-    constexpr std::size_t kLongest = 18;
+    constexpr std::size_t kLongest = 28;
     std::vector<std::string> labels;
     for (const std::string& value : toml) {
-        const std::string text = without_names(value);
+        const std::string text = plain_text(value);
         labels.push_back(text.size() <= kLongest ? text : text.substr(0, kLongest - 3) + "...");
     }
     const std::vector<std::string> clipped = labels;
@@ -180,7 +181,7 @@ analysis::Section files_section(const std::vector<VariedKey>& keys,
         const std::vector<std::string> labels = value_labels(key.values);
         for (std::size_t i = 0; i < std::min(kMostNamed, key.values.size()); ++i) {
             values.push_back(labels[i].ends_with("...")
-                                 ? fmt::format("{} {}", i + 1, without_names(key.values[i]))
+                                 ? fmt::format("{} {}", i + 1, plain_text(key.values[i]))
                                  : labels[i]);
         }
         varied.push_back(fmt::format("{} = {}", key.key, fmt::join(values, ", ")));

@@ -34,8 +34,8 @@ std::vector<SweepPoint> grid_of(const std::vector<VariedKey>& keys);
 
 // Returns the key without its section.
 std::string short_key(const std::string& key);
-// Labels of a key's values: "uniform, 1, 2" for { distribution = "uniform", low = 1, high = 2 }.
-// Long ones are clipped, and numbered where they would be the same.
+// Labels of a key's values: "uniform, high=2, low=1" for { distribution = "uniform", low = 1, high
+// = 2 }. Long ones are clipped, and numbered where they would be the same.
 std::vector<std::string> value_labels(const std::vector<std::string>& toml);
 // "noise_m_s2 = 2, gain = 1".
 std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& point);

@@ -42,7 +42,7 @@ Table threshold_table(const Findings& findings, std::size_t n) {
                  findings.subject == Subject::recordings  ? "healthy: alarms/recordings"
                  : findings.request.threshold_records > 1 ? "healthy: alarms/records"
                                                           : "healthy: alarms/gearboxes",
-                 "false-alarm rate", "with healthy test gearboxes"},
+                 "false-alarm rate", "with healthy test " + many(findings.subject)},
                 {}};
     if (tails) {
         table.columns.insert(table.columns.end(), {"extrapolated", "values fitted"});

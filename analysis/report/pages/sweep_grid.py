@@ -15,7 +15,7 @@ from words import count, escape, number
 MOST_LINES = 5  # in a chart
 MOST_CHARTS = 24  # in a figure
 MOST_ROWS = 2000  # in a table
-LONGEST = 18  # letters of a value below an axis
+LONGEST = 24  # letters of a value below an axis
 
 
 def short(key):
@@ -23,8 +23,9 @@ def short(key):
 
 
 def clipped(text):
-    """Shortened TOML value: uniform, 1, 2 for { distribution = "uniform", low = 1, high = 2 }."""
-    text = re.sub(r"[{}\"]|\w+ *= *", "", text).strip()
+    """Shortened TOML value: uniform, low=1, high=2 for { distribution = "uniform", low = 1, high =
+    2 }."""
+    text = re.sub(" *= *", "=", re.sub(r"[{}\"]|distribution *= *", "", text)).strip()
     return text if len(text) <= LONGEST else text[:LONGEST - 1] + "…"
 
 
@@ -48,6 +49,13 @@ class Key:
         self.places = numbers if self.scaled else list(range(len(self.values)))
         self.log = (self.scaled and min(numbers) > 0 and max(numbers) >= 6 * min(numbers))
 
+    def label(self, text):
+        """Clipped value, numbered where another one is clipped to the same text."""
+        own = clipped(text)
+        if sum(clipped(value) == own for value in self.values) > 1:
+            return f"{self.values.index(text) + 1}: {own}"
+        return own
+
     def place(self, text):
         return self.places[self.values.index(text)]
 
@@ -63,7 +71,7 @@ class Key:
             axes.set_xlim(back(at[0] - 0.07 * reach), back(at[-1] + 0.07 * reach))
         if not self.scaled:
             room = 26 // max(2, len(self.places))
-            labels = [clipped(text) for text in self.values]
+            labels = [self.label(text) for text in self.values]
             if any(len(text) > room for text in labels):
                 axes.set_xticks(self.places, labels, rotation=30, ha="right", fontsize=9)
             else:
@@ -95,7 +103,7 @@ class Grid(Findings):
         for values in itertools.product(*(key.values for key in self.others)):
             chosen = [p for p in self.points if all(
                 p["values"][key.key] == value for key, value in zip(self.others, values))]
-            yield ", ".join(f"{key.name} = {clipped(value)}"
+            yield ", ".join(f"{key.name} = {key.label(value)}"
                             for key, value in zip(self.others, values)), sorted(
                                 chosen, key=lambda p: self.along.place(p["values"][self.along.key]))
 
@@ -161,7 +169,7 @@ def charts_of(swept, page, title, axis, lines, limits=None):
             axes.set_title(text, fontsize=10, color=INK, loc="left",
                            pad=6 + 14 * ((len(lines) + 1) // 2))
         about = "; ".join(f"{name}: " + ", ".join(
-            f"{number(at)} at {clipped(value['values'][swept.along.key])}"
+            f"{number(at)} at {swept.along.label(value['values'][swept.along.key])}"
             for value, (_, at, _, _) in zip(chosen, line))
             for (name, _), line in zip(lines, series))
         charts.append(to_svg(figure, f"{title}{', ' if text else ''}{text}", about, page.names))

@@ -61,7 +61,7 @@ TEST_CASE("Labels of long values that differ at their end are numbered") {
     REQUIRE(points.size() == 2);
     CHECK_THAT(points[0].labels[0], Catch::StartsWith("1: [") && Catch::EndsWith("..."));
     CHECK_THAT(points[1].labels[0], Catch::StartsWith("2: [") && Catch::EndsWith("..."));
-    CHECK(points[0].labels[1] == "uniform, 1, 2");
+    CHECK(points[0].labels[1] == "uniform, high=2, low=1");
 }
 
 TEST_CASE("Malformed lists of values are refused with their key") {
