@@ -23,8 +23,11 @@ def detection_text(setting):
     return f"{detection['pd_change']:.2g} (± {detection['pd_half_width']:.2g})"
 
 
-def worst_feature(errors):
-    return max(errors["features"], key=lambda name: errors["features"][name] or 0.0)
+def worst_text(errors):
+    if not errors["worst_feature"]:
+        return "0"
+    worst = max(errors["features"], key=lambda name: errors["features"][name] or 0.0)
+    return f"{number(errors['worst_feature'])}, `{worst}`"
 
 
 def shown_settings(report):
@@ -53,7 +56,7 @@ def print_frontier(report):
         mark = " (the study's own)" if setting["name"] == report["own"] else ""
         print(f"| {setting['name']}{mark} | {time_text(setting['gearbox_s'])} "
               f"| {number(error['sensor'])} "
-              f"| {number(error['worst_feature'])}, `{worst_feature(error)}` "
+              f"| {worst_text(error)} "
               f"| {number(error['worst_of_scatter'])} | {detection_text(setting)} |")
     print()
 
@@ -65,12 +68,12 @@ def print_effects(report):
     for effect in report.get("effects", []):
         inside = "yes" if effect["in_study"] else "no"
         if "refused" in effect:
-            print(f"| {effect['effect']} | {inside} | {effect['refused']} | | | | |")
+            print(f"| {effect['effect']} | {inside} | not measured: {effect['refused']} | | | | |")
             continue
         change = effect["change"]
         print(f"| {effect['effect']} | {inside} | {number(effect['time_ratio'], 3)} "
               f"| {number(change['sensor'])} "
-              f"| {number(change['worst_feature'])}, `{worst_feature(change)}` "
+              f"| {worst_text(change)} "
               f"| {number(change['worst_of_scatter'])} "
               f"| {'yes' if effect['needed'] else 'no'} |")
     print()
