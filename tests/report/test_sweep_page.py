@@ -79,7 +79,7 @@ class MadeUp(unittest.TestCase):
     def test_text_is_never_markup(self):
         self.assertNotIn("<b>", build_page.page_html(MADE["sweep_one"]))
         self.assertNotIn("<b>", build_page.page_html(MADE["lives_sweep_one"]))
-        self.assertIn("uniform, 300, 500", build_page.page_html(MADE["sweep_words"]))
+        self.assertIn("uniform, low=300, high=500", build_page.page_html(MADE["sweep_words"]))
 
 
 class Program(unittest.TestCase):

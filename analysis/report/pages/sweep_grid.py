@@ -15,7 +15,7 @@ from words import count, escape, number
 MOST_LINES = 5  # in a chart
 MOST_CHARTS = 24  # in a figure
 MOST_ROWS = 2000  # in a table
-LONGEST = 24  # letters of a value below an axis
+LONGEST = 28  # letters of a value below an axis
 
 
 def short(key):

@@ -154,7 +154,7 @@ TEST_CASE("Impossible shifted gears are refused with the relevant numbers") {
                 "lies inside the base circle, 56.6"));
     CHECK(names(problems_of({"gearbox.sun_tip_mm=51"}), "gearbox.sun_teeth",
                 "does not lie outside the root circle"));
-    CHECK(names(problems_of(bell_with({"gearbox.planets=6"})), "gearbox.ring_teeth", "touch"));
+    CHECK(names(problems_of(bell_with({"gearbox.planets=6"})), "gearbox.planets", "touch"));
     CHECK(names(problems_of(bell_with({"gearbox.planet_positions_deg=[0, 40, 180, 220]"})),
                 "gearbox.planet_positions_deg", "of planets 1 and 2 touch"));
     CHECK(names(problems_of({"gearbox.pinion_shift=0.1"}), "gearbox.pinion_shift",
