@@ -1,6 +1,7 @@
 """Points of a sweep in charts and tables: one key along the axis, one chart per combination of the
 others."""
 
+import collections
 import itertools
 import math
 import re
@@ -44,17 +45,16 @@ class Key:
     def __init__(self, entry):
         self.key, self.values = entry["key"], entry["values"]
         self.name = short(self.key)
+        texts = [clipped(text) for text in self.values]
+        counts = collections.Counter(texts)
+        # Clipped values, numbered where several are clipped to the same text.
+        self.labels = {}
+        for i, (value, text) in enumerate(zip(self.values, texts)):
+            self.labels.setdefault(value, f"{i + 1}: {text}" if counts[text] > 1 else text)
         numbers = [as_number(text) for text in self.values]
         self.scaled = all(v is not None for v in numbers) and len(set(numbers)) == len(numbers)
         self.places = numbers if self.scaled else list(range(len(self.values)))
         self.log = (self.scaled and min(numbers) > 0 and max(numbers) >= 6 * min(numbers))
-
-    def label(self, text):
-        """Clipped value, numbered where another one is clipped to the same text."""
-        own = clipped(text)
-        if sum(clipped(value) == own for value in self.values) > 1:
-            return f"{self.values.index(text) + 1}: {own}"
-        return own
 
     def place(self, text):
         return self.places[self.values.index(text)]
@@ -71,7 +71,7 @@ class Key:
             axes.set_xlim(back(at[0] - 0.07 * reach), back(at[-1] + 0.07 * reach))
         if not self.scaled:
             room = 26 // max(2, len(self.places))
-            labels = [self.label(text) for text in self.values]
+            labels = [self.labels[text] for text in self.values]
             if any(len(text) > room for text in labels):
                 axes.set_xticks(self.places, labels, rotation=30, ha="right", fontsize=9)
             else:
@@ -103,7 +103,7 @@ class Grid(Findings):
         for values in itertools.product(*(key.values for key in self.others)):
             chosen = [p for p in self.points if all(
                 p["values"][key.key] == value for key, value in zip(self.others, values))]
-            yield ", ".join(f"{key.name} = {key.label(value)}"
+            yield ", ".join(f"{key.name} = {key.labels[value]}"
                             for key, value in zip(self.others, values)), sorted(
                                 chosen, key=lambda p: self.along.place(p["values"][self.along.key]))
 
@@ -169,7 +169,7 @@ def charts_of(swept, page, title, axis, lines, limits=None):
             axes.set_title(text, fontsize=10, color=INK, loc="left",
                            pad=6 + 14 * ((len(lines) + 1) // 2))
         about = "; ".join(f"{name}: " + ", ".join(
-            f"{number(at)} at {swept.along.label(value['values'][swept.along.key])}"
+            f"{number(at)} at {swept.along.labels[value['values'][swept.along.key]]}"
             for value, (_, at, _, _) in zip(chosen, line))
             for (name, _), line in zip(lines, series))
         charts.append(to_svg(figure, f"{title}{', ' if text else ''}{text}", about, page.names))
