@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <map>
 #include <regex>
 
 #include "mc/input/document.hpp"
@@ -115,10 +116,13 @@ std::vector<std::string> value_labels(const std::vector<std::string>& toml) {
         const std::string text = plain_text(value);
         labels.push_back(text.size() <= kLongest ? text : text.substr(0, kLongest - 3) + "...");
     }
-    const std::vector<std::string> clipped = labels;
+    std::map<std::string, int> count;
+    for (const std::string& label : labels) {
+        ++count[label];
+    }
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (std::ranges::count(clipped, clipped[i]) > 1) {
-            labels[i] = fmt::format("{}: {}", i + 1, clipped[i]);
+        if (count[labels[i]] > 1) {
+            labels[i] = fmt::format("{}: {}", i + 1, labels[i]);
         }
     }
     return labels;
@@ -139,10 +143,6 @@ std::vector<std::string> key_columns(const std::vector<VariedKey>& keys) {
         columns.push_back(short_key(key.key));
     }
     return columns;
-}
-
-std::vector<std::string> value_cells(const SweepPoint& point) {
-    return point.labels;
 }
 
 std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,
@@ -190,7 +190,7 @@ analysis::Section files_section(const std::vector<VariedKey>& keys,
     analysis::Table table{"files", "Results files", key_columns(keys), {}, true};
     table.columns.emplace_back("file");
     for (std::size_t p = 0; p < points.size(); ++p) {
-        table.rows.push_back(value_cells(points[p]));
+        table.rows.push_back(points[p].labels);
         table.rows.back().push_back(results[p]);
     }
     section.add(std::move(table));

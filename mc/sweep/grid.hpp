@@ -39,9 +39,8 @@ std::string short_key(const std::string& key);
 std::vector<std::string> value_labels(const std::vector<std::string>& toml);
 // "noise_m_s2 = 2, gain = 1".
 std::string point_text(const std::vector<VariedKey>& keys, const SweepPoint& point);
-// Columns of a table with a row for each point: the keys, and the values of a point.
+// Columns of a table with a row for each point: the keys.
 std::vector<std::string> key_columns(const std::vector<VariedKey>& keys);
-std::vector<std::string> value_cells(const SweepPoint& point);
 // The beginning, and at how many of the other points the result is larger or smaller (`beyond`)
 // than at the best one by more than scatter; `within`: names of those where it is not.
 std::string within_scatter_text(const std::string& begin, const char* beyond, std::size_t count,

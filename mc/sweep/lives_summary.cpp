@@ -259,7 +259,7 @@ analysis::Table best_table(const LivesSweep& sweep) {
     append(table.columns, life_result_columns(sweep.points.front().study));
     append(table.columns, {"best at this point", "lives", "failed"});
     for (const LivesPoint& point : sweep.points) {
-        std::vector<std::string> row = value_cells(point.point);
+        std::vector<std::string> row = point.point.labels;
         append(row, lives_row(point, sweep.order.front()));
         append(row, {name_of(best_at(point)), std::to_string(point.cracked),
                      std::to_string(point.failed)});
@@ -275,7 +275,7 @@ analysis::Table all_features_table(const LivesSweep& sweep) {
     table.detail = true;
     for (const LivesPoint& point : sweep.points) {
         for (const MonitoredFeature& one : sweep.order) {
-            std::vector<std::string> row = value_cells(point.point);
+            std::vector<std::string> row = point.point.labels;
             append(row, {one.feature, one.detector});
             append(row, lives_row(point, one));
             table.rows.push_back(std::move(row));
@@ -294,7 +294,7 @@ analysis::Table records_table(const LivesSweep& sweep) {
     };
     for (const LivesPoint& point : sweep.points) {
         const InterpolationErrors& off = point.interpolation;
-        std::vector<std::string> row = value_cells(point.point);
+        std::vector<std::string> row = point.point.labels;
         append(row, {printable(point.record), error(off.first), error(off.last), error(off.load)});
         table.rows.push_back(std::move(row));
     }

@@ -189,7 +189,7 @@ Table points_table(const RunSweep& sweep, const std::set<double>& levels) {
     table.columns.insert(table.columns.end(), {"gearboxes", "failed"});
     for (std::size_t p = 0; p < sweep.points.size(); ++p) {
         const PointSummary& point = sweep.points[p];
-        std::vector<std::string> row = value_cells(point.point);
+        std::vector<std::string> row = point.point.labels;
         for (const double level : levels) {
             row.push_back(smallest_text(point, find_level(point, level)));
         }
@@ -243,7 +243,7 @@ Section features_section(const RunSweep& sweep) {
             const LevelSummary* level = shown_level(point);
             if (const auto* feature =
                     level == nullptr ? nullptr : find_feature(point, name, level->noise_level)) {
-                std::vector<std::string> row = value_cells(point.point);
+                std::vector<std::string> row = point.point.labels;
                 row.insert(row.end(), {name, a90_text(feature, point.size),
                                        analysis::area_text(feature->auc.auc, feature->auc.bounds)});
                 table.rows.push_back(std::move(row));

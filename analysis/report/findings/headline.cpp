@@ -25,13 +25,7 @@ struct BestRate {
 
 BestRate best_rate(const Findings& findings, std::size_t level) {
     BestRate best;
-    std::vector<std::size_t> by_rank = findings.order[level];
-    for (std::size_t f = 0; f < findings.detection.size(); ++f) {
-        if (std::ranges::find(by_rank, f) == by_rank.end()) {
-            by_rank.push_back(f);
-        }
-    }
-    for (const std::size_t f : by_rank) {
+    for (const std::size_t f : findings.order[level]) {
         const FeatureDetection& feature = findings.detection[f];
         const auto& cells = feature.levels[level].cells;
         const auto last = std::find_if(cells.rbegin(), cells.rend(), [](const DetectionCell& cell) {

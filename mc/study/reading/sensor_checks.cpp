@@ -29,12 +29,20 @@ void check_shaft(StudyDraft& draft, const char* key, std::size_t number, Member 
     }
 }
 
-// Checks that a list has one value for each of another key's values.
-void check_count(StudyDraft& draft, const char* key, const std::string& what, std::size_t count,
-                 std::size_t of, const char* other) {
-    if (count != of && draft.all_usable({key, other})) {
+// Rejects a list unless it has one value for each of another key's values.
+void require_count(StudyDraft& draft, const char* key, const std::string& what, std::size_t count,
+                   std::size_t of, const char* other) {
+    if (count != of) {
         draft.reject(key, fmt::format("{}has {} values, but {} has {}", what, count, other, of),
                      "give one for each");
+    }
+}
+
+// The same if both keys have been read without problems.
+void check_count(StudyDraft& draft, const char* key, const std::string& what, std::size_t count,
+                 std::size_t of, const char* other) {
+    if (draft.all_usable({key, other})) {
+        require_count(draft, key, what, count, of, other);
     }
 }
 
@@ -100,11 +108,11 @@ void check_tones_and_bearings(StudyDraft& draft) {
     }
     if (!s.additional.empty() && draft.study.ensemble.uses_importance_sampling() &&
         draft.usable("ensemble.threshold_tilt")) {
-        draft.reject(
-            "sensor.additional",
-            "importance sampling (ensemble.threshold_tilt, or `misses`) applies to the noise of one "
-            "sensor only",
-            "remove them");
+        draft.reject("sensor.additional",
+                     "importance sampling (ensemble.threshold_tilt, or `misses`) applies to the "
+                     "noise of one "
+                     "sensor only",
+                     "remove them");
     }
     if (has_other_sources(draft.study) && draft.study.ensemble.threshold_records > 1 &&
         draft.usable("ensemble.threshold_records")) {
@@ -156,12 +164,7 @@ void check_own_bearing(StudyDraft& draft, const std::string& which, const Additi
     const auto check = [&](const char* field, const std::vector<double>& values, std::size_t of,
                            const char* other) {
         const std::string what = fmt::format("{}: {} ", which, field);
-        if (values.size() != of) {
-            draft.reject(
-                kAdditional,
-                fmt::format("{}has {} values, but {} has {}", what, values.size(), other, of),
-                "give one for each");
-        }
+        require_count(draft, kAdditional, what, values.size(), of, other);
         check_bearing(draft, kAdditional, what, bearing);
     };
     if (!(own.*bearing.own_per_kg).empty()) {
