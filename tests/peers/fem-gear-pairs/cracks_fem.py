@@ -52,6 +52,12 @@ def touching(pair, chosen):
             yield tuple(phase + i for i in range(pairs)), cracked
 
 
+def contacts_of(pair, which, taus, cracked):
+    """Contacts of gear 1 or 2; the cracked pair's tooth is number 0."""
+    return [Contact(c.gear, (i - cracked) * (1 if which == 1 else -1), pair.rolls(taus[i])[which - 1],
+                    c.half_width) for i, c in enumerate(pair.contacts(which, taus))]
+
+
 @functools.lru_cache(maxsize=None)
 def gear_matrices(size, tooth, profile, which, depth, chosen=PHASES, plane_strain=True):
     """For each of touching(): [i][j], the displacement of flank i per force on flank j, mm/N.
@@ -59,12 +65,8 @@ def gear_matrices(size, tooth, profile, which, depth, chosen=PHASES, plane_strai
     pair = pair_of(TEETH[tooth][0], profile)
     gear, contacts, groups = pair.gears[which - 1], {}, []
     for taus, cracked in touching(pair, chosen):
-        group = []
-        for i, contact in enumerate(pair.contacts(which, taus)):
-            contact = Contact(gear, (i - cracked) * (1 if which == 1 else -1),
-                              pair.rolls(taus[i])[which - 1], contact.half_width)
-            group.append(contacts.setdefault((contact.tooth, round(taus[i], 9)), contact))
-        groups.append(group)
+        groups.append([contacts.setdefault((c.tooth, round(tau, 9)), c)
+                       for tau, c in zip(taus, contacts_of(pair, which, taus, cracked))])
     loads = list(contacts.values())
     geometry = gear_geometry(size, gear, loads, depth, 0 if depth else None)
     moved = many_compliances(geometry, loads, [c.point for c in loads], STEEL, plane_strain)

@@ -9,21 +9,21 @@ Lengths in mm, forces in N; stiffness in N/m.
 """
 import argparse
 import copy
+import itertools
 import math
 import tempfile
 
 import numpy as np
 
-from cracks_fem import TEETH, depth_of, pair_of
+from cracks_fem import PHASES, TEETH, contacts_of, depth_of, pair_of, touching
 from helical_fem import Solid
-from pairs_fem import STEEL, Slit, phases, put, stiffness, tooth_outline
+from pairs_fem import STEEL, Slit, put, stiffness, tooth_outline
 from plane_fem import Geometry, Mesh
-from teeth import Contact, weber
+from teeth import weber
 
 WIDTH = STEEL[2]
-PHASE = 7  # of pairs_fem.phases(): one pair in contact
 SHARES = (0.1, 0.25, 0.4, 0.6)
-TOOTH_NAMES = ("sun", "planet-ring", "ring")
+TOOTH_NAMES = ("sun", "planet-sun", "planet-ring", "ring")
 SIZE, LAYERS = 1.6, 8
 # Lengths along the face and end depths (relative to the deepest one) of Yang's parabola.
 SHAPES = {"through": (1.0, 1.0), "half": (0.5, 0.0), "face": (1.0, 0.0), "face-half-depth": (1.0, 0.5)}
@@ -198,11 +198,13 @@ class CrackedSolid(Solid):
         return [(*key, 1) if key in self.split and (name, key[0]) in self.section.lower else key
                 for key in Solid.keys(triangle, k)]
 
-    def columns(self, contact):
-        """For each layer: a unit load on the flank, and the mean displacement of the centre line."""
-        loads, seen = [np.zeros((len(self.dof), len(self.heights) - 1)) for _ in range(2)]
-        vector = (*contact.direction, 0.0)
-        for k, (low, high) in enumerate(zip(self.heights, self.heights[1:])):
+    def columns(self, contacts):
+        """For each contact and layer: a unit load on the flank, and the mean displacement of the
+        centre line."""
+        layers = list(zip(self.heights, self.heights[1:]))
+        loads, seen = [np.zeros((len(self.dof), len(contacts) * len(layers))) for _ in range(2)]
+        for k, (contact, (low, high)) in enumerate(itertools.product(contacts, layers)):
+            vector = (*contact.direction, 0.0)
             for x, w in zip(*np.polynomial.legendre.leggauss(3)):
                 z = 0.5 * (low + high) + 0.5 * (high - low) * x
                 self.put(loads[:, k], contact.point, z, vector, 0.5 * w)
@@ -210,9 +212,9 @@ class CrackedSolid(Solid):
         return loads, seen
 
 
-def centre_matrix(solid, contact):
-    """Compliances of the centre line between layers, mm/N."""
-    loads, seen = solid.columns(contact)
+def centre_matrix(solid, contacts):
+    """Compliances of the centre lines between contacts and layers, mm/N."""
+    loads, seen = solid.columns(contacts)
     centre = seen.T @ solid.factors.solve(loads)
     return 0.5 * (centre + centre.T)
 
@@ -221,10 +223,10 @@ class CrackedGear:
     """Solid with the deepest slit open across the face, factorised once. Forces between the lips
     close it where a crack does not reach."""
 
-    def __init__(self, section, heights, contact, plane=False):
+    def __init__(self, section, heights, contacts, plane=False):
         self.solid = solid = CrackedSolid(section, heights, [section.stops[-2]] * (len(heights) - 1), plane)
         self.lips = sorted(solid.split)
-        loads, seen = solid.columns(contact)
+        loads, seen = solid.columns(contacts)
         moved = solid.factors.solve(loads)
         dofs = [[(solid.dof[f"{solid.number[key]}.{d}"], solid.dof[f"{solid.number[(*key, 1)]}.{d}"])
                  for d in (1, 2, 3) if f"{solid.number[key]}.{d}" in solid.dof] for key in self.lips]
@@ -246,7 +248,7 @@ class CrackedGear:
         self.healthy = self.flank([0.0] * (len(heights) - 1))
 
     def flank(self, depths):
-        """Compliances of the flank between layers, mm/N, with a crack of these depths."""
+        """Compliances of the flanks between contacts and layers, mm/N, with a crack of these depths."""
         is_open = self.solid.opened(depths)
         shut = np.array([key not in is_open for key in self.lips])[self.of_lip]
         if not shut.any():
@@ -266,46 +268,54 @@ def local_compliance(contacts):
 
 
 class Model:
-    """Solids of a tooth's gear and its mate."""
+    """Solids of a tooth's gear and its mate. groups: pairs in contact, of touching()."""
 
     def __init__(self, size, layers, tooth, plane=False):
         mate, which, _ = TEETH[tooth]
         self.pair = pair_of(mate, "fillet")
-        self.phase = phases(self.pair.contact_ratio)[PHASE][1]
-        contacts = [self.pair.contacts(w, (self.phase,))[0] for w in (1, 2)]
-        own, other = self.pair.gears[which - 1], self.pair.gears[2 - which]
+        self.groups = list(touching(self.pair, PHASES))
+        own, other = [[contacts_of(self.pair, w, *group) for group in self.groups]
+                      for w in (which, 3 - which)]
+        gear, mate_gear = self.pair.gears[which - 1], self.pair.gears[2 - which]
         self.heights = np.array([0.0, WIDTH]) if plane else np.linspace(0, WIDTH, layers + 1)
-        self.section_length = depth_of(own, 1.0)
+        self.section_length = depth_of(gear, 1.0)
         self.stops = [self.section_length * s for s in STOPS]
-        self.gear = CrackedGear(Section(size, own, self.stops), self.heights, contacts[which - 1], plane)
-        self.mate = centre_matrix(CrackedSolid(Section(size, other), self.heights, None, plane),
-                                  contacts[2 - which])
-        self.local = np.diag(local_compliance(contacts) / np.diff(self.heights))
-        self.share = np.diff(self.heights) / WIDTH
+        self.gear = CrackedGear(Section(size, gear, self.stops), self.heights, sum(own, []), plane)
+        layer = np.diff(self.heights)
+        local = [local_compliance(both) for both in zip(sum(own, []), sum(other, []))]
+        self.healthy = (self.gear.centre + np.diag(np.outer(local, 1 / layer).ravel())
+                        + centre_matrix(CrackedSolid(Section(size, mate_gear), self.heights, None, plane),
+                                        sum(other, [])))
+        ends = len(layer) * np.cumsum([0] + [len(taus) for taus, _ in self.groups])
+        self.parts = [slice(a, b) for a, b in zip(ends, ends[1:])]
 
-    def row(self, shape, share):
-        """Mesh stiffness in N/m without and with the crack: with equal approach across the face, and
-        for an evenly distributed load."""
+    def rows(self, shape, share):
+        """For each of the groups, mesh stiffness in N/m without and with the crack: with equal
+        approach of all pairs across the face, and for a load that each pair carries evenly; and the
+        healthy cracked pair's share of the load."""
         depths = layer_depths(shape, share * self.section_length, self.stops, self.heights)
-        healthy = self.gear.centre + self.mate + self.local
-        cracked = healthy + self.gear.added(depths)
-        return [*(stiffness(m) for m in (healthy, cracked)),
-                *(1e3 / float(self.share @ m @ self.share) for m in (healthy, cracked))]
+        cracked = self.healthy + self.gear.added(depths)
+        for (taus, at), part in zip(self.groups, self.parts):
+            both = [m[part, part] for m in (self.healthy, cracked)]
+            even = np.kron(np.eye(len(taus)), np.diff(self.heights)[:, None] / WIDTH)
+            load = np.linalg.inv(both[0]).sum(axis=1).reshape(len(taus), -1).sum(axis=1)
+            yield ([stiffness(m) for m in both] + [stiffness(even.T @ m @ even) for m in both]
+                   + [load[at] / load.sum()])
 
 
 def check(size=2.4, layers=4):
-    """Compliance that a crack over half of the face adds, between layers: by forces between the lips,
+    """Compliance that a crack over half of the face adds, between contacts and layers: by forces between the lips,
     and by a solid of its own. Returns the largest difference over the largest entry."""
     pair = pair_of("sun", "fillet")
-    gear, phase = pair.gears[0], phases(pair.contact_ratio)[PHASE][1]
-    contact, length = pair.contacts(1, (phase,))[0], depth_of(pair.gears[0], 1.0)
+    gear, length = pair.gears[0], depth_of(pair.gears[0], 1.0)
+    contacts = sum((contacts_of(pair, 1, *group) for group in touching(pair, PHASES)), [])
     section, heights = Section(size, gear, [length * s for s in STOPS]), np.linspace(0, WIDTH, layers + 1)
     depths = layer_depths("half", 0.4 * length, section.stops, heights)
-    by_forces = CrackedGear(section, heights, contact).added(depths)
+    by_forces = CrackedGear(section, heights, contacts).added(depths)
     found = []
     for opened in (depths, None):
         solid = CrackedSolid(section, heights, opened)
-        loads = solid.columns(contact)[0]
+        loads = solid.columns(contacts)[0]
         found.append(loads.T @ solid.factors.solve(loads))
     own = found[0] - found[1]
     return np.abs(by_forces - own).max() / np.abs(own).max()
@@ -324,17 +334,18 @@ def main():
         print(f"largest difference {check():.1e}")
         return
     with open(chosen.out, "w") as table:
-        put(table, "tooth,shape,share,depth_mm,end_depth_mm,length_mm,phase,healthy_N_m,cracked_N_m,"
-                   "even_healthy_N_m,even_cracked_N_m")
+        put(table, "tooth,shape,share,depth_mm,end_depth_mm,length_mm,phase,pairs,cracked,healthy_N_m,cracked_N_m,"
+                   "even_healthy_N_m,even_cracked_N_m,load_share")
         for tooth in chosen.only:
             model = Model(chosen.size, chosen.layers, tooth, chosen.plane)
             for shape in ("through",) if chosen.plane else SHAPES:
                 length, end = SHAPES[shape]
                 for share in SHARES:
                     depth = share * model.section_length
-                    values = ",".join(f"{v:.6g}" for v in model.row(shape, share))
-                    put(table, f"{tooth},{shape},{share:g},{depth:.6f},{end * depth:.6f},{length * WIDTH:g},"
-                               f"{model.phase:.6f},{values}")
+                    for (taus, cracked), row in zip(model.groups, model.rows(shape, share)):
+                        values = ",".join(f"{v:.6g}" for v in row)
+                        put(table, f"{tooth},{shape},{share:g},{depth:.6f},{end * depth:.6f},"
+                                   f"{length * WIDTH:g},{taus[0]:.6f},{len(taus)},{cracked},{values}")
 
 
 if __name__ == "__main__":
