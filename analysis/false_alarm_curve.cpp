@@ -155,8 +155,7 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
                                     double confidence) {
     const double sign = alarm_sign(values.alarm);
     const HealthyThresholds all(values.healthy, values.alarm);
-    const std::vector<double> healthy =
-        largest_values(all.plain(), values.alarm, static_cast<long>(all.plain().size()));
+    const std::vector<double>& healthy = all.sorted().ascending();
     const double half = 1.0 - 0.5 * (1.0 - confidence);
     std::vector<double> faulty;
     for (std::size_t i = 0; i < values.value.size(); ++i) {
@@ -198,9 +197,8 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
         }
     }
     // A rate between two whole ranks has the same order statistic.
-    const Threshold chosen =
-        counted ? alarm_threshold(all.plain(), values.alarm, least.false_alarm_rate)
-                : all.at(least.false_alarm_rate, half);
+    const Threshold chosen = counted ? all.sorted().threshold(least.false_alarm_rate)
+                                     : all.at(least.false_alarm_rate, half);
     least.extrapolation = extrapolation_of(chosen, least.false_alarm_rate);
     least.importance_sampled = chosen.importance_sampled.has_value();
     least.rate_bounds = all.rate_bounds(chosen, least.false_alarm_rate, half);

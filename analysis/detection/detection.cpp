@@ -67,8 +67,8 @@ bool tied(const LevelDetection& level, const DetectionRequest& request) {
 }
 
 // Fits to fewer of the largest values, to check that the threshold does not depend on their number.
-TailThreshold tail_threshold(const std::vector<double>& healthy, Alarm alarm,
-                             const Threshold& threshold, const DetectionRequest& request) {
+TailThreshold tail_threshold(const SortedSample& healthy, Alarm alarm, const Threshold& threshold,
+                             const DetectionRequest& request) {
     const double sign = alarm_sign(alarm);
     const auto choice = [&](const TailFit& fit) {
         return TailChoice{fit.exceedances(),
@@ -84,8 +84,7 @@ TailThreshold tail_threshold(const std::vector<double>& healthy, Alarm alarm,
     tail.extrapolation = 1.0 / (request.false_alarm_rate * static_cast<double>(threshold.sample));
     tail.choices.push_back(choice(*threshold.tail));
     for (const long part : {2, 4}) {
-        const TailFit fit(largest_values(healthy, alarm, threshold.tail->exceedances() / part),
-                          threshold.sample);
+        const TailFit fit(healthy.largest(threshold.tail->exceedances() / part), threshold.sample);
         if (fit.refusal().empty()) {
             tail.choices.push_back(choice(fit));
             const double rate = tail.choices.back().rate;
@@ -233,7 +232,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         level.threshold_alarms = threshold.alarms;
         level.healthy_median = finite_median(thresholds.plain());
         if (threshold.tail) {
-            level.tail = tail_threshold(thresholds.plain(), alarm, threshold, request);
+            level.tail = tail_threshold(thresholds.sorted(), alarm, threshold, request);
         }
         if (threshold.importance_sampled) {
             level.importance_sampled = {

@@ -19,6 +19,7 @@ HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) :
         if (sample.clustered()) {
             gearbox_.assign(sample.gearbox.begin(), sample.gearbox.end());
         }
+        sorted_.emplace(plain_, alarm);
         return;
     }
     importance_sample_.emplace(sample.values, sample.weights, sample.gearbox, alarm);
@@ -27,6 +28,7 @@ HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) :
             plain_.push_back(sample.values[i]);
         }
     }
+    sorted_.emplace(plain_, alarm);
 }
 
 Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) const {
@@ -41,7 +43,7 @@ Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) cons
         threshold.importance_sampled = estimate;
         return threshold;
     }
-    Threshold threshold = alarm_threshold(plain_, alarm_, false_alarm_rate);
+    Threshold threshold = sorted_->threshold(false_alarm_rate);
     if (!gearbox_.empty() && threshold.tail) {
         threshold.value = kNan;
         threshold.tail.reset();
@@ -56,13 +58,12 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
                                                       *threshold.importance_sampled);
     }
     if (gearbox_.empty()) {
-        return threshold_interval(plain_, alarm_, false_alarm_rate, confidence);
+        return sorted_->value_bounds(false_alarm_rate, confidence);
     }
     // The true rate of a value is the rate of its rank times the ratio of the interval's bound to
     // the rate.
     const Interval rate = rate_bounds(threshold, false_alarm_rate, confidence);
-    const std::vector<double> ascending =
-        largest_values(plain_, alarm_, static_cast<long>(plain_.size()));
+    const std::vector<double>& ascending = sorted_->ascending();
     const auto value = [&](double bound) {
         const double target = false_alarm_rate * false_alarm_rate / bound;
         const double rank = std::ceil((static_cast<double>(ascending.size()) + 1.0) *

@@ -2,48 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <utility>
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
-namespace {
-
-double order_statistic(std::vector<double>& values, long rank, Alarm alarm) {
-    const auto place = values.begin() + (rank - 1);
-    if (alarm == Alarm::high) {
-        std::nth_element(values.begin(), place, values.end());
-    } else {
-        std::nth_element(values.begin(), place, values.end(), std::greater<>());
-    }
-    return *place;
-}
-
-}  // namespace
-
-Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate) {
-    std::erase_if(healthy, [](double value) { return !std::isfinite(value); });
-    Threshold threshold;
-    threshold.sample = static_cast<long>(healthy.size());
-    threshold.value = kNan;
-    const long rank = threshold_rank(threshold.sample, false_alarm_rate);
-    if (rank <= threshold.sample) {
-        threshold.value = order_statistic(healthy, rank, alarm);
-    } else if (tail_reaches(threshold.sample, false_alarm_rate)) {
-        TailFit tail(largest_values(healthy, alarm, exceedances_of(threshold.sample)),
-                     threshold.sample);
-        if (tail.refusal().empty()) {
-            threshold.value = alarm_sign(alarm) * tail.threshold(false_alarm_rate);
-            threshold.tail = std::move(tail);
-        }
-    }
-    threshold.alarms = std::count_if(healthy.begin(), healthy.end(), [&](double value) {
-        return is_alarm(value, threshold.value, alarm);
-    });
-    return threshold;
-}
 
 HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_rate, long alarms,
                     long tested, double confidence) {
@@ -76,37 +41,59 @@ long rank_within(long sample, double rate, double tail, bool below) {
 
 }  // namespace
 
-Interval threshold_interval(const std::vector<double>& healthy, Alarm alarm,
-                            double false_alarm_rate, double confidence) {
-    constexpr double kOpen = std::numeric_limits<double>::infinity();
-    const std::vector<double> ascending =
-        largest_values(healthy, alarm, static_cast<long>(healthy.size()));
-    const auto sample = static_cast<long>(ascending.size());
-    const double tail = 0.5 * (1.0 - confidence);
-    const long low = rank_within(sample, false_alarm_rate, tail, true),
-               high = rank_within(sample, false_alarm_rate, tail, false);
-    Interval values{low < 1 ? -kOpen : ascending[static_cast<std::size_t>(low - 1)],
-                    high > sample ? kOpen : ascending[static_cast<std::size_t>(high - 1)]};
-    if (high > sample && tail_reaches(sample, false_alarm_rate)) {
-        const TailFit fit(largest_values(healthy, alarm, exceedances_of(sample)), sample);
-        if (fit.refusal().empty()) {
-            values = fit.threshold_interval(false_alarm_rate, confidence);
-        }
-    }
-    return alarm == Alarm::high ? values : Interval{-values.upper, -values.lower};
+Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate) {
+    return SortedSample(std::move(healthy), alarm).threshold(false_alarm_rate);
 }
 
-std::vector<double> largest_values(std::vector<double> healthy, Alarm alarm, long exceedances) {
-    std::erase_if(healthy, [](double value) { return !std::isfinite(value); });
-    for (double& value : healthy) {
+SortedSample::SortedSample(std::vector<double> healthy, Alarm alarm)
+    : alarm_(alarm), ascending_(std::move(healthy)) {
+    std::erase_if(ascending_, [](double value) { return !std::isfinite(value); });
+    for (double& value : ascending_) {
         value *= alarm_sign(alarm);
     }
-    const auto kept = std::min(healthy.size(), static_cast<std::size_t>(exceedances) + 1);
-    std::partial_sort(healthy.begin(), healthy.begin() + static_cast<std::ptrdiff_t>(kept),
-                      healthy.end(), std::greater<>());
-    healthy.resize(kept);
-    std::reverse(healthy.begin(), healthy.end());
-    return healthy;
+    std::sort(ascending_.begin(), ascending_.end());
+}
+
+std::span<const double> SortedSample::largest(long exceedances) const {
+    const auto kept = static_cast<std::size_t>(std::min(size(), exceedances + 1));
+    return std::span(ascending_).last(kept);
+}
+
+const TailFit& SortedSample::tail() const {
+    if (!tail_) {
+        tail_.emplace(largest(exceedances_of(size())), size());
+    }
+    return *tail_;
+}
+
+Threshold SortedSample::threshold(double false_alarm_rate) const {
+    Threshold threshold;
+    threshold.sample = size();
+    threshold.value = kNan;
+    const long rank = threshold_rank(size(), false_alarm_rate);
+    if (rank <= size()) {
+        threshold.value = alarm_sign(alarm_) * ascending_[static_cast<std::size_t>(rank - 1)];
+    } else if (tail_reaches(size(), false_alarm_rate) && tail().refusal().empty()) {
+        threshold.value = alarm_sign(alarm_) * tail().threshold(false_alarm_rate);
+        threshold.tail = tail();
+    }
+    threshold.alarms = std::count_if(ascending_.begin(), ascending_.end(), [&](double value) {
+        return is_alarm(alarm_sign(alarm_) * value, threshold.value, alarm_);
+    });
+    return threshold;
+}
+
+Interval SortedSample::value_bounds(double false_alarm_rate, double confidence) const {
+    constexpr double kOpen = std::numeric_limits<double>::infinity();
+    const double tail_share = 0.5 * (1.0 - confidence);
+    const long low = rank_within(size(), false_alarm_rate, tail_share, true),
+               high = rank_within(size(), false_alarm_rate, tail_share, false);
+    Interval values{low < 1 ? -kOpen : ascending_[static_cast<std::size_t>(low - 1)],
+                    high > size() ? kOpen : ascending_[static_cast<std::size_t>(high - 1)]};
+    if (high > size() && tail_reaches(size(), false_alarm_rate) && tail().refusal().empty()) {
+        values = tail().threshold_interval(false_alarm_rate, confidence);
+    }
+    return alarm_ == Alarm::high ? values : Interval{-values.upper, -values.lower};
 }
 
 }  // namespace gearpod::analysis

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
@@ -29,18 +30,34 @@ struct Threshold {
 // extrapolated as far as the tail permits (tail.hpp). Values that are not finite are left out.
 Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate);
 
+// The same for several rates of one sample, which is sorted and whose tail is fitted once. An
+// object belongs to one thread.
+class SortedSample {
+  public:
+    SortedSample(std::vector<double> healthy, Alarm alarm);
+
+    Threshold threshold(double false_alarm_rate) const;
+    // Interval of the value that is exceeded with exactly the requested rate, from order statistics
+    // or from the tail. A bound is infinite where neither reaches.
+    Interval value_bounds(double false_alarm_rate, double confidence) const;
+
+    // Finite values, negated for a low alarm.
+    const std::vector<double>& ascending() const { return ascending_; }
+    // The `exceedances` largest of these and the one before them; all if there are no more.
+    std::span<const double> largest(long exceedances) const;
+
+  private:
+    long size() const { return static_cast<long>(ascending_.size()); }
+    const TailFit& tail() const;
+
+    Alarm alarm_;
+    std::vector<double> ascending_;
+    mutable std::optional<TailFit> tail_;  // fitted when first needed
+};
+
 // False-alarm rate of this threshold from its own sample and `alarms` of `tested` further healthy
 // gearboxes; from the sample alone for an importance-sampled threshold. NaN without a threshold.
 HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_rate, long alarms,
                     long tested, double confidence);
-
-// Interval of the value that is exceeded with exactly the requested rate, from order statistics or
-// from the tail. A bound is infinite where neither reaches.
-Interval threshold_interval(const std::vector<double>& healthy, Alarm alarm,
-                            double false_alarm_rate, double confidence);
-
-// Largest finite values (for a low alarm, the smallest ones negated), ascending: one order
-// statistic followed by the `exceedances` values that exceed it. All values if there are no more.
-std::vector<double> largest_values(std::vector<double> healthy, Alarm alarm, long exceedances);
 
 }  // namespace gearpod::analysis

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/statistics/link_block.hpp"
+#include "analysis/statistics/outcome_terms.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kLeastProduct = 1e-290;
 constexpr double kInTransition = 1e-6;
 // Half-width of a cell of sizes in units of eta, at most. The singularities of the links nearest to
 // the real axis are at a distance of pi for the logit, about 2 with a usual floor for the probit,
@@ -27,9 +26,14 @@ constexpr double kFlat = 1e-17;
 struct Transition {
     double low = 0.0, high = 0.0;
 
-    Transition(Link link, double at_floor, double at_ceiling, double rise)
-        : low(-link_quantile(link, std::min(0.5, kFlat * at_floor / rise))),
-          high(link_upper_quantile(link, std::min(0.5, kFlat * at_ceiling / rise))) {}
+    Transition(Link link, double at_floor, double at_ceiling, double rise) {
+        const double bottom = std::min(0.5, kFlat * at_floor / rise);
+        const double top = std::min(0.5, kFlat * at_ceiling / rise);
+        // A normal deviate x is exceeded at a rate of at most exp(-x^2 / 2) / 2.
+        const auto normal = [](double rate) { return std::sqrt(-2.0 * std::log(2.0 * rate)); };
+        low = link == Link::probit ? normal(bottom) : -link_quantile(link, bottom);
+        high = link == Link::probit ? normal(top) : link_upper_quantile(link, top);
+    }
 };
 
 }  // namespace
@@ -66,35 +70,12 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
         const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * through->u);
         ceiling_by_eta = -(through->pod - floor) * at.density / (at.up * at.up);
     }
-    const double origin = through ? through->u : 0.0;
-    Slopes slopes;
-    double s0 = 0.0, s1 = 0.0, s2 = 0.0;
-    double i00 = 0.0, i01 = 0.0, i11 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
-    const auto add = [&](const Block& u, const Block& weight, bool detected) {
-        const LinkBlock link(form_.link, parameters[0] + parameters[1] * u);
-        const Block hit = floor + rise * link.up;
-        const Block miss = (1.0 - ceiling) + rise * link.down;
-        slopes.value += (weight * block_log(detected ? hit : miss)).sum();
-        const Block both = hit * miss;
-        const Block bend = (both < kLeastProduct).select(0.0, weight / both.max(kLeastProduct));
-        const Block left = detected ? Block(bend * miss) : Block(-bend * hit);
-        const Block by_eta = rise * link.density;
-        const Block by_slope = by_eta * (u - origin);
-        const Block by_first = by_eta + ceiling_by_eta * link.up;
-        const Block bend_first = bend * by_first;
-        s0 += (left * by_first).sum();
-        s1 += (left * by_slope).sum();
-        i00 += (bend_first * by_first).sum();
-        i01 += (bend_first * by_slope).sum();
-        i11 += (bend * by_slope * by_slope).sum();
-        if (form_.free_ceiling && !through) {
-            const Block bend_ceiling = bend * link.up;
-            s2 += (left * link.up).sum();
-            i02 += (bend_ceiling * by_first).sum();
-            i12 += (bend_ceiling * by_slope).sum();
-            i22 += (bend_ceiling * link.up).sum();
-        }
-    };
+    const OutcomeLine line{{form_.link, floor, ceiling},
+                           parameters[0],
+                           parameters[1],
+                           through ? through->u : 0.0,
+                           ceiling_by_eta};
+    LikelihoodSums sums;
     const auto add_all = [&](Eigen::Index first, Eigen::Index last, bool detected) {
         const Transition flat = detected ? Transition(form_.link, floor, ceiling, rise)
                                          : Transition(form_.link, 1.0 - floor, 1.0 - ceiling, rise);
@@ -105,15 +86,12 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
             std::lower_bound(begin + first, begin + last, std::min(low, high)) - begin;
         const Eigen::Index to =
             std::lower_bound(begin + from, begin + last, std::max(low, high)) - begin;
-        for (Eigen::Index at = from; at < to; at += kBlock) {
-            const Eigen::Index count = std::min(kBlock, to - at);
-            add(nodes.u.segment(at, count), nodes.weight.segment(at, count), detected);
-        }
+        add_outcomes(line, detected, to - from, begin + from, nodes.weight.data() + from, sums);
         // Where the curve is flat, one size represents all.
         const auto add_flat = [&](Eigen::Index start, Eigen::Index end, Eigen::Index at) {
             if (end > start) {
                 const double weight = nodes.weight.segment(start, end - start).sum();
-                add(Block::Constant(1, nodes.u[at]), Block::Constant(1, weight), detected);
+                add_outcomes(line, detected, 1, begin + at, &weight, sums);
             }
         };
         add_flat(first, from, from - 1);
@@ -121,8 +99,16 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
     };
     add_all(0, nodes.hits, true);
     add_all(nodes.hits, nodes.u.size(), false);
-    slopes.score = {s0, s1, s2};
-    slopes.information << i00, i01, i02, i01, i11, i12, i02, i12, i22;
+    Slopes slopes;
+    slopes.value = sums.value;
+    slopes.score = {sums.by_first, sums.by_slope, 0.0};
+    slopes.information.topLeftCorner<2, 2>() << sums.first_first, sums.first_slope,
+        sums.first_slope, sums.slope_slope;
+    if (form_.free_ceiling && !through) {
+        slopes.score[2] = sums.by_ceiling;
+        slopes.information.col(2) << sums.first_ceiling, sums.slope_ceiling, sums.ceiling_ceiling;
+        slopes.information.row(2) = slopes.information.col(2);
+    }
     if (through && !form_.free_ceiling) {  // eta there is given
         slopes.score[0] = 0.0;
         slopes.information.row(0).setZero();
@@ -281,19 +267,30 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
     constexpr int kMostSteps = 30;
     constexpr double kConverged = 1e-3;  // in standard errors; the remaining error is its square
     constexpr double kOnContour = 1e-2;  // of the log likelihood
+    constexpr double kTooFar = 5.0;      // below the contour, where the quadratic model is wrong
     if (form_.firth) {
         return std::nullopt;
     }
     const double floor = form_.floor;
     Parameters parameters = start;
+    Parameters last_move = Parameters::Zero();
     bool held = !form_.free_ceiling;  // the ceiling is fixed
     for (int step = 0; step < kMostSteps; ++step) {
         const Slopes here = evaluate(parameters, std::nullopt, nodes_for(parameters[1]));
+        if (!last_move.isZero() && !(here.value > log_likelihood - kTooFar)) {
+            last_move *= 0.5;
+            parameters -= last_move;
+            continue;
+        }
         // Gradient of zeta, which is eta itself with a ceiling of 1.
         const double rise = parameters[2] - floor;
         const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * u);
         const double zeta = link_quantile(form_.link, rise * at.up / (1.0 - floor));
         const double scale = (1.0 - floor) * link_density(form_.link, zeta);
+        if (std::isinf(zeta) && zeta * side > 0.0 && here.value >= log_likelihood) {
+            start = parameters;  // nothing is more extreme
+            return zeta;
+        }
         const double by_eta = form_.free_ceiling ? rise * at.density / scale : 1.0;
         const double by_ceiling = form_.free_ceiling ? at.up / scale : 0.0;
         const Parameters gradient{by_eta, by_eta * u, held ? 0.0 : by_ceiling};
@@ -320,6 +317,7 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
             continue;
         }
         parameters += move;
+        last_move = move;
         if (std::sqrt(std::abs(move.dot(system * move))) < kConverged) {
             // Far out the likelihood is flat, where any move is small.
             const double reached =

@@ -157,10 +157,12 @@ StandardisedSizes::StandardisedSizes(const HitMissTable& table, bool log_size)
 }
 
 const SizeNodes& StandardisedSizes::nodes(double widest_cell) const {
-    double cell = by_cells_.empty() ? 0.0 : sizes_[sizes_.size() - 1] - sizes_[0];
-    const double range = cell;
-    for (std::size_t level = 0; level < by_cells_.size(); ++level, cell *= 0.5) {
-        if (cell <= widest_cell) {
+    // Sums over a few nodes more are cheaper than one more set of nodes.
+    constexpr std::size_t kCoarsest = 3;
+    const double range = by_cells_.empty() ? 0.0 : sizes_[sizes_.size() - 1] - sizes_[0];
+    for (std::size_t level = std::min(kCoarsest, by_cells_.size() / 2); level < by_cells_.size();
+         ++level) {
+        if (std::ldexp(range, -static_cast<int>(level)) <= widest_cell) {
             if (by_cells_[level].u.size() == 0) {
                 by_cells_[level] = condensed(all_, sizes_[0], range, Eigen::Index{1} << level);
             }

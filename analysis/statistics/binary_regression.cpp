@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/statistics/link_block.hpp"
+#include "analysis/statistics/outcome_terms.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -19,25 +19,12 @@ struct Slopes {
 
 Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
                 const Eigen::VectorXd& b) {
-    constexpr double kTiny = 1e-290;
     const Eigen::VectorXd eta = design * b;
-    const double rise = model.ceiling - model.floor;
-    Eigen::VectorXd left(eta.size()), weight(eta.size());
+    Eigen::VectorXd logarithm(eta.size()), left(eta.size()), weight(eta.size());
+    outcome_terms({model.link, model.floor, model.ceiling}, eta.size(), eta.data(), yes.data(),
+                  logarithm.data(), left.data(), weight.data());
     Slopes slopes;
-    for (Eigen::Index first = 0; first < eta.size(); first += kBlock) {
-        const Eigen::Index count = std::min(kBlock, eta.size() - first);
-        const LinkBlock link(model.link, eta.segment(first, count).array());
-        const Block hit = model.floor + rise * link.up;
-        const Block miss = (1.0 - model.ceiling) + rise * link.down;
-        const auto yes_here = Eigen::Map<const Eigen::Array<char, Eigen::Dynamic, 1>>(
-                                  yes.data() + first, count) != char{0};
-        slopes.log_likelihood += block_log(yes_here.select(hit, miss)).sum();
-        const Block by_eta = rise * link.density;
-        const Block both = hit * miss;
-        const Block inverse = (both < kTiny).select(0.0, 1.0 / both.max(kTiny));
-        left.segment(first, count) = by_eta * inverse * yes_here.select(miss, -hit);
-        weight.segment(first, count) = by_eta.square() * inverse;
-    }
+    slopes.log_likelihood = logarithm.sum();
     Eigen::VectorXd penalty = Eigen::VectorXd::Constant(b.size(), model.ridge);
     penalty[0] = 0.0;
     slopes.objective = slopes.log_likelihood - 0.5 * penalty.dot(b.cwiseAbs2());

@@ -18,17 +18,20 @@ LinkValues cloglog_values(double eta) {
     return {-std::expm1(-rate), down, std::isinf(rate) ? 0.0 : rate * down};
 }
 
-LinkValues symmetric_values(Link link, double eta) {
-    const double away = std::abs(eta);
-    double small = 0.0, density = 0.0;
-    if (link == Link::logit) {
-        const double e = std::exp(-away);
-        small = e / (1.0 + e);
-        density = small / (1.0 + e);
-    } else {
-        small = 0.5 * std::erfc(away / std::numbers::sqrt2);
-        density = std::exp(-0.5 * eta * eta) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+// F at a distance `away` below the middle.
+double symmetric_tail(Link link, double away) {
+    if (link == Link::probit) {
+        return 0.5 * std::erfc(away / std::numbers::sqrt2);
     }
+    const double e = std::exp(-away);
+    return e / (1.0 + e);
+}
+
+LinkValues symmetric_values(Link link, double eta) {
+    const double small = symmetric_tail(link, std::abs(eta));
+    const double density = link == Link::logit ? small * (1.0 - small)
+                                               : std::exp(-0.5 * eta * eta) *
+                                                     std::numbers::inv_sqrtpi / std::numbers::sqrt2;
     return eta > 0.0 ? LinkValues{1.0 - small, small, density}
                      : LinkValues{small, 1.0 - small, density};
 }
@@ -51,6 +54,10 @@ LinkValues link_values(Link link, double eta) {
 }
 
 double link_probability(Link link, double eta) {
+    if (link == Link::logit || link == Link::probit) {
+        const double small = symmetric_tail(link, std::abs(eta));
+        return eta > 0.0 ? 1.0 - small : small;
+    }
     return link_values(link, eta).up;
 }
 
@@ -74,7 +81,7 @@ double link_quantile(Link link, double probability) {
         case Link::probit:
             break;
     }
-    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability, QuietPolicy());
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability, QuietDoublePolicy());
 }
 
 double link_upper_quantile(Link link, double probability) {

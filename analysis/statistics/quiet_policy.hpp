@@ -13,5 +13,8 @@ using QuietPolicy =
                            boost_policies::overflow_error<boost_policies::ignore_error>,
                            boost_policies::rounding_error<boost_policies::ignore_error>,
                            boost_policies::evaluation_error<boost_policies::ignore_error>>;
+// The same without 80-bit intermediate values, for functions that take time.
+using QuietDoublePolicy =
+    boost_policies::normalise<QuietPolicy, boost_policies::promote_double<false>>::type;
 
 }  // namespace gearpod::analysis

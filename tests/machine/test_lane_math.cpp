@@ -1,6 +1,7 @@
 // Checks the lanes' elementary functions against extended precision.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <random>
 
 #include "machine/lane_math.hpp"
@@ -48,6 +49,26 @@ TEST_CASE("The lanes' logarithm agrees with an extended-precision one, also wher
     CHECK(worst_error(1.0, 1e6, lane_minus_log, exact, kRelative) < 4e-16);
     CHECK(worst_error(0x1p60, 0x1p64, lane_minus_log, exact, kRelative) < 4e-16);
     CHECK(lane_minus_log(0x1p64) == 0.0);
+    const auto plain = [](long double x) { return std::log(x); };
+    CHECK(worst_error(1e-300, 1e-290, lane_log, plain, kRelative) < 4e-16);
+    CHECK(worst_error(0.0, 1.0, lane_log, plain, kRelative) < 4e-16);
+    CHECK(lane_log(1.0) == 0.0);
+    CHECK(lane_log(std::numeric_limits<double>::min()) ==
+          Approx(std::log(std::numeric_limits<double>::min())));
+}
+
+TEST_CASE("The lanes' tail functions agree with extended-precision ones down to their ends") {
+    const auto tail = [](double x) { return lane_erfc(x); };
+    const auto exact_tail = [](long double x) { return std::erfc(x); };
+    CHECK(worst_error(0.0, 1.0, tail, exact_tail, kRelative) < 2e-15);
+    CHECK(worst_error(0.0, 26.0, tail, exact_tail, kRelative) < 2e-15);
+    CHECK(lane_erfc(0.0) == Approx(1.0).epsilon(1e-15));
+    CHECK(lane_erfc(40.0) < 1e-304);
+    const auto share = [](double x) { return lane_one_minus_exp(x); };
+    const auto exact_share = [](long double x) { return -std::expm1(-x); };
+    CHECK(worst_error(0.0, 1e-6, share, exact_share, kRelative) < 4e-16);
+    CHECK(worst_error(0.0, 40.0, share, exact_share, kRelative) < 4e-16);
+    CHECK(lane_one_minus_exp(1e9) == 1.0);
 }
 
 TEST_CASE("The lanes' sine and cosine agree with extended-precision ones") {
