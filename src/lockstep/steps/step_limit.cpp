@@ -19,12 +19,13 @@ double growth_squared(std::complex<double> z, const IntegratorFacts& integrator)
     return r.real() * r.real() + r.imag() * r.imag();
 }
 
-// Largest h for which |R(h lambda)| stays at most 1 from 0 to h.
-double longest_step(std::complex<double> lambda, const IntegratorFacts& integrator) {
+// Largest h for which |R(h lambda)| stays at most 1 from 0 to h, or one of at least `enough`.
+double longest_step(std::complex<double> lambda, const IntegratorFacts& integrator, double enough) {
     const double unit = 1.0 / std::abs(lambda);
     constexpr double kResolution = 1e-3;  // of h |lambda|; the limits lie near 2.8 and 1.7 to 2.5
     double z = kResolution;
-    while (z < 4.0 && growth_squared(z * unit * lambda, integrator) <= 1.0 + 2e-12) {
+    while (z < 4.0 && (z - kResolution) * unit < enough &&
+           growth_squared(z * unit * lambda, integrator) <= 1.0 + 2e-12) {
         z += kResolution;
     }
     return (z - kResolution) * unit;
@@ -81,9 +82,16 @@ double longest_stable_step(const dynamics::GearboxMatrices& m, Integrator integr
     if (method.stable_step != nullptr) {
         return method.stable_step(m);
     }
+    // The fastest modes come first: they leave little to examine of the others.
+    std::vector<std::complex<double>> modes = decaying_modes(m);
+    std::sort(modes.begin(), modes.end(), [](std::complex<double> a, std::complex<double> b) {
+        return std::abs(a) > std::abs(b);
+    });
     double longest = std::numeric_limits<double>::infinity();
-    for (const std::complex<double> lambda : decaying_modes(m)) {
-        longest = std::min(longest, longest_step(lambda, method));
+    for (const std::complex<double> lambda : modes) {
+        if (lambda.imag() >= 0.0) {  // conjugates grow alike
+            longest = std::min(longest, longest_step(lambda, method, longest));
+        }
     }
     return longest;
 }
