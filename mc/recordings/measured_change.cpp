@@ -45,9 +45,10 @@ MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
                                baseline.sensor.begin() + static_cast<std::ptrdiff_t>(now.size()));
     MeasuredChange change;
     if (turns == of_span || turns == 1) {
-        const double shift = signals::align(now, before).shift;
+        const signals::Shift shift = signals::align(now, before).shift;
         before = signals::shifted(before, shift);
-        change.meshes = shift / static_cast<double>(per_mesh);
+        const double turned = shift.total() / static_cast<double>(per_mesh);
+        change.meshes = turned < 0.0 ? turned + static_cast<double>(meshes) : turned;
     }
     change.correlation = signals::correlation(now, before);
     if (!(change.correlation >= kLeastCorrelation)) {

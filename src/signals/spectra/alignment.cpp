@@ -36,16 +36,24 @@ double angle_of(std::size_t k, std::size_t n) {
     return 2.0 * std::numbers::pi * order / static_cast<double>(n);
 }
 
+// Phase by which a shift turns order k of n. Whole samples turn it by whole parts of n, exactly.
+std::complex<double> turn_of(std::size_t k, std::size_t n, const Shift& shift) {
+    const auto count = static_cast<long>(n);
+    const long part = static_cast<long>(k) * (shift.samples % count) % count;
+    const double turns = static_cast<double>(part) / static_cast<double>(n);
+    return std::polar(1.0, 2.0 * std::numbers::pi * turns + angle_of(k, n) * shift.fraction);
+}
+
 // First and second derivative of the correlation at a shift, from the product of both spectra.
 struct CorrelationDerivatives {
     double slope = 0.0, bend = 0.0;
 };
-CorrelationDerivatives correlation_derivatives(const Spectrum& product, double shift) {
+CorrelationDerivatives correlation_derivatives(const Spectrum& product, const Shift& shift) {
     CorrelationDerivatives at;
     const std::size_t n = product.size();
     for (std::size_t k = 1; 2 * k < n; ++k) {
         const double angle = angle_of(k, n);
-        const std::complex<double> turned = product[k] * std::polar(1.0, angle * shift);
+        const std::complex<double> turned = product[k] * turn_of(k, n, shift);
         at.slope -= angle * turned.imag();
         at.bend -= angle * angle * turned.real();
     }
@@ -53,17 +61,17 @@ CorrelationDerivatives correlation_derivatives(const Spectrum& product, double s
 }
 
 // Refines the sample with the largest correlation to the peak near it by Newton's method.
-double peak_near(const Spectrum& product, double sample) {
-    double shift = sample;
+Shift peak_near(const Spectrum& product, long sample) {
+    Shift shift{sample, 0.0};
     for (int round = 0; round < 8; ++round) {
         const CorrelationDerivatives at = correlation_derivatives(product, shift);
         if (!(at.bend < 0.0)) {
-            return sample;
+            return {sample, 0.0};
         }
         const double step = -at.slope / at.bend;
-        shift += step;
-        if (std::abs(shift - sample) > 1.0) {
-            return sample;
+        shift.fraction += step;
+        if (std::abs(shift.fraction) > 1.0) {
+            return {sample, 0.0};
         }
         if (std::abs(step) < 1e-9) {
             break;
@@ -97,13 +105,12 @@ Alignment align(std::span<const double> signal, std::span<const double> other) {
     const auto largest =
         std::max_element(correlations.begin(), correlations.end(),
                          [](const auto& a, const auto& b) { return a.real() < b.real(); });
-    const double shift = peak_near(product, static_cast<double>(largest - correlations.begin()));
+    const Shift shift = peak_near(product, largest - correlations.begin());
     double sum = 0.0;
     for (std::size_t k = 1; k < n; ++k) {
-        sum += (product[k] * std::polar(1.0, angle_of(k, n) * shift)).real();
+        sum += (product[k] * turn_of(k, n, shift)).real();
     }
-    const auto period = static_cast<double>(n);
-    return {shift - period * std::floor(shift / period), sum / std::sqrt(energy * other_energy)};
+    return {shift, sum / std::sqrt(energy * other_energy)};
 }
 
 double correlation(std::span<const double> signal, std::span<const double> other) {
@@ -125,13 +132,13 @@ double correlation(std::span<const double> signal, std::span<const double> other
     return own > 0.0 && others > 0.0 ? both / std::sqrt(own * others) : 0.0;
 }
 
-std::vector<double> shifted(std::span<const double> periodic, double shift) {
+std::vector<double> shifted(std::span<const double> periodic, const Shift& shift) {
     const std::size_t n = periodic.size();
     Spectrum spectrum = spectrum_of(periodic), values(n);
     for (std::size_t k = 1; k < n; ++k) {
-        const double angle = angle_of(k, n) * shift;
+        const std::complex<double> turn = turn_of(k, n, shift);
         // The component at half the sampling rate is a cosine and stays real.
-        spectrum[k] *= 2 * k == n ? std::cos(angle) : std::polar(1.0, angle);
+        spectrum[k] *= 2 * k == n ? turn.real() : turn;
     }
     FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
         .transform(spectrum, values);

@@ -7,8 +7,16 @@
 
 namespace gearpod::signals {
 
+// Shift by whole samples and a fraction of -1 to 1. One number would lose digits of the fraction.
+struct Shift {
+    long samples = 0;
+    double fraction = 0.0;
+
+    double total() const { return static_cast<double>(samples) + fraction; }
+};
+
 struct Alignment {
-    double shift = 0.0;        // samples, in [0, n): other(i + shift) is most similar to signal(i)
+    Shift shift;  // samples, from -1 to n: other(i + shift) is most similar to signal(i)
     double correlation = 0.0;  // at that shift, from -1 to 1; 0 if either is constant
 };
 
@@ -21,6 +29,6 @@ Alignment align(std::span<const double> signal, std::span<const double> other);
 double correlation(std::span<const double> signal, std::span<const double> other);
 
 // Periodic signal shifted to periodic(i + shift) at every sample i, band-limited between samples.
-std::vector<double> shifted(std::span<const double> periodic, double shift);
+std::vector<double> shifted(std::span<const double> periodic, const Shift& shift);
 
 }  // namespace gearpod::signals

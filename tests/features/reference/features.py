@@ -294,12 +294,14 @@ def shifted(x, shift):
     return np.fft.irfft(spectrum, n)
 
 
-def best_shift(x, other):
-    """Shift of `other` with the largest circular correlation with x: the best sample, then
-    bisection of the correlation's slope between its neighbours."""
+def aligned(other, x):
+    """`other` shifted to the largest circular correlation with x: by whole samples to the largest
+    of these, then by bisection of the correlation's slope between its neighbours."""
     n = len(x)
-    product = np.fft.rfft(other - np.mean(other)) * np.conj(np.fft.rfft(x - np.mean(x)))
-    start = int(np.argmax(np.fft.irfft(product, n)))
+    spectrum = np.conj(np.fft.rfft(x - np.mean(x)))
+    start = int(np.argmax(np.fft.irfft(np.fft.rfft(other - np.mean(other)) * spectrum, n)))
+    other = np.roll(other, -start)
+    product = np.fft.rfft(other - np.mean(other)) * spectrum
     order = np.arange(len(product))
     inner = (order > 0) & (2 * order < n)
 
@@ -307,18 +309,18 @@ def best_shift(x, other):
         turned = product[inner] * np.exp(2j * np.pi * order[inner] * shift / n)
         return -np.sum(order[inner] * turned.imag)
 
-    low, high = start - 1.0, start + 1.0
+    low, high = -1.0, 1.0
     for _ in range(80):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if slope(middle) > 0 else (low, middle)
-    return 0.5 * (low + high)
+    return shifted(other, 0.5 * (low + high))
 
 
 def change_features(y, baseline):
     """Features of the change of a recording of the whole span since its baseline."""
     span = ZP * ZR * P
     now, before = y[:span], baseline[:span]
-    before = shifted(before, best_shift(now, before))
+    before = aligned(before, now)
     change = now - before
     turn = averaged(change)
     parts = separate(turn, ZP)

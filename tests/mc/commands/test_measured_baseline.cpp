@@ -108,9 +108,7 @@ TEST_CASE("Features of the change equal the numpy result for the same signals") 
     for (const auto& [name, numpy] : expected.items()) {
         INFO(name);
         REQUIRE(result.contains(name));
-        // Ratios of teeth to the median magnify the rounding errors of the alignment.
-        const double within = name.find("window") == std::string::npos ? 1e-12 : 1e-11;
-        CHECK(std::abs(result[name].get<double>() / numpy.get<double>() - 1.0) < within);
+        CHECK(std::abs(result[name].get<double>() / numpy.get<double>() - 1.0) < 1e-12);
     }
 }
 

@@ -42,7 +42,7 @@ TEST_CASE("An integer or fractional shift is found and removed") {
             const auto signal = lines(n, 0.0), other = lines(n, -shift);
             const Alignment found = align(signal, other);
             CHECK(found.correlation == Approx(1.0).margin(1e-9));
-            CHECK(std::remainder(found.shift - shift, static_cast<double>(n)) ==
+            CHECK(std::remainder(found.shift.total() - shift, static_cast<double>(n)) ==
                   Approx(0.0).margin(1e-6));
             CHECK(farthest(shifted(other, found.shift), signal) < 1e-5);
         }
@@ -60,7 +60,7 @@ TEST_CASE("Noise lowers the correlation according to its energy, and changes the
     }
     const Alignment found = align(signal, other);
     CHECK(found.correlation == Approx(std::sqrt(0.5)).margin(0.03));
-    CHECK(found.shift == Approx(41.6).margin(1.5));
+    CHECK(found.shift.total() == Approx(41.6).margin(1.5));
     CHECK(correlation(signal, shifted(other, found.shift)) ==
           Approx(found.correlation).margin(1e-9));
 }
