@@ -49,8 +49,6 @@ CASES = {
     "combined": ("combined noise", [WINDOW, "sensor.noise_density_m_s2_per_sqrt_Hz=0.02", "sensor.quantisation_m_s2=1"]),
     "records": ("short records, four of each healthy gearbox",
                 [WINDOW, SHORT, "ensemble.threshold_records=4"]),
-    "change": ("short records, change since a re-assembled baseline",
-               ['features.use=["change_window_ratio"]', "sensor.record_turns=6"] + REASSEMBLED),
 }
 LARGE_SEED = 1_000_000
 
