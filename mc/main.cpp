@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "mc/forecast/memory.hpp"
 #include "mc/help/man_page.hpp"
 #include "mc/help/reference.hpp"
 #include "mc/options/options.hpp"
@@ -201,5 +202,6 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    gearpod::mc::fix_memory_limits();
     return run_safely(argc, argv, run_program);
 }

@@ -15,9 +15,8 @@ namespace gearpod::mc {
 namespace {
 
 // Peak memory of the assessment in bytes per value (gearbox, feature and noise level): columns,
-// their parts by size, ranks. Measured for `report` on results of 48,000, 126,000 and 420,000
-// values.
-constexpr double kBytesOfValue = 60.0;
+// their parts by size, ranks. Measured for `run` with 192,500 and 770,000 values.
+constexpr double kBytesOfValue = 75.0;
 
 // Memory in bytes per record while the rates of a feature are counted at one noise level, and per
 // value of its columns (row_source.hpp), which grow by doubling.

@@ -16,6 +16,9 @@ namespace {
 // HDF5 library. Measured for runs of two gearboxes; syncing to a slow disk takes longer.
 constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
 
+// Share of the memory of the gearboxes that the analysis reuses. The rest lies between used blocks.
+constexpr double kReused = 0.5;
+
 // Costs of the tiles of a group in order: first those to integrate, then those found in the cache.
 class Tiles {
   public:
@@ -110,9 +113,9 @@ double memory_bytes(const MemoryUse& memory, const IntegrationCounts& integratio
                     double motion_bytes, double analysis_bytes) {
     const double kept =
         std::max(0.0, memory.kept + static_cast<double>(integrations.kept) * motion_bytes);
-    // The analysis reuses the memory of the gearboxes.
-    return std::max(memory.peak + memory.records + kept,
-                    memory.before + analysis_bytes + kFileBytes);
+    const double held = memory.before + (1.0 - kReused) * (memory.held - memory.before);
+    return memory.fragments +
+           std::max(memory.peak + memory.records + kept, held + analysis_bytes + kFileBytes);
 }
 
 double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads) {

@@ -1,5 +1,6 @@
 #include "mc/forecast/memory.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -47,6 +48,18 @@ double left_of_limit() {
 
 double peak_memory_bytes() {
     return entry_of("/proc/self/status", "VmHWM:", 0.0);
+}
+
+double resident_memory_bytes() {
+    return entry_of("/proc/self/status", "VmRSS:", 0.0);
+}
+
+void fix_memory_limits() {
+#ifdef __GLIBC__
+    // The largest values to which the C library adapts them.
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
 }
 
 double available_memory_bytes() {

@@ -6,6 +6,14 @@ namespace gearpod::mc {
 // Peak memory of this process so far; 0 if the system does not report it.
 double peak_memory_bytes();
 
+// Memory that this process holds now; 0 if the system does not report it.
+double resident_memory_bytes();
+
+// Fixes the sizes from which freed memory returns to the system. By default the C library adapts
+// them to what was freed first, so that the peak memory changes from run to run and most large
+// buffers of a tile are mapped anew. Call once, before other threads start.
+void fix_memory_limits();
+
 // Memory that this process may still allocate: the minimum for the machine, its control group and
 // its own limit.
 double available_memory_bytes();

@@ -32,6 +32,9 @@ struct MemoryUse {
     double peak = 0.0;     // peak afterwards
     double records = 0.0;  // additional memory of a run: motion that was not recorded here
     double kept = 0.0;     // additional memory of a run: motion cached for later tiles
+    double held = 0.0;     // memory after the gearboxes, freed blocks included
+    // Additional memory of a run with many tiles: free blocks between used ones.
+    double fragments = 0.0;
 };
 
 struct RunCost {
