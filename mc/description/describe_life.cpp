@@ -13,6 +13,13 @@ namespace {
 // Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
                       const std::optional<int>& nodes, std::optional<double> tolerance) {
+    if (const std::vector<double> distinct = law.distinct_factors(); !distinct.empty()) {
+        return fmt::format(
+            "{}; {} values occur, equally often, and each is integrated: {:.4g} "
+            "times {}",
+            law.text(), distinct.size(), fmt::join(distinct, ", "),
+            law.given() ? "the study's value" : "the gearbox's value");
+    }
     const LoadAxis axis(law, evenly_spaced.value_or(2), nodes);
     return law.text() +
            (axis.factors().size() > 1

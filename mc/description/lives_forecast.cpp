@@ -90,9 +90,11 @@ std::string bytes_text(double bytes) {
 Life most_loads(const Study& study) {
     Life life = study.life;
     const RecordDistributions distributions(study);
-    if (distributions.speed.varies() && !life.given_speeds && !life.polynomial_speeds) {
+    if (distributions.speed.varies() && !life.given_speeds && !life.polynomial_speeds &&
+        !life.distinct_speeds) {
         life.polynomial_speeds = kMostNodes;
-    } else if (distributions.torque.varies() && !life.given_torques && !life.polynomial_torques) {
+    } else if (distributions.torque.varies() && !life.given_torques && !life.polynomial_torques &&
+               !life.distinct_torques) {
         life.polynomial_torques = kMostNodes;
     }
     return life;
@@ -150,10 +152,11 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
     constexpr double kMostPilots_s = 5.0;
     const Life& life = scene.study().life;
     const RecordDistributions distributions(scene.study());
-    // Torques and speeds whose number pilots choose.
-    const int axes = !life.interpolation_tolerance ? 0
-                                                   : (distributions.torque.varies() ? 1 : 0) +
-                                                         (distributions.speed.varies() ? 1 : 0);
+    // Torques and speeds that pilots examine.
+    const auto interpolated = [](const RecordDistribution& one) {
+        return one.varies() && one.distinct_factors().empty() ? 1 : 0;
+    };
+    const int axes = interpolated(distributions.torque) + interpolated(distributions.speed);
     const int threads = thread_count(scene.study());
     // One load and five more for each quantity that varies are integrated at least.
     const int least_loads = axes == 0 ? 0 : 1 + 5 * axes;
@@ -166,6 +169,9 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
         all = forecast_lives(tiles, threads, setup_s, choice.loads);
         loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
                             tiles.load_count(), choice.error, 1e3 * smallest_depth_m(life));
+    } else if (axes > 0 && !life.interpolation_tolerance) {
+        loads = fmt::format("{}; pilots measure the error when the run starts",
+                            LifeTiles(scene).load_count());
     } else if (axes > 0) {
         const Life largest = most_loads(scene.study());
         const Scene chosen = scene.with(largest);

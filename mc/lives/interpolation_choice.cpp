@@ -124,7 +124,7 @@ struct ChosenAxis {
     std::size_t count() const { return axis().factors().size(); }
     int more() const { return nodes ? *nodes + 2 : kLeastNodes; }
     void measure(Pilots& pilots) {
-        error = distribution.varies() ? pilots.error(axis(), of_speed) : 0.0;
+        error = axis().checks().empty() ? 0.0 : pilots.error(axis(), of_speed);
     }
 };
 
@@ -135,15 +135,13 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
     const RecordDistributions distributions(scene.study());
     const LifeTiles tiles(scene);
     InterpolationChoice best{life};
-    ChosenAxis axes[]{{distributions.torque, integrated_torques(life), life.polynomial_torques,
-                       life.given_torques || life.polynomial_torques, false},
-                      {distributions.speed, integrated_speeds(life), life.polynomial_speeds,
-                       life.given_speeds || life.polynomial_speeds, true}};
-    if (!distributions.torque.varies() && !distributions.speed.varies()) {
+    ChosenAxis axes[]{
+        {distributions.torque, integrated_torques(life), life.polynomial_torques,
+         life.given_torques || life.polynomial_torques || life.distinct_torques, false},
+        {distributions.speed, integrated_speeds(life), life.polynomial_speeds,
+         life.given_speeds || life.polynomial_speeds || life.distinct_speeds, true}};
+    if (axes[0].axis().checks().empty() && axes[1].axis().checks().empty()) {
         best.error = 0.0;
-        return best;
-    }
-    if (!life.interpolation_tolerance) {
         return best;
     }
     Pilots pilots(tiles);
@@ -168,7 +166,8 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
                 next = &axis;
             }
         }
-        if (!(error > *life.interpolation_tolerance) || next == nullptr) {
+        if (!life.interpolation_tolerance || !(error > *life.interpolation_tolerance) ||
+            next == nullptr) {
             break;
         }
         next->nodes = next->more();

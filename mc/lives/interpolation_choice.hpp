@@ -17,8 +17,7 @@ struct InterpolationChoice {
     Life life;  // with the numbers of torques and speeds
     // Sum of the errors along torque and speed, each the largest over the pilots: rms over the
     // span, relative to the change made by the smallest crack of interest at the gearbox's own
-    // load. 0 if all records have the same load; NaN if no pilot was integrated, as without a
-    // tolerance.
+    // load. 0 if nothing is interpolated between loads; NaN if no pilot was integrated.
     double error = std::numeric_limits<double>::quiet_NaN();
     int loads = 0;  // number of loads at which the pilots were integrated
 };

@@ -41,6 +41,11 @@ LoadAxis::LoadAxis(const RecordDistribution& distribution, int evenly_spaced,
         factors_ = between_ = {1.0};
         return;
     }
+    factors_ = distribution.distinct_factors();
+    if (!factors_.empty()) {
+        between_ = {factors_[factors_.size() / 2]};
+        return;
+    }
     const double low = distribution.factor(-kPolynomialReach),
                  high = distribution.factor(kPolynomialReach);
     if (!nodes || !(low < high)) {

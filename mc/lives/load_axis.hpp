@@ -23,13 +23,13 @@ class LoadAxis {
     // Without `nodes`: `evenly_spaced` quantiles from -1.5 to 1.5 standard deviations, with linear
     // interpolation and extrapolation. With `nodes`: one polynomial through so many factors from
     // -2.5 to 2.5 standard deviations (or the distribution's limits), continued linearly. A
-    // quantity that does not vary has the factor 1.
+    // quantity that does not vary has the factor 1, and one with distinct factors has all of these.
     LoadAxis(const RecordDistribution& distribution, int evenly_spaced, std::optional<int> nodes);
 
     const std::vector<double>& factors() const { return factors_; }  // ascending
     // Weight of the signal at each of them in that at another factor; the sum is 1.
     std::vector<double> weights(double factor) const;
-    // One factor between each two neighbours; 1 if the quantity does not vary.
+    // One factor between each two neighbours; one of the factors if no others occur.
     const std::vector<double>& between() const { return between_; }
     // Factors where the error is largest, for choosing the number of nodes: between the neighbours
     // and beyond them, or the next two nodes.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/statistics/distributions.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -19,10 +20,36 @@ double nominal_of(const Study& study, const RandomInput& input) {
     return std::get<NumberAccess>(key.access).get(study).value() / input.to_si;
 }
 
+double normal_density(double z) {
+    return std::isinf(z) ? 0.0 : std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+}
+
+// Means of a normal number over equally probable parts of its range, with a spread of 1.
+std::vector<double> means_of_parts(int parts) {
+    std::vector<double> means;
+    double square = 0.0, before = 0.0;
+    for (int i = 1; i <= parts; ++i) {
+        const double here =
+            i < parts ? normal_density(analysis::normal_quantile(static_cast<double>(i) / parts))
+                      : 0.0;
+        means.push_back(parts * (before - here));
+        square += means.back() * means.back() / parts;
+        before = here;
+    }
+    for (double& mean : means) {
+        mean /= std::sqrt(square);
+    }
+    return means;
+}
+
 }  // namespace
 
-RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quantity, double scatter)
+RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quantity, double scatter,
+                                       std::optional<int> distinct)
     : scatter_(scatter) {
+    if (distinct) {
+        distinct_ = means_of_parts(*distinct);
+    }
     for (const RandomInput& input : study.random) {
         if (input.distribution.per_record() && record_quantity(input.key) == quantity) {
             input_ = input;
@@ -32,6 +59,26 @@ RecordDistribution::RecordDistribution(const Study& study, RecordQuantity quanti
 }
 
 double RecordDistribution::factor(double unit) const {
+    if (distinct_.empty()) {
+        return factor_of(unit);
+    }
+    const auto parts = static_cast<double>(distinct_.size());
+    const double part = std::min(std::floor(parts * analysis::normal_cdf(unit)), parts - 1.0);
+    return factor_of(distinct_[static_cast<std::size_t>(part)]);
+}
+
+std::vector<double> RecordDistribution::distinct_factors() const {
+    std::vector<double> all;
+    for (const double unit : distinct_) {
+        const double next = factor_of(unit);
+        if (all.empty() || next > all.back()) {
+            all.push_back(next);
+        }
+    }
+    return all;
+}
+
+double RecordDistribution::factor_of(double unit) const {
     if (!input_) {
         return std::exp(scatter_ * unit);
     }
@@ -92,8 +139,8 @@ std::string RecordDistribution::text() const {
 }
 
 RecordDistributions::RecordDistributions(const Study& study)
-    : torque(study, RecordQuantity::torque, study.life.torque_scatter),
-      speed(study, RecordQuantity::speed, study.life.speed_scatter),
+    : torque(study, RecordQuantity::torque, study.life.torque_scatter, study.life.distinct_torques),
+      speed(study, RecordQuantity::speed, study.life.speed_scatter, study.life.distinct_speeds),
       gain(study, RecordQuantity::gain, study.life.gain_scatter),
       noise(study, RecordQuantity::noise, study.life.noise_scatter),
       sensor_noise_only(std::ranges::any_of(study.random, [](const RandomInput& input) {

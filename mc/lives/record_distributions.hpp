@@ -15,8 +15,10 @@ namespace gearpod::mc {
 class RecordDistribution {
   public:
     // `scatter`: rms of the factor's logarithm, used if [random] has no distribution of the
-    // quantity.
-    RecordDistribution(const Study& study, RecordQuantity quantity, double scatter);
+    // quantity. `distinct`: number of equally frequent factors, each that of the mean normal number
+    // of its part; the spread of these numbers is restored to 1.
+    RecordDistribution(const Study& study, RecordQuantity quantity, double scatter,
+                       std::optional<int> distinct = {});
 
     bool varies() const { return input_.has_value() || scatter_ > 0.0; }
     // True if the distribution is given in [random].
@@ -30,13 +32,18 @@ class RecordDistribution {
     // They belong to `count` (two or more) evenly spaced normal numbers from -1.5 to 1.5; {1} if
     // the quantity is constant.
     std::vector<double> integrated_factors(int count) const;
+    // All factors that occur, ascending; empty if they are not limited to a number.
+    std::vector<double> distinct_factors() const;
     // Factors halfway (in the normal number) between neighbouring ones of these.
     std::vector<double> factors_between(int count) const;
     // For example "scatters by 2 % (rms) about the gearbox's" or "lognormal, ...".
     std::string text() const;
 
   private:
+    double factor_of(double unit) const;
+
     double scatter_;
+    std::vector<double> distinct_;  // normal numbers
     std::optional<RandomInput> input_;
     double nominal_ = 1.0;  // in the unit of the distribution
 };

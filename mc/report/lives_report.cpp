@@ -266,10 +266,11 @@ std::string why_withheld(const Study& study, const Campaign& campaign) {
     return off.load > kMostInterpolationError || off.change > kMostInterpolationError
                ? fmt::format(
                      "No answer: between the integrated torques and speeds the signals are off by "
-                     "{} (at most {} is accepted). Let more of them be integrated (remove "
-                     "life.linear_torques and life.linear_speeds, or raise "
-                     "life.integrated_torques and life.integrated_speeds), or reduce the scatter "
-                     "of the records. --show-withheld prints the results all the same.",
+                     "{} (at most {} is accepted). Let more of them be integrated (raise "
+                     "life.integrated_torques and life.integrated_speeds), let the records have "
+                     "only some torques and speeds (life.distinct_torques and "
+                     "life.distinct_speeds), or reduce the scatter of the records. --show-withheld "
+                     "prints the results all the same.",
                      load_error_text(off, study.life), percent_text(kMostInterpolationError))
                : "";
 }

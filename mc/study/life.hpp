@@ -32,6 +32,8 @@ struct Life {
     std::optional<int> given_torques, given_speeds;
     // The same with nodes of one polynomial, which converges faster (load_axis.hpp).
     std::optional<int> polynomial_torques, polynomial_speeds;
+    // Instead of that: number of torques and speeds, equally frequent, that records have at all.
+    std::optional<int> distinct_torques, distinct_speeds;
     // Largest error of signals between them, relative to the change made by the smallest crack of
     // interest. Numbers that are not given are raised until pilots keep it.
     // Without it the numbers of torques and speeds are not chosen.

@@ -39,25 +39,38 @@ void check_loads(StudyDraft& draft) {
     const Study& study = draft.study;
     const Life& life = study.life;
     const auto check = [&](const char* key, const std::optional<int>& given_count,
-                           RecordQuantity quantity, double scatter) {
+                           const std::optional<int>& distinct, RecordQuantity quantity,
+                           double scatter) {
         const bool by_law = std::ranges::any_of(study.random, [&](const RandomInput& input) {
             return input.distribution.per_record() && record_quantity(input.key) == quantity;
         });
         const std::optional<int>& nodes =
             quantity == RecordQuantity::torque ? life.polynomial_torques : life.polynomial_speeds;
-        const std::string name = (nodes ? "life.integrated_" : "life.linear_") + (key + "s"s);
+        const std::string name = (distinct ? "life.distinct_"
+                                  : nodes  ? "life.integrated_"
+                                           : "life.linear_") +
+                                 (key + "s"s);
+        if (distinct && (given_count || nodes)) {
+            draft.reject(name,
+                         fmt::format("conflicts with life.{}_{}s: nothing is interpolated between "
+                                     "distinct values",
+                                     nodes ? "integrated" : "linear", key),
+                         "remove one of them");
+        }
         if (given_count && nodes) {
             draft.reject(name, fmt::format("conflicts with life.linear_{}s", key),
                          "remove one of them");
         }
-        if ((given_count || nodes) && scatter == 0.0 && !by_law) {
+        if ((given_count || nodes || distinct) && scatter == 0.0 && !by_law) {
             draft.reject(
                 name, fmt::format("all records have the same {}, so nothing is interpolated", key),
                 fmt::format("remove it, or let the records' {0} vary (life.{0}_scatter)", key));
         }
     };
-    check("torque", life.given_torques, RecordQuantity::torque, life.torque_scatter);
-    check("speed", life.given_speeds, RecordQuantity::speed, life.speed_scatter);
+    check("torque", life.given_torques, life.distinct_torques, RecordQuantity::torque,
+          life.torque_scatter);
+    check("speed", life.given_speeds, life.distinct_speeds, RecordQuantity::speed,
+          life.speed_scatter);
 }
 
 // A baseline of too few records has no scatter estimate, and baseline_deviations() are then NaN.

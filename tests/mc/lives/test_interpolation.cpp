@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 
+#include "mc/lives/campaign.hpp"
 #include "mc/lives/interpolation_choice.hpp"
 #include "tests/mc/lives/life_example.hpp"
 
@@ -91,6 +93,50 @@ TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept"
     CHECK(given.life == varying({"life.linear_torques=2", "life.linear_speeds=3"}).life);
     CHECK(given.error > 0.1);
     CHECK(mc::choose_interpolation(mc::Scene(life_study())).error == 0.0);
+}
+
+TEST_CASE(
+    "Distinct torques are equally frequent, have the stated scatter and need no interpolation") {
+    const mc::RecordDistribution law(life_study(), mc::RecordQuantity::torque, 0.05, 5);
+    const std::vector<double> factors = law.distinct_factors();
+    REQUIRE(factors.size() == 5);
+    CHECK(factors[2] == Approx(1.0));
+    // Means of a normal number over its fifths (D. R. Cox, J. Am. Stat. Assoc. 52 (1957), 543-547):
+    // 1.400 and 0.532; their variance is 0.897 of the whole.
+    CHECK(std::log(factors[4]) == Approx(0.05 * 1.400 / 0.9471).epsilon(2e-3));
+    CHECK(std::log(factors[3]) == Approx(0.05 * 0.532 / 0.9471).epsilon(2e-3));
+    double square = 0.0;
+    for (const double factor : factors) {
+        square += std::log(factor) * std::log(factor) / 5.0;
+    }
+    CHECK(std::sqrt(square) == Approx(0.05).epsilon(1e-12));
+    std::mt19937_64 engine(7);
+    std::normal_distribution<double> normal;
+    std::map<double, int> counts;
+    for (int i = 0; i < 50000; ++i) {
+        ++counts[law.factor(normal(engine))];
+    }
+    REQUIRE(counts.size() == 5);
+    for (const auto& [factor, count] : counts) {
+        CHECK(std::ranges::find(factors, factor) != factors.end());
+        CHECK(count == Approx(10000).margin(450));  // 5 standard deviations
+    }
+    const mc::LoadAxis axis(law, 2, std::nullopt);
+    CHECK(axis.factors() == factors);
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        std::vector<double> one(factors.size(), 0.0);
+        one[i] = 1.0;
+        CHECK(axis.weights(factors[i]) == one);
+    }
+    const std::vector<std::string> distinct{"life.torque_scatter=0.05", "life.distinct_torques=3",
+                                            "life.speed_scatter=0.02", "life.distinct_speeds=3",
+                                            "ensemble.instances=8"};
+    const mc::Scene scene(life_study(distinct));
+    CHECK(mc::choose_interpolation(scene).error == 0.0);
+    CHECK(mc::LifeTiles(scene).load_count() == 9);
+    // Each record is the solution at its own load.
+    const mc::Campaign campaign = mc::run_campaign(scene);
+    CHECK(campaign.interpolation.load == 0.0);
 }
 
 using Samples = std::vector<double>;

@@ -199,16 +199,17 @@ TEST_CASE("Spellings of earlier versions are accepted with a notice") {
 }
 
 TEST_CASE("Keys with a new name are accepted under their earlier name, with a notice") {
-    const auto read = [](const std::vector<std::string>& overrides) {
+    const auto read = [](std::vector<std::string> overrides) {
+        overrides.emplace_back("life.speed_scatter=0.01");
         return read_study(gearpod::test::study_path("planet-life.toml"), overrides);
     };
-    const auto former = read({"life.marched_torques=3"});
+    const auto former = read({"life.marched_speeds=3"});
     REQUIRE(former.study);
-    CHECK(*former.study == *read({"life.linear_torques=3"}).study);
+    CHECK(*former.study == *read({"life.linear_speeds=3"}).study);
     REQUIRE(former.notices.size() == 1);
-    CHECK(former.notices[0].key == "life.marched_torques");
-    CHECK(former.notices[0].remedy == "write linear_torques");
-    const auto twice = read({"life.linear_torques=4", "life.marched_torques=3"});
+    CHECK(former.notices[0].key == "life.marched_speeds");
+    CHECK(former.notices[0].remedy == "write linear_speeds");
+    const auto twice = read({"life.linear_speeds=4", "life.marched_speeds=3"});
     REQUIRE(twice.problems.size() == 1);
     CHECK(twice.problems[0].what == "is also given by its earlier name");
 }
