@@ -13,7 +13,7 @@ namespace {
 // Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
                       const std::optional<int>& nodes, std::optional<double> tolerance) {
-    if (const std::vector<double> distinct = law.distinct_factors(); !distinct.empty()) {
+    if (const std::vector<double> distinct = law.distinct_factors(); distinct.size() > 1) {
         return fmt::format(
             "{}; {} values occur, equally often, and each is integrated: {:.4g} "
             "times {}",

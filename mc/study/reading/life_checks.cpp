@@ -61,7 +61,7 @@ void check_loads(StudyDraft& draft) {
             draft.reject(name, fmt::format("conflicts with life.linear_{}s", key),
                          "remove one of them");
         }
-        if ((given_count || nodes || distinct) && scatter == 0.0 && !by_law) {
+        if ((given_count || nodes) && scatter == 0.0 && !by_law) {
             draft.reject(
                 name, fmt::format("all records have the same {}, so nothing is interpolated", key),
                 fmt::format("remove it, or let the records' {0} vary (life.{0}_scatter)", key));

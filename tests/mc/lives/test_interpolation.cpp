@@ -131,9 +131,14 @@ TEST_CASE(
     const std::vector<std::string> distinct{"life.torque_scatter=0.05", "life.distinct_torques=3",
                                             "life.speed_scatter=0.02", "life.distinct_speeds=3",
                                             "ensemble.instances=8"};
+    const auto conflict = mc::read_study(study_path("planet-life.toml"),
+                                         {"life.distinct_torques=3", "life.linear_torques=3"});
+    REQUIRE(conflict.problems.size() == 1);
+    CHECK(conflict.problems[0].key == "life.distinct_torques");
     const mc::Scene scene(life_study(distinct));
     CHECK(mc::choose_interpolation(scene).error == 0.0);
     CHECK(mc::LifeTiles(scene).load_count() == 9);
+    CHECK(mc::LifeTiles(mc::Scene(life_study({"life.distinct_torques=3"}))).load_count() == 1);
     // Each record is the solution at its own load.
     const mc::Campaign campaign = mc::run_campaign(scene);
     CHECK(campaign.interpolation.load == 0.0);
