@@ -6,6 +6,20 @@
 #include "analysis/detection/clustered_rate.hpp"
 
 namespace gearpod::analysis {
+namespace {
+
+// All values, or the first of each gearbox of an importance-sampled sample.
+std::vector<double> plain_values(const HealthyValues& sample) {
+    std::vector<double> plain;
+    for (std::size_t i = 0; i < sample.values.size(); ++i) {
+        if (sample.weights.empty() || i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
+            plain.push_back(sample.values[i]);
+        }
+    }
+    return plain;
+}
+
+}  // namespace
 
 bool HealthyValues::clustered() const {
     std::vector<std::size_t> sorted(gearbox.begin(), gearbox.end());
@@ -13,22 +27,13 @@ bool HealthyValues::clustered() const {
     return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
-HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) : alarm_(alarm) {
-    if (sample.weights.empty()) {
-        plain_.assign(sample.values.begin(), sample.values.end());
-        if (sample.clustered()) {
-            gearbox_.assign(sample.gearbox.begin(), sample.gearbox.end());
-        }
-        sorted_.emplace(plain_, alarm);
-        return;
+HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm)
+    : alarm_(alarm), plain_(plain_values(sample)), sorted_(plain_, alarm) {
+    if (!sample.weights.empty()) {
+        importance_sample_.emplace(sample.values, sample.weights, sample.gearbox, alarm);
+    } else if (sample.clustered()) {
+        gearbox_.assign(sample.gearbox.begin(), sample.gearbox.end());
     }
-    importance_sample_.emplace(sample.values, sample.weights, sample.gearbox, alarm);
-    for (std::size_t i = 0; i < sample.values.size(); ++i) {
-        if (i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
-            plain_.push_back(sample.values[i]);
-        }
-    }
-    sorted_.emplace(plain_, alarm);
 }
 
 Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) const {
@@ -43,7 +48,7 @@ Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) cons
         threshold.importance_sampled = estimate;
         return threshold;
     }
-    Threshold threshold = sorted_->threshold(false_alarm_rate);
+    Threshold threshold = sorted_.threshold(false_alarm_rate);
     if (!gearbox_.empty() && threshold.tail) {
         threshold.value = kNan;
         threshold.tail.reset();
@@ -58,12 +63,12 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
                                                       *threshold.importance_sampled);
     }
     if (gearbox_.empty()) {
-        return sorted_->value_bounds(false_alarm_rate, confidence);
+        return sorted_.value_bounds(false_alarm_rate, confidence);
     }
     // The true rate of a value is the rate of its rank times the ratio of the interval's bound to
     // the rate.
     const Interval rate = rate_bounds(threshold, false_alarm_rate, confidence);
-    const std::vector<double>& ascending = sorted_->ascending();
+    const std::vector<double>& ascending = sorted_.ascending();
     const auto value = [&](double bound) {
         const double target = false_alarm_rate * false_alarm_rate / bound;
         const double rank = std::ceil((static_cast<double>(ascending.size()) + 1.0) *

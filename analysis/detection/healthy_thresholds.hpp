@@ -43,13 +43,13 @@ class HealthyThresholds {
     // Values that order statistics are taken from: all plain values, or the first record of each
     // gearbox.
     const std::vector<double>& plain() const { return plain_; }
-    const SortedSample& sorted() const { return *sorted_; }
+    const SortedSample& sorted() const { return sorted_; }
 
   private:
     Alarm alarm_;
     std::vector<double> plain_;
-    std::optional<SortedSample> sorted_;  // the plain values
-    std::vector<std::size_t> gearbox_;    // gearboxes of the plain values, if several share one
+    SortedSample sorted_;               // the plain values
+    std::vector<std::size_t> gearbox_;  // gearboxes of the plain values, if several share one
     std::optional<ImportanceSample> importance_sample_;
 };
 

@@ -12,9 +12,9 @@ struct OutcomeCurve {
     double floor = 0.0, ceiling = 1.0;
 };
 
-// Of each of `count` outcomes: logarithm of its probability, derivative of that logarithm by eta,
-// and Fisher information of eta. `yes` is 1 or 0. Derivative and information are 0 where the
-// product of both probabilities is below 1e-290.
+// Computes for each of `count` outcomes the logarithm of its probability, the derivative of that
+// logarithm by eta, and the Fisher information of eta. `yes` is 1 or 0. Derivative and information
+// are 0 where the product of both probabilities is below 1e-290.
 void outcome_terms(const OutcomeCurve& curve, long count, const double* eta, const char* yes,
                    double* log_probability, double* slope, double* information);
 

@@ -13,20 +13,19 @@ namespace {
 // Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
                       const std::optional<int>& nodes, std::optional<double> tolerance) {
+    const char* const unit = law.given() ? "the study's value" : "the gearbox's value";
     if (const std::vector<double> distinct = law.distinct_factors(); distinct.size() > 1) {
         return fmt::format(
             "{}; {} values occur, equally often, and each is integrated: {:.4g} "
             "times {}",
-            law.text(), distinct.size(), fmt::join(distinct, ", "),
-            law.given() ? "the study's value" : "the gearbox's value");
+            law.text(), distinct.size(), fmt::join(distinct, ", "), unit);
     }
     const LoadAxis axis(law, evenly_spaced.value_or(2), nodes);
     return law.text() +
            (axis.factors().size() > 1
                 ? fmt::format(
                       "; records between are interpolated from solutions at {:.3g} times {}{}",
-                      fmt::join(axis.factors(), ", "),
-                      law.given() ? "the study's value" : "the gearbox's value",
+                      fmt::join(axis.factors(), ", "), unit,
                       evenly_spaced || nodes || !tolerance
                           ? ""
                           : fmt::format(", or at more if the error is above {:g} "

@@ -90,11 +90,9 @@ std::string bytes_text(double bytes) {
 Life most_loads(const Study& study) {
     Life life = study.life;
     const RecordDistributions distributions(study);
-    if (distributions.speed.varies() && !life.given_speeds && !life.polynomial_speeds &&
-        !life.distinct_speeds) {
+    if (distributions.speed.varies() && !gives_speeds(life)) {
         life.polynomial_speeds = kMostNodes;
-    } else if (distributions.torque.varies() && !life.given_torques && !life.polynomial_torques &&
-               !life.distinct_torques) {
+    } else if (distributions.torque.varies() && !gives_torques(life)) {
         life.polynomial_torques = kMostNodes;
     }
     return life;

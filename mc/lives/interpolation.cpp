@@ -63,7 +63,7 @@ void LifeTiles::InterpolationCheck::between_depths(int step, const SignalsByLoad
 }
 
 void LifeTiles::InterpolationCheck::between_loads(const SignalsByLoad& healthy) {
-    if (errors_.empty() || tiles_.load_count() == 1) {
+    if (errors_.empty() || tiles_.gap_count() == 0) {
         for (InterpolationErrors& one : errors_) {
             one.load = 0.0;
         }

@@ -124,7 +124,7 @@ struct ChosenAxis {
     std::size_t count() const { return axis().factors().size(); }
     int more() const { return nodes ? *nodes + 2 : kLeastNodes; }
     void measure(Pilots& pilots) {
-        error = axis().checks().empty() ? 0.0 : pilots.error(axis(), of_speed);
+        error = axis().interpolates() ? pilots.error(axis(), of_speed) : 0.0;
     }
 };
 
@@ -135,12 +135,11 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
     const RecordDistributions distributions(scene.study());
     const LifeTiles tiles(scene);
     InterpolationChoice best{life};
-    ChosenAxis axes[]{
-        {distributions.torque, integrated_torques(life), life.polynomial_torques,
-         life.given_torques || life.polynomial_torques || life.distinct_torques, false},
-        {distributions.speed, integrated_speeds(life), life.polynomial_speeds,
-         life.given_speeds || life.polynomial_speeds || life.distinct_speeds, true}};
-    if (axes[0].axis().checks().empty() && axes[1].axis().checks().empty()) {
+    ChosenAxis axes[]{{distributions.torque, integrated_torques(life), life.polynomial_torques,
+                       gives_torques(life), false},
+                      {distributions.speed, integrated_speeds(life), life.polynomial_speeds,
+                       gives_speeds(life), true}};
+    if (!axes[0].axis().interpolates() && !axes[1].axis().interpolates()) {
         best.error = 0.0;
         return best;
     }

@@ -13,6 +13,14 @@ inline constexpr std::size_t kMostLoads = 34;
 // Number of pilots: the first gearboxes with a crack, whether or not the study has as many.
 inline constexpr std::uint64_t kInterpolationPilots = 8;
 
+// True if the study gives the number of torques or speeds, which is then not chosen.
+inline bool gives_torques(const Life& life) {
+    return life.given_torques || life.polynomial_torques || life.distinct_torques;
+}
+inline bool gives_speeds(const Life& life) {
+    return life.given_speeds || life.polynomial_speeds || life.distinct_speeds;
+}
+
 struct InterpolationChoice {
     Life life;  // with the numbers of torques and speeds
     // Sum of the errors along torque and speed, each the largest over the pilots: rms over the

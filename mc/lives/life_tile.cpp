@@ -18,7 +18,10 @@ std::size_t LifeTiles::lanes() const {
 }
 
 std::size_t LifeTiles::gap_count() const {
-    return load_count() == 1 ? 0 : torques_.between().size() * speeds_.between().size();
+    const bool interpolates = torques_.interpolates() || speeds_.interpolates();
+    return load_count() == 1 || !interpolates
+               ? 0
+               : torques_.between().size() * speeds_.between().size();
 }
 
 Realization LifeTiles::draw(const GearboxId& id) const {

@@ -34,6 +34,8 @@ class LoadAxis {
     // Factors where the error is largest, for choosing the number of nodes: between the neighbours
     // and beyond them, or the next two nodes.
     const std::vector<double>& checks() const { return checks_; }
+    // False if the quantity does not vary or has distinct factors.
+    bool interpolates() const { return !checks_.empty(); }
 
   private:
     std::vector<double> derivative_weights(std::size_t node) const;
