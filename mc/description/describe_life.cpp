@@ -12,7 +12,7 @@ namespace {
 
 // Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordDistribution& law, const std::optional<int>& evenly_spaced,
-                      const std::optional<int>& nodes, std::optional<double> tolerance) {
+                      const std::optional<int>& nodes, double tolerance) {
     const char* const unit = law.given() ? "the study's value" : "the gearbox's value";
     if (const std::vector<double> distinct = law.distinct_factors(); distinct.size() > 1) {
         return fmt::format(
@@ -26,11 +26,11 @@ std::string load_text(const RecordDistribution& law, const std::optional<int>& e
                 ? fmt::format(
                       "; records between are interpolated from solutions at {:.3g} times {}{}",
                       fmt::join(axis.factors(), ", "), unit,
-                      evenly_spaced || nodes || !tolerance
+                      evenly_spaced || nodes
                           ? ""
                           : fmt::format(", or at more if the error is above {:g} "
                                         "(life.interpolation_tolerance)",
-                                        *tolerance))
+                                        tolerance))
                 : "");
 }
 

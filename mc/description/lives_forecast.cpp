@@ -167,11 +167,10 @@ void print_lives_forecast(const Scene& scene, double setup_s) {
         all = forecast_lives(tiles, threads, setup_s, choice.loads);
         loads = fmt::format("{}; pilots are off by {:.2g} of what a crack of {:g} mm changes",
                             tiles.load_count(), choice.error, 1e3 * smallest_depth_m(life));
-    } else if (axes > 0 && !life.interpolation_tolerance) {
+    } else if (const Life largest = most_loads(scene.study()); axes > 0 && largest == life) {
         loads = fmt::format("{}; pilots measure the error when the run starts",
                             LifeTiles(scene).load_count());
     } else if (axes > 0) {
-        const Life largest = most_loads(scene.study());
         const Scene chosen = scene.with(largest);
         const LifeTiles tiles(chosen);
         const LivesForecast upper =

@@ -165,8 +165,7 @@ InterpolationChoice choose_interpolation(const Scene& scene) {
                 next = &axis;
             }
         }
-        if (!life.interpolation_tolerance || !(error > *life.interpolation_tolerance) ||
-            next == nullptr) {
+        if (!(error > life.interpolation_tolerance) || next == nullptr) {
             break;
         }
         next->nodes = next->more();

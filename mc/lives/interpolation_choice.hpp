@@ -30,9 +30,9 @@ struct InterpolationChoice {
     int loads = 0;  // number of loads at which the pilots were integrated
 };
 
-// With life.interpolation_tolerance, raises the numbers that the study does not give until the
-// error is at most life.interpolation_tolerance; if that cannot be reached, the numbers of the
-// least error are taken. Depends on the study only. Throws SceneError if its records cannot be
+// Raises the numbers that the study does not give from two until the error is at most
+// life.interpolation_tolerance; if that cannot be reached, the numbers of the least error are
+// taken. Depends on the study only. Throws SceneError if its records cannot be
 // superposed.
 InterpolationChoice choose_interpolation(const Scene& scene);
 

@@ -28,7 +28,7 @@ struct Life {
     // form of the record distributions of torque, speed, gain and noise in [random].
     double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
     // Number of torques and speeds at which a gearbox is integrated if its records' values differ,
-    // by default two. Signals between them are interpolated.
+    // by default as many as interpolation_tolerance needs. Signals between them are interpolated.
     std::optional<int> given_torques, given_speeds;
     // The same with nodes of one polynomial, which converges faster (load_axis.hpp).
     std::optional<int> polynomial_torques, polynomial_speeds;
@@ -36,8 +36,7 @@ struct Life {
     std::optional<int> distinct_torques, distinct_speeds;
     // Largest error of signals between them, relative to the change made by the smallest crack of
     // interest. Numbers that are not given are raised until pilots keep it.
-    // Without it the numbers of torques and speeds are not chosen.
-    std::optional<double> interpolation_tolerance;
+    double interpolation_tolerance = 0.1;
     std::optional<double> smallest_depth_m;  // by default half the last depth
     // Length of a recording, in seconds or in carrier turns; by default every tooth of a planet
     // meets every tooth of the ring once. A record averages `recordings` recordings.
