@@ -78,7 +78,7 @@ Json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
     return row;
 }
 
-Json effect_json(const AccuracyReport& report, const MeasuredEffectCost& e) {
+Json effect_json(const AccuracyReport& report, const MeasuredEffect& e) {
     Json row{{"effect", e.effect}, {"in_study", e.in_study}};
     if (!e.refusal.empty()) {
         row["refused"] = e.refusal;
@@ -143,7 +143,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     for (const ChoiceCheck& check : report.choices) {
         all["choices"].push_back(choice_json(report, check));
     }
-    for (const MeasuredEffectCost& effect : report.effects) {
+    for (const MeasuredEffect& effect : report.effects) {
         all["effects"].push_back(effect_json(report, effect));
     }
     const StabilityMap& map = report.stability;
@@ -156,6 +156,9 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     for (const StabilityCurve& curve : map.curves) {
         all["stability"]["curves"].push_back(
             {{"integrator", curve.integrator}, {"steps", curve.steps}});
+    }
+    for (const HardCase& one : map.hard) {
+        all["stability"]["hard_cases"].push_back({{"name", one.name}, {"steps", one.steps}});
     }
     for (const PeerResult& peer : report.peers) {
         all["peers"].push_back(peer_json(peer));

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mc/accuracy/report.hpp"
-#include "mc/accuracy/time_budget.hpp"
+#include "mc/numerics/time_budget.hpp"
 
 namespace gearpod::mc {
 

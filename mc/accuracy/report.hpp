@@ -9,6 +9,7 @@
 
 #include "mc/accuracy/pilot_detection.hpp"
 #include "mc/accuracy/stability_map.hpp"
+#include "mc/numerics/measured_effects.hpp"
 #include "mc/numerics/reference.hpp"
 #include "mc/numerics/solver_setting.hpp"
 
@@ -17,8 +18,6 @@ namespace gearpod::mc {
 // Largest numerical error, as a share of a feature's scatter between gearboxes, that hardly changes
 // this scatter: by the factor sqrt(1 + 0.2^2) = 1.02.
 inline constexpr double kShareOfScatter = 0.2;
-
-inline constexpr double kChangeOfFeature = 1e-2;
 
 // Message for a setting that was not tried for lack of time.
 inline constexpr const char* kNotTried = "not measured, because the time was used up (--seconds)";
@@ -36,15 +35,6 @@ struct SettingResult {
     PilotError error;
     bool frontier = false;  // true: no setting is both faster and more accurate
     std::optional<DetectionChange> detection;
-};
-
-// Effect that the study includes and was left out of it, or that was added to it.
-struct MeasuredEffectCost {
-    std::string effect;
-    bool in_study = false;
-    std::string refusal;      // why it was not measured; the members below are then empty
-    double time_ratio = 0.0;  // processor time of a gearbox with the effect over that without
-    PilotError change;        // of signals and features, relative to the study
 };
 
 // lockstep::kUsualExplicit at its stability limit, whether it can be used or not.
@@ -87,7 +77,7 @@ struct AccuracyReport {
     std::vector<SettingResult> settings;
     int own = 0;  // index of the study's own setting
     std::vector<ChoiceCheck> choices;
-    std::vector<MeasuredEffectCost> effects;
+    std::vector<MeasuredEffect> effects;
     StabilityMap stability;
     std::vector<PeerResult> peers;
     std::vector<std::string> step_costs;  // comparison of the cost model with the measurement
@@ -101,8 +91,6 @@ struct AccuracyReport {
     // True if the change exceeds kShareOfScatter of a feature's scatter; where the scatter is
     // unknown, kChangeOfFeature of a feature.
     bool matters(const PilotError& change) const;
-    // Index of the feature with the largest relative error.
-    int worst_feature(const PilotError& error) const;
     // Fastest measured setting whose errors are at most `share` of every feature's scatter; -1:
     // none.
     int fastest_within(double share) const;
@@ -128,7 +116,8 @@ std::string accuracy_text(const AccuracyReport& report);
 std::string accuracy_json(const AccuracyReport& report, const Study& study);
 
 // Reads a table of other programs' results (CSV: name, command, integration_s, mesh_s, sensor, te,
-// then features by name; march_s is the former name of integration_s). Throws std::runtime_error with file, line and problem.
+// then features by name; march_s is the former name of integration_s). Throws std::runtime_error
+// with file, line and problem.
 std::vector<PeerResult> read_peers(const std::string& path);
 
 }  // namespace gearpod::mc

@@ -1,11 +1,59 @@
 #include "mc/accuracy/stability_map.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+void stiffen_bearings(dynamics::GearboxInputs& inputs, double factor) {
+    std::visit(
+        [&](auto& kind) {
+            for (double& stiffness : kind.bearing_stiffness_N_m) {
+                stiffness *= factor;
+            }
+        },
+        inputs);
+}
+
+void remove_damping(dynamics::PlanetaryInputs& inputs) {
+    std::ranges::fill(inputs.bearing_damping_N_s_m, 0.0);
+    inputs.support_damping_N_s_m = 0.0;
+}
+void remove_damping(dynamics::FixedShaftInputs& inputs) {
+    std::ranges::fill(inputs.bearing_damping_N_s_m, 0.0);
+    std::ranges::fill(inputs.coupling_damping_N_m_s_rad, 0.0);
+}
+
+struct HardSystem {
+    const char* name;
+    dynamics::GearboxMatrices matrices;
+};
+
+// The nominal gearbox with the properties of tests/hard that change its stable steps.
+std::vector<HardSystem> hard_systems(const Scene& scene, const dynamics::GearboxInputs& nominal) {
+    const dynamics::GearboxLayout& layout = scene.plan().layout;
+    const std::vector<double>& pairs = scene.stiffest_pairs();
+    dynamics::GearboxInputs stiff = nominal, undamped = nominal;
+    stiffen_bearings(stiff, 100.0);
+    std::visit(
+        [](auto& kind) {
+            kind.mesh_damping = {};
+            remove_damping(kind);
+        },
+        undamped);
+    std::vector<double> broken = pairs;
+    broken.front() = 0.0;
+    return {{"bearings 100 times as stiff", dynamics::assemble(layout, stiff, pairs)},
+            {"broken tooth: a mesh without stiffness", dynamics::assemble(layout, nominal, broken)},
+            {"no damping", dynamics::assemble(layout, undamped, pairs)}};
+}
+
+}  // namespace
 
 StabilityMap stability_map(const Scene& scene) {
     constexpr int kFactors = 13;  // from 0.01 to 100, three in a decade
@@ -23,14 +71,24 @@ StabilityMap stability_map(const Scene& scene) {
         }
         systems.push_back(dynamics::assemble(scene.plan().layout, nominal, pairs));
     }
+    const std::vector<HardSystem> hard = hard_systems(scene, nominal);
+    for (const HardSystem& system : hard) {
+        map.hard.push_back({system.name, {}});
+    }
     for (const lockstep::Integrator integrator : lockstep::all_integrators()) {
         if (!lockstep::is_explicit(integrator)) {
             map.implicit.emplace_back(lockstep::name(integrator));
             continue;
         }
+        const auto fewest_steps = [&](const dynamics::GearboxMatrices& system) {
+            return period_s / lockstep::longest_stable_step(system, integrator);
+        };
         StabilityCurve curve{lockstep::name(integrator), {}};
         for (const dynamics::GearboxMatrices& system : systems) {
-            curve.steps.push_back(period_s / lockstep::longest_stable_step(system, integrator));
+            curve.steps.push_back(fewest_steps(system));
+        }
+        for (std::size_t i = 0; i < hard.size(); ++i) {
+            map.hard[i].steps.push_back(fewest_steps(hard[i].matrices));
         }
         map.curves.push_back(std::move(curve));
     }

@@ -22,7 +22,7 @@ std::string short_number(double value) {
 }
 
 std::string worst_feature(const AccuracyReport& report, const PilotError& error) {
-    return report.features[static_cast<std::size_t>(report.worst_feature(error))];
+    return report.features[static_cast<std::size_t>(error.worst_feature(report.levels()))];
 }
 
 // Time of an integration, with a unit that keeps it readable.
@@ -117,6 +117,16 @@ void add_stability(const StabilityMap& map, Text out) {
         fmt::format_to(out, "\n{:<20}", curve.integrator);
         for (std::size_t i = 0; i < map.factors.size(); i += 3) {
             fmt::format_to(out, "{:>11.0f}", curve.steps[i]);
+        }
+    }
+    fmt::format_to(out, "\n\n{:<40}", "the same in hard cases");
+    for (const StabilityCurve& curve : map.curves) {
+        fmt::format_to(out, " {:>11.11}", curve.integrator);
+    }
+    for (const HardCase& one : map.hard) {
+        fmt::format_to(out, "\n{:<40}", one.name);
+        for (const double steps : one.steps) {
+            fmt::format_to(out, " {:>11.0f}", steps);
         }
     }
     fmt::format_to(out, "\n");
@@ -225,7 +235,7 @@ void add_effects(const AccuracyReport& report, Text out) {
               0, out);
     fmt::format_to(out, "{:<24} {:<8} {:>5} {:>8} {:>8} {:>9}  {:<10} {}\n", "effect", "in study",
                    "time", "sensor", "feature", "/scatter", "needed", "most");
-    for (const MeasuredEffectCost& e : report.effects) {
+    for (const MeasuredEffect& e : report.effects) {
         fmt::format_to(out, "{:<24} {:<8} ", e.effect, e.in_study ? "yes" : "no");
         if (!e.refusal.empty()) {
             fmt::format_to(out, "not possible\n");
@@ -289,16 +299,6 @@ bool AccuracyReport::matters(const PilotError& change) const {
     const double share = largest_share_of_scatter(change);
     return std::isfinite(share) ? share > kShareOfScatter
                                 : !(change.largest_feature() <= kChangeOfFeature);
-}
-
-int AccuracyReport::worst_feature(const PilotError& error) const {
-    int worst = 0;
-    for (int f = 1; f < static_cast<int>(features.size()); ++f) {
-        if (error.feature(f, levels()) > error.feature(worst, levels())) {
-            worst = f;
-        }
-    }
-    return worst;
 }
 
 int AccuracyReport::fastest_within(double share) const {

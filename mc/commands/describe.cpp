@@ -14,11 +14,11 @@
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/description/describe_effect_changes.hpp"
 #include "mc/description/describe_effects.hpp"
 #include "mc/description/describe_forecast.hpp"
 #include "mc/description/describe_gearbox.hpp"
 #include "mc/description/describe_life.hpp"
-#include "mc/description/effect_costs.hpp"
 #include "mc/description/entries.hpp"
 #include "mc/description/wrapped_study.hpp"
 #include "mc/ensemble/ranks.hpp"
@@ -92,15 +92,6 @@ void print_false_alarms(const Study& study) {
                             records > 1 ? ", if the records differ mainly by their noise" : ""));
 }
 
-// Prints the cost of each effect relative to a time step without it. Path, noise, tones and
-// encoders act on the signals, not in the time steps.
-void print_effect_costs(const Study& study) {
-    for (const EffectCost& cost : effect_costs(study)) {
-        print_entry("cost of " + cost.effect,
-                    fmt::format("{:.0f} % of an rk4 step without effects", 100.0 * cost.share));
-    }
-}
-
 void print_python_features(const Study& study) {
     if (study.features.python.empty()) {
         return;
@@ -142,7 +133,6 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                         inertia.modes, inertia.fastest_rad_s / (2.0 * std::numbers::pi),
                         study.numerics.mass_scaling_Hz));
     }
-    print_effect_costs(study);
     if (choice) {
         print_entry("chosen for the tolerance", choice->text());
     }
@@ -200,6 +190,9 @@ double processor_s() {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec) +
            PythonWorker::waited_s();
 }
+
+// Share of the processor seconds of a thread in which effects are measured.
+constexpr double kEffectsShare = 0.3;
 
 // Stops a description that takes more processor time. Other programs do not shorten it.
 class Deadline final : public machine::CancellationSource {
@@ -274,6 +267,7 @@ int describe_command(const DescribeOptions& options) {
     const char* missing =
         "gearbox, effects and cost, because a pilot run chooses the solver setting first";
     std::optional<Scene> scene;
+    bool forecast = false;
     try {
         const Deadline deadline(options.seconds * std::max(1, thread_count(*study)));
         const auto made = make_scene(options.study);
@@ -292,11 +286,17 @@ int describe_command(const DescribeOptions& options) {
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         print_forecast(*scene, begun_s + setup_s, options.ranks);
+        std::fflush(stdout);
+        forecast = true;
+        missing = "measuring what the other effects change";
+        print_effect_changes(*study, kEffectsShare * options.seconds);
         return kDone;
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
     }
-    print_fallback(*study, scene);
+    if (!forecast) {
+        print_fallback(*study, scene);
+    }
     return kDone;
 }
 

@@ -105,6 +105,11 @@ double PilotError::largest_feature() const {
     return relative.empty() ? 0.0 : *std::max_element(relative.begin(), relative.end());
 }
 
+int PilotError::worst_feature(int levels) const {
+    const auto worst = std::max_element(relative.begin(), relative.end()) - relative.begin();
+    return static_cast<int>(worst) / levels;
+}
+
 double PilotError::signals() const {
     return std::max(sensor, te);
 }

@@ -72,6 +72,8 @@ struct PilotError {
     // Largest relative error of feature `f` over the noise levels.
     double feature(int f, int levels) const;
     double largest_feature() const;
+    // Index of the feature with the largest relative error.
+    int worst_feature(int levels) const;
     double signals() const;  // the larger of sensor and TE
 };
 PilotError pilot_error(const PilotRecord& record, const PilotRecord& reference);

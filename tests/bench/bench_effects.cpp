@@ -1,7 +1,6 @@
 // Measures the cost of each effect of a scene: time of one step of one realization against the
 // enabled effects, with eight lanes. The three scenes are Liang's train in x, y and rotation, its
-// rotations alone, and a fixed-shaft stage. README.md tabulates `a_step`;
-// mc/description/effect_costs.cpp holds it.
+// rotations alone, and a fixed-shaft stage. README.md tabulates `a_step`.
 #include <benchmark/benchmark.h>
 
 #include <memory>

@@ -264,6 +264,14 @@ def _stability(report, page):
     axes.set(xscale="log", yscale="log", ylim=(None, 10 * limit),
              xlabel="Stiffness of the meshes over that of the study",
              ylabel="Steps per mesh period")
+    # Hard cases with the study's own method, or the first explicit one.
+    names = [curve["integrator"] for curve in given["curves"]]
+    shown = names.index(given["own"]) if given["own"] in names else 0
+    hard = given.get("hard_cases", [])
+    for k, case in enumerate(hard):
+        axes.axhline(case["steps"][shown], color=colour(len(names) + k), linewidth=1.1,
+                     linestyle=(0, (4, 2 + 2 * k)),
+                     label=f"{case['name']} ({names[shown]})")
     legend_below(axes, 2)
     about = "; ".join(f"{curve['integrator']}: {number(curve['steps'][len(factors) // 2])} steps"
                       for curve in given["curves"])
@@ -271,6 +279,11 @@ def _stability(report, page):
                          ["Integrator", *(f"x {number(factor)}" for factor in factors[::3])],
                          [[curve["integrator"], *(count(round(steps)) for steps in curve["steps"][::3])]
                           for curve in given["curves"]])
+    if hard:
+        table += blocks.table("Fewest stable steps per mesh period in hard cases",
+                              ["Case", *names],
+                              [[case["name"], *(count(round(steps)) for steps in case["steps"])]
+                               for case in hard])
     return page.figure("Stability of explicit methods",
                        [to_svg(figure, "Stability of explicit methods", about, page.names)],
                        "An explicit method is stable above its curve. Implicit methods ("

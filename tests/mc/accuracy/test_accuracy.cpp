@@ -6,7 +6,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mc/accuracy/measured_effect_costs.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
@@ -302,7 +301,7 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
     CHECK(std::isnan(report.share_of_scatter(own, 0)));
     CHECK(report.share_of_scatter(own, 1) == Approx(0.003));
     CHECK(report.largest_share_of_scatter(own) == Approx(0.003));
-    CHECK(report.worst_feature(own) == 1);
+    CHECK(own.worst_feature(2) == 1);
     CHECK(report.fastest_within(0.2) == 1);
     CHECK(report.fastest_within(1e-4) == -1);
     const std::string headline = accuracy_headline(report);
@@ -315,15 +314,13 @@ TEST_CASE("an error is compared with the scatter of its feature between gearboxe
 
 TEST_CASE("the cost of an effect is the change of the pilot without it", "[accuracy]") {
     const Study study = tian({"effects.shear=true"});
-    AccuracyRequest request;
-    request.repeats = 1;
     AccuracyReport report;
     report.features = study.features.use;
     report.noise_levels = study.sensor.noise_levels;
     const Scene own(study);
-    measure_effects(own, request, TimeBudget(0.0), report);
+    report.effects = measure_effects(own, {}).effects;
     const auto shear =
-        std::ranges::find(report.effects, "shear of the teeth", &MeasuredEffectCost::effect);
+        std::ranges::find(report.effects, "shear of the teeth", &MeasuredEffect::effect);
     REQUIRE(shear != report.effects.end());
     CHECK(shear->in_study);
     CHECK(shear->time_ratio > 0.0);
@@ -338,15 +335,13 @@ TEST_CASE("the cost of an effect is the change of the pilot without it", "[accur
     // in a plane.
     for (const char* absent : {"tooth errors", "pin errors", "inertial terms"}) {
         INFO(absent);
-        CHECK(std::ranges::find(report.effects, absent, &MeasuredEffectCost::effect) ==
+        CHECK(std::ranges::find(report.effects, absent, &MeasuredEffect::effect) ==
               report.effects.end());
     }
 
-    AccuracyReport late;
-    measure_effects(own, request, TimeBudget(1e-9), late);
+    const EffectMeasurement late = measure_effects(own, {.seconds = 1e-9});
     CHECK(late.effects.empty());
-    REQUIRE(late.left_out.size() == 1);
-    CHECK(late.left_out[0].find("shear of the teeth") != std::string::npos);
+    CHECK(std::ranges::count(late.omitted, "shear of the teeth") == 1);
 }
 
 // The study's own setting is compared with two methods even under a short time limit.

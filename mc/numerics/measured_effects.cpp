@@ -1,4 +1,4 @@
-#include "mc/accuracy/measured_effect_costs.hpp"
+#include "mc/numerics/measured_effects.hpp"
 
 #include <fmt/format.h>
 
@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "mc/input/problems.hpp"
+#include "mc/numerics/time_budget.hpp"
+#include "mc/scene/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-constexpr double kTimeShare = 0.25;  // of the remaining processor time
 
 bool has_bodies_in_plane(const Study& s) {
     return s.gearbox.kind == GearboxKind::planetary && !s.effects.torsional();
@@ -154,7 +154,7 @@ TimedPilot timed_pilot(const Scene& scene, int repeats) {
 }
 
 // Fills `cost` with the change from the pilot `before` when `changed` replaces its study.
-void measure(TimedPilot before, const Study& changed, int repeats, MeasuredEffectCost& cost) {
+void measure(TimedPilot before, const Study& changed, int repeats, MeasuredEffect& cost) {
     const StudyReading reading = read_study_text(resolved_text(changed), "");
     if (!reading.study) {
         const Problem& problem = reading.problems.front();
@@ -175,37 +175,36 @@ void measure(TimedPilot before, const Study& changed, int repeats, MeasuredEffec
 
 }  // namespace
 
-void measure_effects(const Scene& own, const AccuracyRequest& request, const TimeBudget& time,
-                     AccuracyReport& report) {
+EffectMeasurement measure_effects(const Scene& own, const EffectRequest& request) {
     const Study& study = own.study();
-    // A budget of 0 would have no limit.
-    const TimeBudget own_time(
-        std::isfinite(time.seconds()) ? std::max(1e-9, kTimeShare * time.seconds()) : 0.0);
-    std::string omitted;
+    const TimeBudget time(request.seconds);
+    EffectMeasurement all;
     std::optional<TimedPilot> before;
+    double slowest_s = 0.0;
     for (const OptionalEffect& effect : kOptionalEffects) {
-        MeasuredEffectCost cost;
-        cost.effect = effect.name;
-        cost.in_study = effect.present(study);
-        if (!effect.applies(study) || (!cost.in_study && effect.add == nullptr)) {
+        MeasuredEffect one;
+        one.effect = effect.name;
+        one.in_study = effect.present(study);
+        if (!effect.applies(study) || (!one.in_study && effect.add == nullptr)) {
             continue;
         }
-        if (!own_time.enough()) {
-            omitted += fmt::format("{}{}", omitted.empty() ? "" : ", ", effect.name);
+        if (!time.enough(slowest_s)) {
+            all.omitted.push_back(one.effect);
             continue;
         }
-        request.progress(fmt::format("{} {}", cost.in_study ? "without" : "with", effect.name));
+        request.progress(fmt::format("{} {}", one.in_study ? "without" : "with", effect.name));
         if (!before) {
             before = timed_pilot(own, request.repeats);
         }
+        const double start_s = thread_processor_s();
         Study changed = study;
-        (cost.in_study ? effect.remove : effect.add)(changed);
-        measure(*before, changed, request.repeats, cost);
-        report.effects.push_back(cost);
+        (one.in_study ? effect.remove : effect.add)(changed);
+        measure(*before, changed, request.repeats, one);
+        slowest_s = std::max(slowest_s, thread_processor_s() - start_s);
+        request.measured(one);
+        all.effects.push_back(std::move(one));
     }
-    if (!omitted.empty()) {
-        report.left_out.push_back("cost of effects: " + omitted);
-    }
+    return all;
 }
 
 }  // namespace gearpod::mc

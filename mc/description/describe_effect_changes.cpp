@@ -1,0 +1,100 @@
+#include "mc/description/describe_effect_changes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <optional>
+
+#include "mc/description/entries.hpp"
+#include "mc/gearbox/record_window.hpp"
+#include "mc/numerics/measured_effects.hpp"
+#include "mc/scene/scene_error.hpp"
+#include "mc/study/fluctuations.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Turns of the planet (of the pinion) that a short record has.
+constexpr int kShortRecordTurns = 2;
+
+// Scene of the study without the pilot runs that a tolerance asks for.
+Scene own_scene(Study study) {
+    study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
+    return Scene(study);
+}
+
+// Scene with short records, where every mesh period is integrated and the features allow it.
+Scene short_scene(const Study& study) {
+    Scene scene = own_scene(study);
+    const signals::SpanLayout& span = scene.span();
+    const int turns = record_turns(scene, nominal_inputs(study));
+    if (reason_not_periodic(study).empty() || turns <= kShortRecordTurns) {
+        return scene;
+    }
+    Study brief = study;
+    brief.sensor.record_turns.reset();
+    // Half a mesh period more, because whole turns are taken.
+    brief.sensor.record_s =
+        (kShortRecordTurns * span.planet_teeth + 0.5) / std::abs(scene.nominal_mesh_frequency_Hz());
+    try {
+        return own_scene(brief);
+    } catch (const SceneError&) {
+        return scene;
+    }
+}
+
+std::string change_text(const MeasuredEffect& effect, const Study& study, double tolerance) {
+    if (!effect.refusal.empty()) {
+        return "not measured: " + effect.refusal;
+    }
+    const int levels = static_cast<int>(study.sensor.noise_levels.size());
+    const double change = effect.change.largest_feature();
+    const std::string& feature =
+        study.features.use[static_cast<std::size_t>(effect.change.worst_feature(levels))];
+    std::string text = effect.in_study ? "simulated" : "omitted";
+    if (!std::isfinite(change)) {
+        text += effect.in_study ? "; without it gearboxes fail" : "; with it gearboxes fail";
+    } else if (change > tolerance) {
+        text += fmt::format("; {} {} by {:.2g} %", effect.in_study ? "changes" : "would change",
+                            feature, 100.0 * change);
+    } else {
+        text +=
+            fmt::format("; {} no feature by more than {:g} % (most: {} by {:.2g} %){}",
+                        effect.in_study ? "changes" : "would change", 100.0 * tolerance, feature,
+                        100.0 * change, effect.in_study ? ", so the study does not need it" : "");
+    }
+    return text + fmt::format("; time x {:.2g}", effect.time_ratio);
+}
+
+}  // namespace
+
+void print_effect_changes(const Study& study, double seconds) {
+    if (study.features.use.empty()) {
+        return;
+    }
+    const double tolerance =
+        study.numerics.tolerance > 0.0 ? study.numerics.tolerance : kChangeOfFeature;
+    const Scene scene = short_scene(study);
+    bool begun = false;
+    const EffectMeasurement all = measure_effects(
+        scene, {.seconds = seconds, .measured = [&](const MeasuredEffect& one) {
+                    if (!begun) {
+                        print_heading("what the effects change");
+                        print_entry("measured on",
+                                    fmt::format("{} gearboxes to test, records of {} mesh periods",
+                                                lockstep::kPilotLanes,
+                                                record_turns(scene, nominal_inputs(study)) *
+                                                    scene.span().planet_teeth));
+                        begun = true;
+                    }
+                    print_entry(one.effect, change_text(one, study, tolerance));
+                }});
+    if (!all.omitted.empty()) {
+        print_entry(
+            "not measured, for lack of time",
+            fmt::format("{} (--seconds, or gearpod accuracy)", fmt::join(all.omitted, ", ")));
+    }
+}
+
+}  // namespace gearpod::mc
