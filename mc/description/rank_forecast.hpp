@@ -6,7 +6,7 @@
 namespace gearpod::mc {
 
 // Processor time of rank 0's main thread for a batch of another rank: messages, packing and the
-// checkpoint. Measured by tests/bench/bench_ranks (docs/validation/performance.md).
+// checkpoint. Measured by tests/bench/bench_ranks (docs/developer/ensemble.md).
 double leader_time_s(double batch_bytes);
 
 // Disk space of the checkpoint with all batches, and of the results file.

@@ -2,57 +2,33 @@
 """Cost of a study against its number of gearboxes: whole runs on one thread.
 
     tests/bench/instances.py [--rounds 2] [--most 8000] [--study studies/reference-10k.toml]
-                             [--program build/gearpod]
+                             [--build build] [--json FILE]
 
 A round runs the study with 1/32, 1/16, ..., 1/1 of the largest number of test gearboxes, each
 with a quarter as many healthy ones for the thresholds. It then runs `report` on the results, whose
-time is that of detection rates, curves and their intervals. Prints processor seconds of the fastest
-round (least disturbed by other programs), the straight line of least relative deviations through
-the times without detection, and the share of each phase of a run.
+time is that of detection rates, curves and their intervals. The tables have the processor time of the
+fastest round (least disturbed by other programs), and its deviation from the straight line of least
+relative deviations through the times without detection. Ratios compare the time per gearbox with that
+of the largest number in the same round.
 """
 import argparse
-import re
-import resource
-import subprocess
-import sys
 import tempfile
+
+from measuring import arguments, finished, number_in, parsed, processor_s, ratio, show, table
 
 PHASES = ["sampling", "stiffness", "integration", "signals", "noise", "features", "output"]
 
 
-def processor_s() -> float:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
-
-
-def call(command: list[str]) -> tuple[float, str]:
-    """Returns processor seconds and output of a program."""
-    start = processor_s()
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
-    return processor_s() - start, done.stdout
-
-
-def number_in(pattern: str, text: str) -> float:
-    found = re.search(pattern, text, re.MULTILINE)
-    if not found:
-        sys.exit(f"no match of {pattern!r} in:\n{text}")
-    return float(found.group(1))
-
-
 def run(options: argparse.Namespace, graded: int, folder: str) -> dict[str, float]:
-    """Returns seconds of a run, of detection alone, and of the phases."""
+    """Returns seconds of a run without detection, of detection alone, and of the phases."""
     results = folder + "/r.h5"
-    command = [options.program, "run", options.study, "--out", results]
+    command = [options.program, "run", options.study, "--out", results, "--force"]
     command += ["--instances", str(graded), "--set", "numerics.threads=1"]
     command += ["--set", f"ensemble.threshold_instances={graded // 4}"]
-    whole, text = call(command)
-    detection, _ = call([options.program, "report", results])
-    times = {"gearboxes": whole - detection, "detection": detection}
-    for phase in PHASES:
-        times[phase] = number_in(rf"^  {phase} +[0-9.]+ % +([0-9.]+)", text)
-    return times
+    whole = finished(command)
+    detection = processor_s([options.program, "report", results])
+    times = {"gearboxes": whole.processor_s - detection, "detection": detection}
+    return times | {p: number_in(rf"^  {p} +[0-9.]+ % +([0-9.]+)", whole.output) for p in PHASES}
 
 
 def line_through(sizes: list[int], seconds: list[float]) -> tuple[float, float]:
@@ -67,46 +43,31 @@ def line_through(sizes: list[int], seconds: list[float]) -> tuple[float, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--rounds", type=int, default=2)
+    parser = arguments(__doc__, 2)
     parser.add_argument("--most", type=int, default=8000)
     parser.add_argument("--study", default="studies/reference-10k.toml")
-    parser.add_argument("--program", default="build/gearpod")
-    options = parser.parse_args()
-
-    if options.rounds < 1 or options.most < 256:
-        parser.error("--rounds must be at least 1, --most at least 256")
+    options = parsed(parser)
+    if options.most < 256:
+        parser.error("--most must be at least 256")
     graded = [options.most >> k for k in range(5, -1, -1)]
-    runs: dict[int, list[dict[str, float]]] = {n: [] for n in graded}
-    with tempfile.TemporaryDirectory() as folder:
-        for i in range(options.rounds):
-            for n in graded:
-                runs[n].append(run(options, n, folder))
-                last = runs[n][-1]
-                print(
-                    f"round {i + 1}, {n + n // 4}: {last['gearboxes']:.2f} s"
-                    f" + {last['detection']:.2f} s",
-                    file=sys.stderr,
-                )
-
-    best = [min(runs[n], key=lambda r: r["gearboxes"]) for n in graded]
     sizes = [n + n // 4 for n in graded]
+    with tempfile.TemporaryDirectory() as folder:
+        rounds = [[run(options, n, folder) for n in graded] for _ in range(options.rounds)]
+    best = [min(runs, key=lambda r: r["gearboxes"]) for runs in zip(*rounds)]
     seconds = [r["gearboxes"] for r in best]
     offset, slope = line_through(sizes, seconds)
-    off = [s / (offset + slope * n) - 1 for n, s in zip(sizes, seconds)]
-    print("gearboxes  processor s  off the line  detection s  % of the phases: " + "  ".join(PHASES))
-    for r, size, s, deviation in zip(best, sizes, seconds, off):
+    ratios = {f"time per gearbox, {size:,} over {sizes[-1]:,}":
+              ratio([runs[i]["gearboxes"] / size / (runs[-1]["gearboxes"] / sizes[-1]) for runs in rounds])
+              for i, size in enumerate(sizes[:-1])}
+    rows = []
+    for r, size, s in zip(best, sizes, seconds):
         total = sum(r[phase] for phase in PHASES)
-        each = [f"{100 * r[phase] / total:{len(phase)}.1f}" for phase in PHASES]
-        print(
-            f"{size:9d}  {s:11.2f}  {100 * deviation:+10.1f} %  {r['detection']:11.2f}"
-            + " " * 20
-            + "  ".join(each)
-        )
-    print(
-        f"{offset:.2f} s + {1e3 * slope:.3f} ms a gearbox;"
-        f" largest deviation {100 * max(map(abs, off)):.1f} %"
-    )
+        rows.append([size, s, f"{100 * (s / (offset + slope * size) - 1):+.1f} %", r["detection"]]
+                    + [f"{100 * r[phase] / total:.1f}" for phase in PHASES])
+    columns = ["gearboxes", "without detection, s", "off the line", "detection, s"]
+    show({"tables": [table(columns + [PHASES[0] + ", %"] + PHASES[1:], rows),
+                     table(["offset of the line, s", "slope, ms per gearbox"], [[offset, 1e3 * slope]])],
+          "ratios": ratios}, options)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import tempfile
 import h5py
 import numpy as np
 
-from sensor_costs import processor_s
+from measuring import processor_s
 
 WHOLE = 10_000
 TEETH = ["gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20",

@@ -10,6 +10,17 @@
 #include "lockstep/integrators/generalized_alpha.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"
 
+namespace gearpod::lockstep {
+
+// No mode has additional inertia in the counted steps.
+template <>
+const ModeTables<bench::Counted>& ModeInertia::tables<bench::Counted>() const {
+    static const ModeTables<bench::Counted> none;
+    return none;
+}
+
+}  // namespace gearpod::lockstep
+
 namespace gearpod::bench {
 
 // Same as advance() of lockstep/integrators/integration_state.hpp for doubles.

@@ -1,50 +1,58 @@
 #!/usr/bin/python3
 """Compares the time and memory that `describe` predicts with those of `run`, for shipped studies.
 
-    tests/bench/prediction.py [--rounds 1] [--program build/gearpod] [STUDY.toml ...]
+    tests/bench/prediction.py [--rounds 1] [--settings] [--build build] [--json FILE] [STUDY.toml ...]
 
-The default is all studies that run, about ten minutes per round on two processors. A round
-describes each study, runs it and describes it again, to compensate for a varying load of the
-machine; the forecast is the mean of both. Time is wall time, memory the peak of the program
-(VmHWM), and a ratio is prediction over measurement. Prints every round and finally the medians by
-study and the share of them within 0.77 to 1.3.
+The default is all studies that run, about ten minutes per round on two idle processors. --settings
+takes larger studies with few gearboxes instead (SETTINGS below). A round describes each study, runs it
+and describes it again, to compensate for a varying load of the machine; the forecast is the mean of
+both. Time is wall-clock time, memory the largest resident set (VmHWM), and a ratio is prediction over
+measurement. Prints every round to stderr.
 """
-import argparse
 import glob
 import os
 import re
 import statistics
-import subprocess
 import sys
 import tempfile
-import time
+
+from measuring import Finished, arguments, finished, number_in, parsed, ratio, show, table
 
 LOWEST, HIGHEST = 0.77, 1.3
+FEW, HEALTHY, ONE_THREAD = "ensemble.instances={}", "ensemble.threshold_instances={}", "numerics.threads=1"
+# Study and settings; housing and stages need every sample of a record.
+SETTINGS = [
+    ("planet-crack-ideal", []),
+    ("planet-crack-ideal", [ONE_THREAD]),
+    ("planet-crack-ideal", [FEW.format(300), HEALTHY.format(200)]),
+    ("planet-crack-ideal", [FEW.format(300), HEALTHY.format(200), "sensor.record_turns=5"]),
+    ("planet-crack", [FEW.format(32)]),
+    ("crack-in-sun", [FEW.format(60)]),
+    ("gusts", [FEW.format(40)]),
+    ("noise-density", [FEW.format(140), HEALTHY.format(100)]),
+    ("snu-rig", []),
+    ("wind-turbine", []),
+    ("bearing-fault", [FEW.format(24)]),
+    ("sensor-places", [FEW.format(16)]),
+]
+Case = tuple[str, tuple[str, ...]]  # study file, settings
 
 
-def finished(command: list[str]) -> tuple[str, float, float]:
-    """Returns standard output, seconds and megabytes."""
-    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
-        start = time.perf_counter()
-        child = subprocess.Popen(command, stdout=output, stderr=errors)
-        _, status, usage = os.wait4(child.pid, 0)
-        seconds = time.perf_counter() - start
-        child.returncode = os.waitstatus_to_exitcode(status)
-        output.seek(0)
-        if child.returncode not in (0, 3):  # 3: some gearboxes failed
-            errors.seek(0)
-            sys.exit(f"{' '.join(command)} ended with {child.returncode}:\n{errors.read()}")
-        return output.read(), seconds, usage.ru_maxrss * 1024 / 1e6
-
-
-def forecast(program: str, study: str) -> tuple[float, float, float]:
+def forecast(command: list[str]) -> tuple[float, float, float]:
     """Seconds and megabytes predicted by `describe`, and the seconds that it took."""
-    text, seconds, _ = finished([program, "describe", study])
-    predicted_s = re.search(r"estimated time +([\d.]+) s", text)
-    predicted_MB = re.search(r"estimated memory +([\d.]+) MB", text)
-    if predicted_s is None or predicted_MB is None:
-        sys.exit(f"{program} describe {study}: no forecast")
-    return float(predicted_s[1]), float(predicted_MB[1]), seconds
+    done = finished(command)
+    return (number_in(r"estimated time +(?:at least )?([\d.]+) s", done.output),
+            number_in(r"estimated memory +(?:at least )?([\d.]+) MB", done.output), done.wall_s)
+
+
+def measured(program: str, case: Case, folder: str) -> tuple[tuple[float, float, float], Finished]:
+    """Mean of the forecasts before and after a run, and the run."""
+    study, settings = case
+    added = [study] + [text for setting in settings for text in ("--set", setting)]
+    before = forecast([program, "describe", *added])
+    done = finished([program, "run", *added, "--out", folder + "/r.h5", "--force"])
+    after = forecast([program, "describe", *added])
+    return tuple(statistics.mean(pair) for pair in zip(before, after)), done
 
 
 def runs(study: str) -> bool:
@@ -54,44 +62,44 @@ def runs(study: str) -> bool:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = arguments(__doc__, 1)
     parser.add_argument("studies", nargs="*", metavar="STUDY.toml")
-    parser.add_argument("--rounds", type=int, default=1)
-    parser.add_argument("--program", default="build/gearpod")
-    options = parser.parse_args()
-    studies = options.studies or [s for s in sorted(glob.glob("studies/**/*.toml", recursive=True)) if runs(s)]
-
-    times: dict[str, list[float]] = {study: [] for study in studies}
-    memory: dict[str, list[float]] = {study: [] for study in studies}
-    print(f"{'':24} {'time, s':>30} {'memory, MB':>30} {'describe':>9}")
-    print(f"{'':24}" + 2 * f" {'predicted':>10} {'run':>9} {'ratio':>9}" + f" {'s':>9}")
+    parser.add_argument("--settings", action="store_true", help="larger studies with few gearboxes")
+    options = parsed(parser)
+    cases: list[Case] = [(study, ()) for study in options.studies or sorted(glob.glob("studies/**/*.toml", recursive=True))
+                         if options.studies or runs(study)]
+    if options.settings:
+        cases = [(f"studies/{study}.toml", tuple(settings)) for study, settings in SETTINGS]
+    results: dict[Case, list[tuple]] = {case: [] for case in cases}
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(options.rounds):
-            for study in studies:
-                before = forecast(options.program, study)
-                _, seconds, megabytes = finished(
-                    [options.program, "run", study, "--out", folder + "/r.h5"]
-                )
-                after = forecast(options.program, study)
-                predicted = [statistics.mean(pair) for pair in zip(before, after)]
-                times[study].append(predicted[0] / seconds)
-                memory[study].append(predicted[1] / megabytes)
-                name = os.path.basename(study).removesuffix(".toml")
-                print(
-                    f"{name:24} {predicted[0]:10.2f} {seconds:9.2f} {times[study][-1]:9.2f}"
-                    f" {predicted[1]:10.0f} {megabytes:9.0f} {memory[study][-1]:9.2f}"
-                    f" {predicted[2]:9.2f}",
-                    flush=True,
-                )
-    for what, ratios in (("time", times), ("memory", memory)):
-        medians = [statistics.median(ratios[study]) for study in studies]
+            for case in cases:
+                results[case].append(measured(options.program, case, folder))
+                (time_s, memory_MB, describe_s), done = results[case][-1]
+                print(f"{' '.join((case[0], *case[1]))}: {time_s:.2f} s for {done.wall_s:.2f} s, {memory_MB:.0f} MB for "
+                      f"{done.megabytes:.0f} MB, describe {describe_s:.2f} s", file=sys.stderr, flush=True)
+    rows, ratios = [], {}
+    for (study, settings), rounds in results.items():
+        name = os.path.basename(study).removesuffix(".toml")
+        row = [f"`{name}`", ", ".join(f"`{text}`" for text in settings)]
+        for i, what, of_run in ((0, "time", lambda done: done.wall_s), (1, "memory", lambda done: done.megabytes)):
+            one = ratio([predicted[i] / of_run(done) for predicted, done in rounds])
+            ratios[f"{what}, {' '.join((name, *settings))}"] = one
+            row += [statistics.median(predicted[i] for predicted, _ in rounds),
+                    statistics.median(of_run(done) for _, done in rounds), one]
+        rows.append(row + [statistics.median(predicted[2] for predicted, _ in rounds)])
+    columns = ["study", "settings", "time: predicted, s", "run, s", "ratio", "memory: predicted, MB", "run, MB", "ratio",
+               "`describe`, s"]
+    if not options.settings:
+        columns.pop(1)
+        rows = [row[:1] + row[2:] for row in rows]
+    summary = []
+    for what in ("time", "memory"):
+        medians = [one["median"] for name, one in ratios.items() if name.startswith(what)]
         good = sum(LOWEST <= median <= HIGHEST for median in medians)
-        print(
-            f"{what}: medians {min(medians):.2f} to {max(medians):.2f}, {good} of {len(studies)}"
-            f" studies within {LOWEST} to {HIGHEST}"
-        )
+        summary.append([what, f"{min(medians):.2f} to {max(medians):.2f}", f"{good} of {len(medians)}"])
+    show({"tables": [table(columns, rows), table(["", "ratios", f"within {LOWEST} to {HIGHEST}"], summary)],
+          "ratios": ratios}, options)
 
 
 if __name__ == "__main__":

@@ -2,23 +2,24 @@
 """What a feature in Python costs next to the same feature of the program: whole runs on one thread.
 
     tests/bench/python_costs.py [--rounds 1] [--instances 800] [--healthy 200]
-                                [--study studies/planet-crack-ideal.toml] [--program build/gearpod]
+                                [--study studies/planet-crack-ideal.toml] [--build build]
+                                [--json FILE]
 
 A round runs the study with a feature of the program and then with the same function in Python:
 crest_factor, which needs the samples of the sensor, and te_kurtosis, which does not (the attribute
-`samples`). Processor time
-is that of all processes, without the time in the function itself. Prints the number of gearboxes
-with other bits, and medians over the rounds of the times and their ratio.
+`samples`). Processor time is that of all processes; the ratio is without the time in the function
+itself. All values must have the same bits. Times are medians over the rounds.
 """
 import argparse
 import pathlib
 import statistics
+import sys
 import tempfile
 
 import h5py
 import numpy as np
 
-from sensor_costs import processor_s
+from measuring import arguments, parsed, processor_s, ratio, show, table
 
 SOURCE = '''
 import os, time
@@ -61,7 +62,8 @@ def values(path: pathlib.Path, name: str) -> np.ndarray:
         return np.ravel(file["features"][name][:])
 
 
-def compare(feature: str, options: argparse.Namespace) -> None:
+def compare(feature: str, options: argparse.Namespace) -> tuple[list, list[float]]:
+    """A row of the table, and the ratios of the rounds. Exits if a value has other bits."""
     built_in, python, inside = [], [], []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -82,25 +84,26 @@ def compare(feature: str, options: argparse.Namespace) -> None:
                 file.unlink()
         one = values(folder / "built-in.h5", feature)
         other = values(folder / "python.h5", "own")
+    if np.any(one != other):
+        sys.exit(f"{feature}: {np.sum(one != other)} of {one.size} gearboxes have other bits in Python")
     ratios = [(total - own) / alone for total, own, alone in zip(python, inside, built_in)]
-    print(f"{feature}: {one.size} gearboxes, {np.sum(one != other)} with other bits")
-    print(f"  in the program      {statistics.median(built_in):.2f} s")
-    print(f"  in Python           {statistics.median(python):.2f} s, of these "
-          f"{statistics.median(inside):.2f} s in the function")
-    print(f"  ratio without them  {statistics.median(ratios):.2f}")
+    seconds = [statistics.median(times) for times in (built_in, python, inside)]
+    return [f"`{feature}`" + (", of the samples" if feature == "crest_factor" else ""), *seconds], ratios
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=1)
+    parser = arguments(__doc__, 1)
     parser.add_argument("--instances", type=int, default=800)
     parser.add_argument("--healthy", type=int, default=200)
     parser.add_argument("--study", default="studies/planet-crack-ideal.toml")
-    parser.add_argument("--program", default="build/gearpod")
-    options = parser.parse_args()
+    options = parsed(parser)
+    rows, ratios = [], {}
     for feature in ("crest_factor", "te_kurtosis"):
-        compare(feature, options)
+        row, values_ = compare(feature, options)
+        ratios[feature] = ratio(values_)
+        rows.append([*row, ratios[feature]])
+    show({"tables": [table(["feature", "in the program, s", "in Python, s", "of these in the function, s",
+                            "ratio without them"], rows)], "ratios": ratios}, options)
 
 
 if __name__ == "__main__":

@@ -2,18 +2,16 @@
 """What each sensor, each part of the background and a stage cost: whole runs on one thread.
 
     tests/bench/sensor_costs.py [--rounds 5] [--instances 64] [--study studies/planet-crack-ideal.toml]
-                                [--program build/gearpod] [--shafts]
+                                [--build build] [--shafts] [--json FILE]
 
-A round runs the study without any of them, then with each, in turn. Prints the median over the
-rounds of the processor time relative to the same round's study without any. With --shafts, for
+A round runs the study without any of them, then with each, in turn. Ratios are processor time over that
+of the same round's study without any. With --shafts, for
 studies that integrate every mesh period, it measures stages with and without an elastic shaft.
 """
-import argparse
-import resource
 import statistics
-import subprocess
-import sys
 import tempfile
+
+from measuring import arguments, number, parsed, processor_s, ratio, show, table
 
 BEARING = ('sensor.bearings=[{fault="inner", shaft="sun", elements=9, diameter_ratio=0.2, '
            'amplitude_m_s2=2, resonance_Hz=600, role="%s"}]')
@@ -27,18 +25,18 @@ ADDED = {
                                  '{name="b", angle_deg=180}, {name="c", angle_deg=270}]'],
     "two modes of the housing": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
                                  "participation=1}, {frequency_Hz=520, damping=0.02, participation=1}]"],
-    "and a mode of the ring": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
+    "two modes of the housing and one of the ring": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
                                "participation=1}, {frequency_Hz=520, damping=0.02, participation=1, "
                                "nodal_diameters=2}]"],
-    "and forces in two bearings": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
+    "two modes of the housing, with forces in two bearings": ["sensor.housing_modes=[{frequency_Hz=240, damping=0.03, "
                                    "participation=1, sun_bearing_per_kg=0.02, carrier_bearing_per_kg=0.01}, "
                                    "{frequency_Hz=520, damping=0.02, participation=1}]"],
     "a measured response": ["sensor.response_Hz=[1, 1000]", "sensor.response_gain=[1, 2]",
                             "sensor.response_phase_deg=[0, 90]"],
     "a bearing in the background": [BEARING % "background"],
-    "a bearing as another fault": [BEARING % "other_fault"],
+    "a bearing as another fault, in the healthy half": [BEARING % "other_fault"],
     "a neighbouring stage": [STAGE % ("background", "")],
-    "a stage as another fault": [STAGE % ("other_fault", "")],
+    "a neighbouring stage as another fault": [STAGE % ("other_fault", "")],
     "a background by its spectrum": ["sensor.background_Hz=[20, 1000]",
                                      "sensor.background_density_m_s2_per_sqrt_Hz=[0.01, 0.001]"],
 }
@@ -48,32 +46,20 @@ ELASTIC = ", shaft_stiffness_N_m_rad=1.2e4"
 SHAFTS = {
     "double precision": [DOUBLE],
     "a neighbouring stage": [STAGE % ("background", "")],
-    "a stage as another fault": [STAGE % ("other_fault", "")],
+    "a neighbouring stage as another fault": [STAGE % ("other_fault", "")],
     "a stage with an elastic shaft": [DOUBLE, STAGE % ("background", ELASTIC)],
-    "that as another fault": [DOUBLE, STAGE % ("other_fault", ELASTIC)],
+    "a stage with an elastic shaft as another fault": [DOUBLE, STAGE % ("other_fault", ELASTIC)],
 }
 
 
-def processor_s(command: list[str]) -> float:
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=5)
+    parser = arguments(__doc__, 5)
     parser.add_argument("--instances", type=int, default=64)
     parser.add_argument("--study", default="studies/planet-crack-ideal.toml")
-    parser.add_argument("--program", default="build/gearpod")
     parser.add_argument("--shafts", action="store_true", help="stages with and without elastic shafts only")
-    options = parser.parse_args()
+    options = parsed(parser)
     parts = SHAFTS if options.shafts else ADDED
-    ratios: dict[str, list[float]] = {name: [] for name in parts}
+    values: dict[str, list[float]] = {name: [] for name in parts}
     alone = []
     with tempfile.TemporaryDirectory() as folder:
         command = [options.program, "run", options.study, "--quiet", "--force",
@@ -84,11 +70,11 @@ def main() -> None:
             alone.append(processor_s(command))
             for name, settings in parts.items():
                 added = [text for setting in settings for text in ("--set", setting)]
-                ratios[name].append(processor_s(command + added) / alone[-1])
-    print(f"{options.study}: {2 * options.instances} gearboxes, "
-          f"{statistics.median(alone):.2f} s without any")
-    for name, values in ratios.items():
-        print(f"  {name:<30} x {statistics.median(values):.2f}")
+                values[name].append(processor_s(command + added) / alone[-1])
+    ratios = {name: ratio(ratios) for name, ratios in values.items()}
+    rows = [["none", f"{number(500 * statistics.median(alone) / options.instances)} ms per gearbox"]]
+    rows += [[name, one] for name, one in ratios.items()]
+    show({"tables": [table(["part", "time over that without it"], rows)], "ratios": ratios}, options)
 
 
 if __name__ == "__main__":

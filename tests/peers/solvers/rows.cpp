@@ -26,13 +26,31 @@ mc::ResolvedStudy study_of(const Options& options, std::vector<std::string> over
     return mc::resolve_numerics(*reading.study);
 }
 
-std::string ratio_text(const Row& row, const Row& to, double scale) {
+namespace {
+
+// Ratios of the rounds, ascending.
+std::vector<double> ratios(const Row& row, const Row& to, double scale) {
     std::vector<double> all;
     for (std::size_t i = 0; i < row.times.size(); ++i) {
         all.push_back(scale * row.times[i] / to.times[i]);
     }
     std::sort(all.begin(), all.end());
+    return all;
+}
+
+}  // namespace
+
+std::string ratio_text(const Row& row, const Row& to, double scale) {
+    const std::vector<double> all = ratios(row, to, scale);
     return fmt::format("{:>9.3g} ({:.3g}..{:.3g})", median(all), all.front(), all.back());
+}
+
+nlohmann::ordered_json ratio_json(const Row& row, const Row& to, double scale) {
+    const std::vector<double> all = ratios(row, to, scale);
+    return {{"median", median(all)},
+            {"low", all.front()},
+            {"high", all.back()},
+            {"rounds", all.size()}};
 }
 
 }  // namespace gearpod::peers

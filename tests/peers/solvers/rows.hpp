@@ -1,6 +1,7 @@
 // Shared by the tables: a solver with its settings, its times by round, and ratios of times.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ using bench::median;
 
 struct Options {
     std::string study = GEARPOD_SOURCE_DIR "/studies/published/liang-fig-5-8.toml";
-    std::string csv;
+    std::string csv, json;
     int rounds = 5;
     double error = 1e-3;  // of the worst feature
     double try_s = 120.0;
@@ -38,5 +39,11 @@ struct Row {
 
 // Median and range of a row's times over another's, round by round.
 std::string ratio_text(const Row& row, const Row& to, double scale = 1.0);
+nlohmann::ordered_json ratio_json(const Row& row, const Row& to, double scale = 1.0);
+
+// Ratio of a row to itself in a table.
+inline nlohmann::ordered_json one() {
+    return "1";
+}
 
 }  // namespace gearpod::peers

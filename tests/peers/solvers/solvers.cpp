@@ -1,8 +1,9 @@
 // Compares time and error of gearpod and other solvers on the same gearbox (README.md).
-// Usage: peer_solvers [STUDY] [--rounds N] [--error E] [--try-s S] [--csv FILE] [--steps-only]
+// Usage: peer_solvers [STUDY] [--rounds N] [--error E] [--try-s S] [--csv FILE] [--json FILE] [--steps-only]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
 
 #include "span_table.hpp"
 #include "step_table.hpp"
@@ -35,6 +36,16 @@ void compare(const Options& options) {
     if (!options.csv.empty()) {
         span.write(options.csv);
     }
+    if (!options.json.empty()) {
+        nlohmann::ordered_json part;
+        steps.add_to(part);
+        if (!options.steps_only) {
+            span.add_to(part);
+        }
+        if (!(std::ofstream(options.json) << part.dump() << '\n').flush()) {
+            throw std::runtime_error(options.json + ": cannot be written");
+        }
+    }
 }
 
 }  // namespace
@@ -51,6 +62,7 @@ int main(int argc, char** argv) {
     app.add_option("--try-s", options.try_s, "processor time to give up a tolerance after, s")
         ->check(CLI::PositiveNumber);
     CLI::Option* csv = app.add_option("--csv", options.csv, "table for `gearpod accuracy --peers`");
+    app.add_option("--json", options.json, "tables and ratios for tests/bench/performance.py");
     app.add_flag("--steps-only", options.steps_only, "only the steps of Runge-Kutta's method")
         ->excludes(csv);
     CLI11_PARSE(app, argc, argv);

@@ -142,6 +142,35 @@ void SpanTable::print() const {
     }
 }
 
+void SpanTable::add_to(nlohmann::ordered_json& part) const {
+    nlohmann::ordered_json rows;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const Row& row = rows_[i];
+        const auto whole = ratio_json(row, rows_[0]);
+        const auto mesh = ratio_json(row, rows_[0], rows_[0].meshes / row.meshes);
+        const auto error = [&](auto member) {
+            return row.error ? fmt::format("{:.1e}", member(*row.error)) : std::string();
+        };
+        rows.push_back({row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "",
+                        fmt::format("{:.0f}", row.steps), median(row.times), i == 0 ? one() : whole,
+                        i == 0 ? one() : mesh,
+                        error([](const auto& e) { return e.largest_feature(); }) +
+                            (row.within ? "" : " (above)"),
+                        error([](const auto& e) { return e.sensor; })});
+        if (i > 0) {
+            part["ratios"]["gearbox: " + row.name] = whole;
+            part["ratios"]["mesh period: " + row.name] = mesh;
+        }
+    }
+    part["tables"].push_back(
+        {{"title", fmt::format("A gearbox of {} + {} mesh periods, worst feature within {:g}:",
+                               kRunIn, own_.scene().span_meshes(), options_.error)},
+         {"columns",
+          {"solver", "tolerance", "steps per mesh period", "s", "over gearpod",
+           "mesh period, over gearpod's", "worst feature", "sensor"}},
+         {"rows", rows}});
+}
+
 void SpanTable::write(const std::string& path) const {
     std::ofstream file(path);
     file << "name,command,integration_s,mesh_s,sensor,te";

@@ -19,6 +19,8 @@ class SpanTable {
     void add_all();
     void round();
     void print() const;
+    // Adds its table and ratios to a part of performance.json (tests/bench/README.md).
+    void add_to(nlohmann::ordered_json& part) const;
     // Writes the file that `gearpod accuracy --peers` reads.
     void write(const std::string& path) const;
 

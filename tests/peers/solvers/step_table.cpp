@@ -98,6 +98,26 @@ void StepTable::print() const {
     print_limit();
 }
 
+void StepTable::add_to(nlohmann::ordered_json& part) const {
+    nlohmann::ordered_json rows;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const Row& row = rows_[i];
+        const auto ratio = ratio_json(row, rows_[0]);
+        rows.push_back({row.name, 1e9 * median(row.times), i == 0 ? one() : ratio,
+                        row.error ? fmt::format("{:.1e}", row.error->largest_feature()) : "",
+                        fmt::format("{:.0f}", work_[i].flop),
+                        fmt::format("{:.0f} %", 100.0 * share(i))});
+        if (i > 0) {
+            part["ratios"]["step: " + row.name] = ratio;
+        }
+    }
+    part["tables"].push_back(
+        {{"title", "One step of one gearbox by the classical Runge-Kutta method, in doubles:"},
+         {"columns",
+          {"solver", "ns", "over gearpod", "worst feature", "operations", "share of its peak"}},
+         {"rows", rows}});
+}
+
 void StepTable::print_limit() const {
     const double scalar = peak(Width::scalar), widest = peak(Width::bits_512);
     fmt::print(

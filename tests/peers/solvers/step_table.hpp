@@ -18,6 +18,8 @@ class StepTable {
     void measure_errors();
     void round();
     void print() const;
+    // Adds its table and ratios to a part of performance.json (tests/bench/README.md).
+    void add_to(nlohmann::ordered_json& part) const;
 
   private:
     using Way = std::function<PeerRun(const Task&, const Extent&)>;
