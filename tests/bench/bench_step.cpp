@@ -14,6 +14,7 @@
 
 #include "bench_scene.hpp"
 #include "fma_peak.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/dispatch.hpp"
@@ -142,7 +143,13 @@ void measure_steps(benchmark::State& state, const Setting& setting) {
 void add(const Setting& setting) {
     benchmark::RegisterBenchmark(
         setting.text().c_str(),
-        [setting](benchmark::State& state) { measure_steps(state, setting); })
+        [setting](benchmark::State& state) {
+            try {
+                measure_steps(state, setting);
+            } catch (const lockstep::MissingKernel& error) {
+                state.SkipWithError(error.what());
+            }
+        })
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
 }

@@ -58,8 +58,7 @@ def number_in(pattern: str, text: str) -> float:
 
 def ratio(values: Sequence[float]) -> dict[str, float]:
     """Median and range of a ratio over the rounds."""
-    rounded = [float(f"{v:.4g}") for v in (statistics.median(values), min(values), max(values))]
-    return dict(zip(("median", "low", "high"), rounded)) | {"rounds": len(values)}
+    return {"median": statistics.median(values), "low": min(values), "high": max(values), "rounds": len(values)}
 
 
 def number(value: float) -> str:
@@ -121,11 +120,11 @@ def bench_program(build: str, name: str) -> str:
 
 
 def benchmark_runs(build: str, name: str, repetitions: int, seconds: float) -> dict[str, list[dict]]:
-    """Repetitions of each case of a program of Google Benchmark, in random order."""
+    """Repetitions of each case of a program of Google Benchmark, in random order; without cases that it skips."""
     command = [bench_program(build, name), f"--benchmark_min_time={seconds}", f"--benchmark_repetitions={repetitions}",
                "--benchmark_enable_random_interleaving=true", "--benchmark_format=json"]
     runs: dict[str, list[dict]] = {}
     for entry in json.loads(finished(command).output)["benchmarks"]:
-        if entry["run_type"] == "iteration":
+        if entry["run_type"] == "iteration" and not entry.get("error_occurred"):
             runs.setdefault(entry["run_name"], []).append(entry)
     return {case: sorted(own, key=lambda run: run["repetition_index"]) for case, own in runs.items()}

@@ -85,6 +85,15 @@ def machine_name(store: dict, machine: dict) -> str:
     return name
 
 
+def rounded(value: object) -> object:
+    """The same lists and objects with four significant digits."""
+    if isinstance(value, float):
+        return float(f"{value:.4g}")
+    if isinstance(value, list):
+        return [rounded(item) for item in value]
+    return {key: rounded(item) for key, item in value.items()} if isinstance(value, dict) else value
+
+
 def measure(name: str, options: argparse.Namespace, store: dict) -> dict:
     """Runs the command of a part and returns its results with machine, date and load."""
     words = words_of(name, options.quick)
@@ -101,7 +110,7 @@ def measure(name: str, options: argparse.Namespace, store: dict) -> dict:
     head = {"command": words, "machine": machine_name(store, this_machine(options.build)),
             "date": datetime.date.today().isoformat(), "load": round(load, 1),
             "minutes": round((time.perf_counter() - start) / 60, 1)}
-    return head | part
+    return head | rounded(part)
 
 
 def machine_table(store: dict) -> str:

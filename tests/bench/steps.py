@@ -4,7 +4,8 @@
     tests/bench/steps.py [--rounds 3] [--build build] [--json FILE]
 
 Every case is measured several times in random order; each result is the median of its mesh periods.
-The fastest result counts, which other programs disturbed least. Ratios are shares of the peak; where
+The fastest result counts, which other programs disturbed least. A build with GEARPOD_PORTABLE=ON has other
+numbers of lanes and instruction sets too. Ratios are shares of the peak; where
 operations are not counted, times over those of rk4. The last table is that of bench_peaks.
 """
 from measuring import arguments, bench_program, benchmark_runs, finished, parsed, ratio, show, table
@@ -61,10 +62,12 @@ def main() -> None:
         + [("central-difference", "single", "16"), ("sdirk3", "double", "8")]
     ):
         keys = [(method, "4", "full", precision, instructions, lanes) for instructions in sets]
-        by_set.append([method, f"{lanes} {precision}s"] + [cell(runs.get(k)) for k in keys])
+        if any(key in runs for key in keys):
+            by_set.append([method, f"{lanes} {precision}s"] + [cell(runs.get(k)) for k in keys])
     tables = [table(["method", "lanes"] + [f"{n} planets, {MOTIONS[m]}" for n, m in scenes], by_scene, f"With {sets[0]}:"),
-              table(["method", "lanes"] + sets, by_set, "Four planets in x, y and rotation, by instruction set:"),
               peaks(options.build)]
+    if len(sets) > 1:
+        tables.insert(1, table(["method", "lanes"] + sets, by_set, "Four planets in x, y and rotation, by instruction set:"))
     show({"tables": tables, "ratios": ratios_of(runs)}, options)
 
 
