@@ -97,15 +97,15 @@ class Problem:
     """Equations, initial state, and the mesh forces of gearpod at the end."""
 
     def __init__(self, options: argparse.Namespace, folder: str) -> None:
-        with open(STUDY, "rb") as file:
-            self.gearbox = Gearbox(tomllib.load(file))
+        with open(STUDY, encoding="utf-8") as file:
+            text = file.read()
+        self.gearbox = Gearbox(tomllib.loads(text))
         curves = columns(finished([options.program, "stiffness", STUDY, "--csv", "-"]).output)
         names = [f"{side}{n}" for side in ("sp", "rp") for n in range(1, 5)]
-        self.phase, self.curves = curves["phase"], np.array([curves[name] for name in names])
+        self.curves = np.array([curves[name] for name in names])
         out = folder + "/signals.csv"
-        nominal = re.sub(r"\[random\].*?(?=\n\[)", "", open(STUDY, encoding="utf-8").read(), flags=re.DOTALL)
         with open(folder + "/nominal.toml", "w", encoding="utf-8") as file:
-            file.write(nominal)
+            file.write(re.sub(r"\[random\].*?(?=\n\[)", "", text, flags=re.DOTALL))
         finished([options.program, "simulate", folder + "/nominal.toml", "--instance", "0", "--meshes",
                   str(options.meshes + 1), "--out", out])
         with open(out, encoding="utf-8") as file:
@@ -119,15 +119,16 @@ class Problem:
         self.span = times[ends[0]], times[ends[1]]
         self.forces = np.array([signals[name + "_force"][ends[1]] for name in names])
 
-    def deformation(self, t: float) -> tuple[np.ndarray, np.ndarray]:
-        phase = t / self.gearbox.mesh_s % 1.0
-        place = phase * (len(self.phase) - 1)
+    def springs(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """Stiffness and damping of the pairs, linear between points of the curves."""
+        place = t / self.gearbox.mesh_s % 1.0 * self.curves.shape[1]
         i = int(place)
-        k = self.curves[:, i] + (place - i) * (self.curves[:, min(i + 1, len(self.phase) - 1)] - self.curves[:, i])
+        before = self.curves[:, i]
+        k = before + (place - i) * (self.curves[:, (i + 1) % self.curves.shape[1]] - before)
         return k, self.gearbox.damping * np.sqrt(k)
 
     def pair_forces(self, t: float, y: np.ndarray) -> np.ndarray:
-        k, c = self.deformation(t)
+        k, c = self.springs(t)
         half = len(y) // 2
         return k * (self.gearbox.pairs @ y[:half]) + c * (self.gearbox.pairs @ y[half:])
 
