@@ -26,7 +26,7 @@ from measuring import markdown, ratio_text
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 STORE, PAGE = (SOURCES / "docs" / "validation" / f"performance.{kind}" for kind in ("json", "md"))
 PEERS = "build/tests/peers/solvers/peer_solvers"
-FEW_STUDIES = ["studies/" + name + ".toml" for name in ("planet-crack-ideal", "gravity", "yang-test-rig", "wind-turbine",
+FEW_STUDIES = ["studies/" + name + ".toml" for name in ("planet-crack-ideal", "gravity", "wind-turbine", "published/yang-test-rig",
                                                         "published/liang-fig-5-8", "published/tian-fig-4-9")]
 
 

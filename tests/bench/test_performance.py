@@ -27,6 +27,13 @@ class Performance(unittest.TestCase):
             for table in part["tables"]:
                 self.assertEqual({len(row) for row in table["rows"]}, {len(table["columns"])}, name)
 
+    def test_studies_of_commands_exist(self):
+        for name in performance.PARTS:
+            for quick in (False, True):
+                for word in performance.words_of(name, quick).split():
+                    if word.endswith((".toml", ".py")):
+                        self.assertTrue((performance.SOURCES / word).is_file(), word)
+
     def test_ratio_is_median_and_range(self):
         self.assertEqual(ratio([3.0, 1.0, 2.0]), {"median": 2.0, "low": 1.0, "high": 3.0, "rounds": 3})
         self.assertEqual(ratio_text(ratio([3.0, 1.0, 2.0])), "2.00 (1.00 to 3.00)")
