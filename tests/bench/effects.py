@@ -14,12 +14,16 @@ SCENES = {"translational": "x, y, rotation", "rotations": "rotations",
           "rotations-unbalanced": "rotations, planets out of balance", "fixed-shaft": "fixed-shaft"}
 EFFECTS = ["none", "inertial-terms", "transmission-error", "mesh-error", "separation", "torque-sine", "torque-noise", "gravity",
            "torque-sine+gravity", "speed-sine", "speed-noise", "all"]
+# Cases that bench_effects measures although the scene lacks some of their effects.
+PARTIAL = {("rotations", "torque-sine+gravity"), ("rotations-unbalanced", "torque-sine+gravity"),
+           ("rotations-unbalanced", "all")}
 
 
 def main() -> None:
     options = parsed(arguments(__doc__, 7))
     times = {tuple(name.split("/")[:2]): [1e9 * run["a_step"] for run in runs]
              for name, runs in benchmark_runs(options.build, "bench_effects", options.rounds, 0.2).items()}
+    times = {case: own for case, own in times.items() if case not in PARTIAL}
     ratios = {}
     for (scene, effect), own in times.items():
         if effect != "none":

@@ -127,4 +127,4 @@ def benchmark_runs(build: str, name: str, repetitions: int, seconds: float) -> d
     for entry in json.loads(finished(command).output)["benchmarks"]:
         if entry["run_type"] == "iteration" and not entry.get("error_occurred"):
             runs.setdefault(entry["run_name"], []).append(entry)
-    return {case: sorted(own, key=lambda run: run["repetition_index"]) for case, own in runs.items()}
+    return {case: sorted(own, key=lambda run: run["repetition_index"]) for case, own in sorted(runs.items())}

@@ -10,6 +10,7 @@ both. Time is wall-clock time, memory the largest resident set (VmHWM), and a ra
 measurement. Prints every round to stderr.
 """
 import glob
+import math
 import os
 import re
 import statistics
@@ -39,10 +40,14 @@ Case = tuple[str, tuple[str, ...]]  # study file, settings
 
 
 def forecast(command: list[str]) -> tuple[float, float, float]:
-    """Seconds and megabytes predicted by `describe`, and the seconds that it took."""
+    """Seconds and megabytes predicted by `describe`, and the seconds that it took.
+
+    A forecast without computed gearboxes has no time (not a number), and a lower bound of the memory.
+    """
     done = finished(command)
-    return (number_in(r"estimated time +(?:at least )?([\d.]+) s", done.output),
-            number_in(r"estimated memory +(?:at least )?([\d.]+) MB", done.output), done.wall_s)
+    has_time = "\n  estimated time " in done.output
+    return (number_in(r"^  estimated time +([\d.]+) s", done.output) if has_time else math.nan,
+            number_in(r"^  (?:estimated )?memory +(?:at least )?([\d.]+) MB", done.output), done.wall_s)
 
 
 def measured(program: str, case: Case, folder: str) -> tuple[tuple[float, float, float], Finished]:
@@ -84,9 +89,12 @@ def main() -> None:
         row = [f"`{name}`", ", ".join(f"`{text}`" for text in settings)]
         for i, what, of_run in ((0, "time", lambda done: done.wall_s), (1, "memory", lambda done: done.megabytes)):
             one = ratio([predicted[i] / of_run(done) for predicted, done in rounds])
+            predicted_one, of_runs = (statistics.median(values) for values in zip(*((p[i], of_run(done)) for p, done in rounds)))
+            if math.isnan(predicted_one):
+                row += ["-", of_runs, "-"]
+                continue
             ratios[f"{what}, {' '.join((name, *settings))}"] = one
-            row += [statistics.median(predicted[i] for predicted, _ in rounds),
-                    statistics.median(of_run(done) for _, done in rounds), one]
+            row += [predicted_one, of_runs, one]
         rows.append(row + [statistics.median(predicted[2] for predicted, _ in rounds)])
     columns = ["study", "settings", "time: predicted, s", "run, s", "ratio", "memory: predicted, MB", "run, MB", "ratio",
                "`describe`, s"]
