@@ -232,18 +232,18 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
 // Converts the cost of a tile that recorded the mesh periods of `measured` to that of all mesh
 // periods of `whole`. Test and baseline records scale alike.
 void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
-    if (measured.recorded_meshes() == whole.recorded_meshes()) {
+    if (recorded_meshes(measured) == recorded_meshes(whole)) {
         return;
     }
     const bool integrated = cost.whole.meshes > 0;  // otherwise copied from the cache
     cost.whole.integration *=
         integrated ? integrated_meshes(whole) / integrated_meshes(measured)
-                   : static_cast<double>(whole.recorded_meshes()) / measured.recorded_meshes();
+                   : static_cast<double>(recorded_meshes(whole)) / recorded_meshes(measured);
 }
 
 // Number of mesh periods that a tile may record within the budget.
 int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
-    const int all = scene.recorded_meshes();
+    const int all = recorded_meshes(scene);
     if (scene.study().numerics.horizon == Horizon::periodic || mesh_s == 0.0) {
         return all;
     }
@@ -305,7 +305,7 @@ RunCost measure_run_cost(const Scene& scene, const BatchPlan& plan, int threads,
     RunCost result;
     result.threads =
         static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.batches()));
-    result.to_record = scene.recorded_meshes();
+    result.to_record = recorded_meshes(scene);
     const bool moves = !scene.study().effects.quasi_static();
     const double mesh_s = moves ? mesh_period_s(scene) : 0.0;
     // Half of the budget, so that a thread can compute two tiles.
