@@ -12,6 +12,7 @@
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -23,8 +24,9 @@ std::size_t at(Group group) {
 constexpr std::size_t kTriedRecords = 4;  // per gearbox; further records cost as much
 
 // Free blocks between used ones after many tiles: bytes per thread, and share of the memory of the
-// first tiles. Measured for gearboxes that take 10 to 250 MB.
-constexpr double kFragmentsOfThread = 2.5e6, kFragmentShare = 0.05;
+// first tiles, more where the response of a housing takes and frees blocks of the size of a record.
+// Measured for gearboxes that take 10 to 250 MB.
+constexpr double kFragmentsOfThread = 2.5e6, kFragmentShare = 0.05, kShareWithResponse = 0.12;
 
 // Enumerates all tiles of a plan without storing them. The first ones come from each group; the
 // order spreads every leading subset over the ensemble.
@@ -271,7 +273,8 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
         std::max(peak_memory_bytes(), result.memory.before + result.threads * of_thread);
     result.memory.held = resident_memory_bytes();
     result.memory.fragments = kFragmentsOfThread * result.threads +
-                              kFragmentShare * (result.memory.peak - result.memory.before);
+                              (any_response(scene.study()) ? kShareWithResponse : kFragmentShare) *
+                                  (result.memory.peak - result.memory.before);
     const double bytes_each = motion_bytes(scene);
     result.memory.kept = -bytes_each * static_cast<double>(task.cache.kept());
 
