@@ -71,6 +71,16 @@ RegressionLine regression_line(std::span<const double> x, std::span<const double
 
 CheckResult linearity_check(std::span<const double> x, std::span<const double> y,
                             const RegressionLine& line) {
+    std::vector<double> distinct(x.begin(), x.end());
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    const double line_squares = sum_of_squares(residuals(x, y, line));
+    const auto sizes = static_cast<double>(distinct.size());
+    constexpr double kReplicates =
+        5.0;  // mean number of points per x; with fewer the F test has little power
+    if (distinct.size() < 3 || static_cast<double>(x.size()) < kReplicates * sizes) {
+        return quadratic_term(x, y, line, line_squares);
+    }
     struct Group {
         double count = 0.0, sum = 0.0;
     };
@@ -79,14 +89,7 @@ CheckResult linearity_check(std::span<const double> x, std::span<const double> y
         groups[x[i]].count += 1.0;
         groups[x[i]].sum += y[i];
     }
-    const double line_squares = sum_of_squares(residuals(x, y, line));
-    const auto sizes = static_cast<double>(groups.size());
     const double freedom = static_cast<double>(x.size()) - sizes;
-    constexpr double kReplicates =
-        5.0;  // mean number of points per x; with fewer the F test has little power
-    if (groups.size() < 3 || static_cast<double>(x.size()) < kReplicates * sizes) {
-        return quadratic_term(x, y, line, line_squares);
-    }
     double pure = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const Group& group = groups[x[i]];

@@ -1,6 +1,5 @@
 // measure_accuracy(): measures time and error of the solver settings.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "machine/upper_median.hpp"
+#include "mc/accuracy/effect_costs.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/measure_detection.hpp"
 #include "mc/accuracy/report.hpp"
@@ -53,7 +53,7 @@ class AccuracyMeasurement {
         ReferenceRequest reference;
         reference.seconds = kReferenceErrorShare * time_.seconds();
         report_.reference = converged_reference(without_steps(study_), pilot_, reference);
-        measure_effect_costs();
+        measure_effect_costs(scenes_.own(), request_, time_, report_);
         for (const ListedSetting& listed : listed_settings(study_)) {
             add(listed.setting, listed.refusal);
         }
@@ -96,20 +96,6 @@ class AccuracyMeasurement {
         report_.settings.emplace_back();
         report_.settings.back().setting = setting;
         report_.settings.back().refusal = refusal;
-    }
-
-    void measure_effect_costs() {
-        constexpr double kTimeShare = 0.25;  // of the remaining processor time
-        // A budget of 0 would have no limit.
-        const double seconds =
-            std::isfinite(time_.seconds()) ? std::max(1e-9, kTimeShare * time_.seconds()) : 0.0;
-        EffectMeasurement measured = measure_effects(
-            scenes_.own(),
-            {.repeats = request_.repeats, .seconds = seconds, .progress = request_.progress});
-        report_.effects = std::move(measured.effects);
-        if (!measured.omitted.empty()) {
-            record_omission(fmt::format("cost of effects: {}", fmt::join(measured.omitted, ", ")));
-        }
     }
 
     // Measures the fastest settings again with fewer terms in the stiffness curves.

@@ -191,8 +191,8 @@ double processor_s() {
            PythonWorker::waited_s();
 }
 
-// Share of the processor seconds of a thread in which effects are measured.
-constexpr double kEffectsShare = 0.3;
+// Share of the processor seconds after which no effect is measured.
+constexpr double kEffectsShare = 0.5;
 
 // Stops a description that takes more processor time. Other programs do not shorten it.
 class Deadline final : public machine::CancellationSource {
@@ -286,16 +286,20 @@ int describe_command(const DescribeOptions& options) {
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         print_forecast(*scene, begun_s + setup_s, options.ranks);
-        std::fflush(stdout);
         forecast = true;
-        missing = "measuring what the other effects change";
-        print_effect_changes(*study, kEffectsShare * options.seconds);
-        return kDone;
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
     }
     if (!forecast) {
         print_fallback(*study, scene);
+        return kDone;
+    }
+    std::fflush(stdout);
+    try {
+        const Deadline deadline(options.seconds);
+        print_effect_changes(*study, kEffectsShare * options.seconds);
+    } catch (const machine::Cancelled&) {
+        print_omitted("measuring what further effects change", options);
     }
     return kDone;
 }

@@ -14,8 +14,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::uint64_t kSharedPositions = 8;  // gearboxes; the most lanes of a tile
-
 // End of a shaft at a gearbox. The shaft's positive sense is that in which it turns.
 lockstep::ShaftEnd shaft_end(const Scene& gearbox, Member shaft) {
     const auto& layout = gearbox.plan().layout;
@@ -133,23 +131,6 @@ std::vector<double> train_frequencies_Hz(const Scene& scene) {
         dynamics::add(train, shaft);
     }
     return dynamics::natural_frequencies_Hz(train);
-}
-
-bool share_positions(const GearboxId& a, const GearboxId& b) {
-    return a.group == b.group && a.record == b.record && a.baseline == b.baseline &&
-           a.index / kSharedPositions == b.index / kSharedPositions;
-}
-
-std::size_t shared_records(const Study& study, std::span<const GearboxId> ids, std::size_t most) {
-    most = std::min(most, ids.size());
-    if (!is_coupled(study)) {
-        return most;
-    }
-    std::size_t count = 1;
-    while (count < most && share_positions(ids[count], ids[0])) {
-        ++count;
-    }
-    return count;
 }
 
 double coupled_run_in(const Scene& scene, int run_in_meshes) {

@@ -70,11 +70,6 @@ inline constexpr int kMarginMeshes = 2;
 // Every record has stages at random positions of their teeth and of their carriers. Lanes of a tile
 // share them: eight gearboxes with consecutive numbers have the same position in the same record.
 CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id);
-// True if two records have stages at the same positions.
-bool share_positions(const GearboxId& a, const GearboxId& b);
-// Number of records, from the first and at most that many, that one tile may hold.
-std::size_t shared_records(const Study& study, std::span<const GearboxId> ids, std::size_t most);
-
 // Shafts in a tile of that many lanes; stage i + 1 of the integration is number i of
 // CoupledSpan::stages.
 std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const CoupledSpan& span,

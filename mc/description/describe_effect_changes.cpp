@@ -9,14 +9,12 @@
 #include "mc/description/entries.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/numerics/measured_effects.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/fluctuations.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-// Turns of the planet (of the pinion) that a short record has.
-constexpr int kShortRecordTurns = 2;
 
 // Scene of the study without the pilot runs that a tolerance asks for.
 Scene own_scene(Study study) {
@@ -28,20 +26,24 @@ Scene own_scene(Study study) {
 Scene short_scene(const Study& study) {
     Scene scene = own_scene(study);
     const signals::SpanLayout& span = scene.span();
-    const int turns = record_turns(scene, nominal_inputs(study));
-    if (reason_not_periodic(study).empty() || turns <= kShortRecordTurns) {
+    if (reason_not_periodic(study).empty()) {
         return scene;
     }
     Study brief = study;
     brief.sensor.record_turns.reset();
     // Half a mesh period more, because whole turns are taken.
     brief.sensor.record_s =
-        (kShortRecordTurns * span.planet_teeth + 0.5) / std::abs(scene.nominal_mesh_frequency_Hz());
+        (kLeastRecordTurns * span.planet_teeth + 0.5) / std::abs(scene.nominal_mesh_frequency_Hz());
     try {
         return own_scene(brief);
     } catch (const SceneError&) {
         return scene;
     }
+}
+
+std::string percent(double change) {
+    return change < 0.1 ? fmt::format("{:.2g} %", 100.0 * change)
+                        : fmt::format("{:.0f} %", 100.0 * change);
 }
 
 std::string change_text(const MeasuredEffect& effect, const Study& study, double tolerance) {
@@ -56,13 +58,13 @@ std::string change_text(const MeasuredEffect& effect, const Study& study, double
     if (!std::isfinite(change)) {
         text += effect.in_study ? "; without it gearboxes fail" : "; with it gearboxes fail";
     } else if (change > tolerance) {
-        text += fmt::format("; {} {} by {:.2g} %", effect.in_study ? "changes" : "would change",
-                            feature, 100.0 * change);
+        text += fmt::format("; {} {} by {}", effect.in_study ? "changes" : "would change", feature,
+                            percent(change));
     } else {
         text +=
-            fmt::format("; {} no feature by more than {:g} % (most: {} by {:.2g} %){}",
+            fmt::format("; {} no feature by more than {:g} % (most: {} by {}){}",
                         effect.in_study ? "changes" : "would change", 100.0 * tolerance, feature,
-                        100.0 * change, effect.in_study ? ", so the study does not need it" : "");
+                        percent(change), effect.in_study ? ", so the study does not need it" : "");
     }
     return text + fmt::format("; time x {:.2g}", effect.time_ratio);
 }
@@ -82,18 +84,18 @@ void print_effect_changes(const Study& study, double seconds) {
                     if (!begun) {
                         print_heading("what the effects change");
                         print_entry("measured on",
-                                    fmt::format("{} gearboxes to test, records of {} mesh periods",
-                                                lockstep::kPilotLanes,
-                                                record_turns(scene, nominal_inputs(study)) *
-                                                    scene.span().planet_teeth));
+                                    fmt::format("{} gearboxes to test, records of {}",
+                                                lockstep::kPilotLanes, record_length_text(scene)));
                         begun = true;
                     }
                     print_entry(one.effect, change_text(one, study, tolerance));
                 }});
     if (!all.omitted.empty()) {
         print_entry(
-            "not measured, for lack of time",
-            fmt::format("{} (--seconds, or gearpod accuracy)", fmt::join(all.omitted, ", ")));
+            "not measured",
+            fmt::format(
+                "{}: the time was used up (--seconds; gearpod accuracy measures all of them)",
+                fmt::join(all.omitted, ", ")));
     }
 }
 

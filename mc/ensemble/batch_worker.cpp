@@ -5,7 +5,7 @@
 
 #include "machine/cancellation.hpp"
 #include "machine/wall_clock.hpp"
-#include "mc/coupling/coupled_train.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/gearbox/other_sources.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/study/gears.hpp"

@@ -12,6 +12,7 @@
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
+#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -23,8 +24,9 @@ std::size_t at(Group group) {
 constexpr std::size_t kTriedRecords = 4;  // per gearbox; further records cost as much
 
 // Free blocks between used ones after many tiles: bytes per thread, and share of the memory of the
-// first tiles. Measured for gearboxes that take 10 to 250 MB.
-constexpr double kFragmentsOfThread = 2.5e6, kFragmentShare = 0.05;
+// first tiles, more where the response of a housing takes and frees blocks of the size of a record.
+// Measured for gearboxes that take 10 to 250 MB.
+constexpr double kFragmentsOfThread = 2.5e6, kFragmentShare = 0.05, kShareWithResponse = 0.12;
 
 // Enumerates all tiles of a plan without storing them. The first ones come from each group; the
 // order spreads every leading subset over the ensemble.
@@ -232,18 +234,18 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
 // Converts the cost of a tile that recorded the mesh periods of `measured` to that of all mesh
 // periods of `whole`. Test and baseline records scale alike.
 void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
-    if (measured.recorded_meshes() == whole.recorded_meshes()) {
+    if (recorded_meshes(measured) == recorded_meshes(whole)) {
         return;
     }
     const bool integrated = cost.whole.meshes > 0;  // otherwise copied from the cache
     cost.whole.integration *=
         integrated ? integrated_meshes(whole) / integrated_meshes(measured)
-                   : static_cast<double>(whole.recorded_meshes()) / measured.recorded_meshes();
+                   : static_cast<double>(recorded_meshes(whole)) / recorded_meshes(measured);
 }
 
 // Number of mesh periods that a tile may record within the budget.
 int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
-    const int all = scene.recorded_meshes();
+    const int all = recorded_meshes(scene);
     if (scene.study().numerics.horizon == Horizon::periodic || mesh_s == 0.0) {
         return all;
     }
@@ -271,7 +273,8 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
         std::max(peak_memory_bytes(), result.memory.before + result.threads * of_thread);
     result.memory.held = resident_memory_bytes();
     result.memory.fragments = kFragmentsOfThread * result.threads +
-                              kFragmentShare * (result.memory.peak - result.memory.before);
+                              (any_response(scene.study()) ? kShareWithResponse : kFragmentShare) *
+                                  (result.memory.peak - result.memory.before);
     const double bytes_each = motion_bytes(scene);
     result.memory.kept = -bytes_each * static_cast<double>(task.cache.kept());
 
@@ -305,7 +308,7 @@ RunCost measure_run_cost(const Scene& scene, const BatchPlan& plan, int threads,
     RunCost result;
     result.threads =
         static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.batches()));
-    result.to_record = scene.recorded_meshes();
+    result.to_record = recorded_meshes(scene);
     const bool moves = !scene.study().effects.quasi_static();
     const double mesh_s = moves ? mesh_period_s(scene) : 0.0;
     // Half of the budget, so that a thread can compute two tiles.

@@ -9,6 +9,7 @@
 #include "lockstep/kernels/built_kernels.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/coupling/coupled_train.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/solution_choice.hpp"
@@ -74,7 +75,7 @@ void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
             ? solve_coupled(scene, tile.realizations, records, on_record, options.faulty_stage)
             : solve(scene, tile.realizations,
                     [&](const TileLoads& loads) {
-                        return choose_solution(scene, loads, records, on_record);
+                        return choose_solution(scene, loads, records, on_record, tile.parts);
                     }),
         tile);
 }
@@ -83,6 +84,7 @@ void solve_by_choice(const Scene& scene, const lockstep::RecordOptions& records,
 void solve_and_record(const Scene& scene, const SensorPaths& path, const TileOptions& options,
                       GearboxTile& tile) {
     TileSensorRecorder recorder(scene, path, tile.realizations, options.signal_meshes);
+    recorder.record_only(tile.parts);
     solve_by_choice(scene, {}, std::ref(recorder), options, tile);
     tile.sensor_recorders = recorder.take_recorders();
     tile.integration_s -= recorder.spent_s();
@@ -154,6 +156,9 @@ void run_tile(const Scene& scene, const SensorPaths& path, const TileOptions& op
 GearboxTile run_records(const Scene& scene, const SensorPaths& path, std::span<const GearboxId> ids,
                         int fewest, const TileOptions& options) {
     GearboxTile tile = drawn_tile(scene, ids, lockstep::lanes_for(scene.plan().precision, fewest));
+    if (integrates_records_only(scene)) {
+        tile.parts = parts_of_records(scene, tile.realizations);
+    }
     run_tile(scene, path, options, tile);
     return tile;
 }
@@ -168,16 +173,6 @@ void add_costs(const GearboxTile& of, GearboxTile& tile) {
     tile.meshes += of.meshes;
     tile.superposed += of.superposed;
     tile.superposition_fallbacks += of.superposition_fallbacks;
-}
-
-// Number of baseline records of a gearbox that are computed: one if their motion is the same.
-std::size_t computed_baselines(const Study& study) {
-    const bool same =
-        study.features.baseline_torque_scatter == 0.0 && !has_random_fluctuations(study) &&
-        study.sensor.tones.empty() && !has_other_sources(study) &&
-        std::ranges::none_of(
-            study.random, [](const RandomInput& input) { return input.distribution.per_record(); });
-    return same ? 1 : static_cast<std::size_t>(study.features.baseline_records);
 }
 
 // Baseline records of the gearboxes, one gearbox after the other.
@@ -202,11 +197,10 @@ GearboxTile run_baselines(const Scene& scene, const SensorPaths& path,
     const std::vector<GearboxId> earlier = baselines_of(scene.study(), ids);
     const auto lanes =
         static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest));
-    // Order in which they are computed: those with coupled stages at the same positions follow each
-    // other.
+    // Order in which they are computed: records at the same positions follow each other.
     std::vector<std::size_t> order(earlier.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (is_coupled(scene.study())) {
+    if (shares_positions(scene.study())) {
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return earlier[i].baseline; });
     }
     std::vector<GearboxId> ordered;
@@ -283,7 +277,8 @@ GearboxTile run_gearboxes(const Scene& scene, const SensorPaths& path,
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     const std::size_t records = 1 + computed_baselines(scene.study());
-    if (!is_coupled(scene.study()) && records * ids.size() <= static_cast<std::size_t>(lanes)) {
+    if (!shares_positions(scene.study()) &&
+        records * ids.size() <= static_cast<std::size_t>(lanes)) {
         return run_side_by_side(scene, path, ids, lanes, options);
     }
     GearboxTile earlier = run_baselines(scene, path, ids, fewest, options.cache);

@@ -48,6 +48,8 @@ struct LaneSignals {
 struct GearboxTile {
     std::vector<Realization> realizations;  // one entry per lane
     std::size_t gearboxes = 0;              // requested; further lanes repeat the last one
+    // Mesh periods of the signals that were integrated; empty: all (integrates_records_only).
+    std::vector<lockstep::SpanPart> parts;
     lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;

@@ -14,6 +14,7 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/superposed_motion.hpp"
 #include "machine/thread_clock.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
@@ -103,9 +104,20 @@ std::vector<int> part_periods(const Scene& scene) {
     return lockstep::part_periods(std::move(teeth));
 }
 
+// Mesh periods of a record of the nominal gearbox. Precondition: records have a length.
+int nominal_record_meshes(const Scene& scene) {
+    return record_turns(scene, nominal_inputs(scene.study())) * scene.span().planet_teeth;
+}
+
+// True if it saves at least half of a full integration to integrate the records alone.
+bool records_alone(const Scene& scene) {
+    return shares_windows(scene.study()) && scene.study().numerics.horizon != Horizon::periodic &&
+           2 * (run_in_meshes(scene) + nominal_record_meshes(scene)) <= scene.signal_meshes();
+}
+
 // Mesh periods to integrate if every one of the recorded mesh periods is integrated.
 double full_integration_meshes(const Scene& scene) {
-    return approach_meshes(scene) + run_in_meshes(scene) + scene.recorded_meshes();
+    return approach_meshes(scene) + run_in_meshes(scene) + recorded_meshes(scene);
 }
 
 // Mesh periods to integrate for superposed gearboxes without a fault.
@@ -122,6 +134,15 @@ double approach_meshes(const Scene& scene) {
     }
     return std::min(1.0 + scene.decay_meshes() * -std::log(convergence_tolerance(scene.study())),
                     static_cast<double>(scene.max_meshes()));
+}
+
+bool integrates_records_only(const Scene& scene) {
+    return records_alone(scene) && !superposition(scene).healthy;
+}
+
+int recorded_meshes(const Scene& scene) {
+    return records_alone(scene) ? std::min(nominal_record_meshes(scene), scene.recorded_meshes())
+                                : scene.recorded_meshes();
 }
 
 Superposition superposition(const Scene& scene) {

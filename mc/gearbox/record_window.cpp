@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -53,6 +52,13 @@ std::vector<Meetings> meetings_in(const Study& study, int meshes) {
     return all;
 }
 
+std::string shared_text(const Study& study) {
+    return shares_windows(study)
+               ? fmt::format(", the same for {} gearboxes that are computed together",
+                             kSharedWindows)
+               : "";
+}
+
 std::string record_conditions(const Study& study) {
     const auto drivetrain = make_drivetrain(study);
     const signals::SpanLayout span = drivetrain->span();
@@ -67,7 +73,7 @@ std::string record_conditions(const Study& study) {
     }
     std::string text = fmt::format(
         " A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
-        length.given() ? " and begins at a random tooth position"
+        length.given() ? " and begins at a random tooth position" + shared_text(study)
                        : ", until all teeth have met (sensor.record_s)",
         study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
         fmt::join(mates, " and "));
@@ -101,20 +107,6 @@ std::vector<double> folded_squares(const Scene& scene, const LaneSignals& record
 
 void fold_again(const Scene& scene, LaneSignals& record) {
     record.folded = folded_squares(scene, record, record.sensor);
-}
-
-int record_turns(const Scene& scene, const InstanceInputs& inputs) {
-    const signals::SpanLayout& span = scene.span();
-    const double mesh_Hz = 1.0 / dynamics::mesh_period_s(scene.inputs(inputs));
-    return std::clamp(whole_turns(record_length(scene.study()), span, mesh_Hz), kLeastRecordTurns,
-                      scene.signal_meshes() / span.planet_teeth);
-}
-
-RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns) {
-    Philox engine = noise_stream(scene.study(), id, StreamPurpose::record_start);
-    boost::random::uniform_int_distribution<int> first(
-        0, scene.signal_meshes() - turns * scene.span().planet_teeth);
-    return {turns, first(engine)};
 }
 
 LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const RecordWindow& window,
@@ -172,7 +164,7 @@ std::string record_length_text(const Scene& scene) {
         "{:.3g} s, {} of the {} turns of {} mesh periods after which all teeth have "
         "met{}",
         turns * span.planet_teeth / mesh_Hz, turns, span.ring_teeth, span.planet_teeth,
-        length.given() ? ", from a random tooth position" : "");
+        length.given() ? ", from a random tooth position" + shared_text(scene.study()) : "");
 }
 
 std::string run_conditions(const Study& study) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/coupling/record_positions.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/scene/scene.hpp"
 
@@ -27,19 +28,6 @@ std::vector<double> folded_squares(const Scene& scene, const LaneSignals& record
                                    std::span<const double> samples);
 // Folds a record's sensor samples again after a change.
 void fold_again(const Scene& scene, LaneSignals& record);
-
-// Mesh periods of a gearbox's signals that a record contains.
-struct RecordWindow {
-    int turns = 0;       // whole turns of the monitored gear
-    int first_mesh = 0;  // mesh period at which the record begins
-};
-
-// Number of turns in a record of a gearbox with these inputs if the study gives the length of its
-// records. It follows from the gearbox's speed, but is at least kLeastRecordTurns.
-int record_turns(const Scene& scene, const InstanceInputs& inputs);
-// Random window of a record with this many turns. Every first mesh period of the signal that leaves
-// room for the record is equally likely.
-RecordWindow record_window(const Scene& scene, const GearboxId& id, int turns);
 
 // Record cut from signals of scene.signal_meshes() mesh periods: sensor samples (if `samples`),
 // folded squares and averaged transmission error, all from the window's first mesh period on.

@@ -21,9 +21,10 @@ lockstep::Convergence convergence_of(const Scene& scene) {
     return {convergence_tolerance(scene.study()), scene.max_meshes()};
 }
 
-lockstep::Solution choose_solution(
-    const Scene& scene, const TileLoads& loads, const lockstep::RecordOptions& options,
-    std::function<void(int, const lockstep::MeshRecord&)> on_record) {
+lockstep::Solution choose_solution(const Scene& scene, const TileLoads& loads,
+                                   const lockstep::RecordOptions& options,
+                                   std::function<void(int, const lockstep::MeshRecord&)> on_record,
+                                   std::vector<lockstep::SpanPart> parts) {
     const bool periodic = scene.study().numerics.horizon == Horizon::periodic;
     const bool quasi_static = scene.study().effects.quasi_static();
     if (quasi_static && !periodic) {
@@ -48,6 +49,7 @@ lockstep::Solution choose_solution(
         return lockstep::SuperposedSolution{*loads.tooth_errors, convergence_of(scene),
                                             std::move(span), use.faulty};
     }
+    span.parts = std::move(parts);
     return lockstep::FullSolution{convergence_of(scene), std::move(span),
                                   pointer_to(loads.tooth_errors), pointer_to(loads.excitation)};
 }

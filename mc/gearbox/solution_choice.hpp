@@ -17,11 +17,13 @@ struct TileLoads {
 // Criterion for the convergence to a periodic orbit.
 lockstep::Convergence convergence_of(const Scene& scene);
 
-// `options` and `on_record` as in lockstep::RecordedSpan. `on_record` is used only if every mesh
-// period is integrated (records_during_integration).
+// `options`, `on_record` and `parts` as in lockstep::RecordedSpan. `on_record` is used only if
+// every mesh period is integrated (records_during_integration), and `parts` only with full
+// integration.
 lockstep::Solution choose_solution(const Scene& scene, const TileLoads& loads,
                                    const lockstep::RecordOptions& options,
-                                   std::function<void(int, const lockstep::MeshRecord&)> on_record);
+                                   std::function<void(int, const lockstep::MeshRecord&)> on_record,
+                                   std::vector<lockstep::SpanPart> parts = {});
 
 // Perturbation of these healthy states; only for scenes for which integrates_perturbation_only is
 // true.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "machine/wall_clock.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/housing.hpp"
@@ -34,7 +35,11 @@ TileSensorRecorder::TileSensorRecorder(const Scene& scene, const SensorPaths& pa
     : realizations_(realizations),
       has_gain_(has_gain(realizations)),
       signal_meshes_(meshes > 0 ? std::max(meshes, scene.span_meshes()) : scene.signal_meshes()),
-      recorded_meshes_(meshes > 0 ? signal_meshes_ : scene.recorded_meshes()) {
+      recorded_meshes_(meshes > 0 ? signal_meshes_ : scene.recorded_meshes()),
+      record_meshes_(has_record_length(scene.study())
+                         ? record_turns(scene, realizations.front().inputs) *
+                               scene.span().planet_teeth
+                         : signal_meshes_) {
     const signals::Tones tones = draw_tones(scene, realizations), none;
     for (std::size_t s = 0; s < path.size(); ++s) {
         const SensorPath& sensor = path[s];
@@ -62,7 +67,13 @@ void TileSensorRecorder::operator()(int k, const lockstep::MeshRecord& record) {
         apply_gain(realizations_, amplified_acceleration_);
         acceleration = amplified_acceleration_.data();
     }
-    for (int at = k; at < signal_meshes_; at += recorded_meshes_) {
+    int end = signal_meshes_;
+    if (const auto part = std::ranges::find_if(
+            parts_, [&](const lockstep::SpanPart& one) { return k >= one.first && k < one.end; });
+        part != parts_.end()) {
+        end = std::min(end, std::max(part->end, part->first + record_meshes_));
+    }
+    for (int at = k; at < end; at += recorded_meshes_) {
         for (const auto& sensor : recorders_) {
             for (const auto& path : sensor) {
                 path->record_mesh(at, acceleration, record.te.data());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lockstep/plan/integration_plan.hpp"
+#include "lockstep/tile/tile_inputs.hpp"
 #include "mc/gearbox/sensor_paths.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
@@ -28,8 +29,11 @@ class TileSensorRecorder {
     TileSensorRecorder(const Scene& scene, const SensorPaths& path,
                        std::span<const Realization> realizations, int kept_meshes, int meshes = 0);
 
+    // Only these parts of the signal are recorded; empty: all of it.
+    void record_only(std::span<const lockstep::SpanPart> parts) { parts_ = parts; }
+
     // Takes the record of mesh period k; matches lockstep::RecordedSpan::on_record. If fewer mesh
-    // periods are recorded than the signal has, the signal repeats them.
+    // periods are recorded than the signal or its part has, they are repeated there.
     void operator()(int k, const lockstep::MeshRecord& record);
 
     SensorRecorders take_recorders() { return std::move(recorders_); }
@@ -38,7 +42,8 @@ class TileSensorRecorder {
   private:
     const std::span<const Realization> realizations_;
     const bool has_gain_;
-    const int signal_meshes_, recorded_meshes_;
+    const int signal_meshes_, recorded_meshes_, record_meshes_;
+    std::span<const lockstep::SpanPart> parts_;
     SensorRecorders recorders_;
     machine::AlignedVector amplified_acceleration_;
     double spent_s_ = 0.0;

@@ -7,6 +7,7 @@
 #include "lockstep/steps/instability.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/coupling/coupled_train.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/coupling/stage_gearbox.hpp"
 #include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"

@@ -78,6 +78,7 @@ void remove_torque_fluctuation(Study& s) {
     f.torque_noise.reset();
     f.torque_noise_Hz.reset();
     f.torque_phase_rad = 0.0;
+    give_up_random(s, {"operation.torque_fluctuation", "operation.torque_noise"});
 }
 void remove_speed_fluctuation(Study& s) {
     Fluctuations& f = s.fluctuations;
@@ -86,6 +87,7 @@ void remove_speed_fluctuation(Study& s) {
     f.speed_noise.reset();
     f.speed_noise_Hz.reset();
     f.speed_phase_rad = 0.0;
+    give_up_random(s, {"operation.speed_fluctuation", "operation.speed_noise"});
 }
 
 struct OptionalEffect {
@@ -199,6 +201,9 @@ EffectMeasurement measure_effects(const Scene& own, const EffectRequest& request
         const double start_s = thread_processor_s();
         Study changed = study;
         (one.in_study ? effect.remove : effect.add)(changed);
+        if (!reason_not_periodic(study).empty() && reason_not_periodic(changed).empty()) {
+            changed.numerics.horizon = Horizon::periodic;  // as without the key
+        }
         measure(*before, changed, request.repeats, one);
         slowest_s = std::max(slowest_s, thread_processor_s() - start_s);
         request.measured(one);

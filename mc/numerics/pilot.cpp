@@ -20,10 +20,10 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
-                                    int meshes) {
+                                    int first, int meshes) {
     const auto& content = tile.integration.content;
     std::vector<double> te;
-    for (int k = 0; k < meshes; ++k) {
+    for (int k = first; k < first + meshes; ++k) {
         const int id = content[static_cast<std::size_t>(k) % content.size()];
         const auto& all = tile.integration.records[static_cast<std::size_t>(id)].te;
         for (int p = 0; p < scene.samples_per_mesh(); ++p) {
@@ -174,10 +174,13 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
             record.features.back() = features.compute(
                 lane_signals(scene, path_, tile, lane, features.meshes()), realization);
             features_s += thread_processor_s() - features_start;
-            record.sensor.back() =
-                signals::synthesize(tile.views, lane, tile.integration.content, scene.span(),
-                                    path_[0][0], realization.inputs.path_exponent, 0, meshes);
-            record.te.back() = te_without_mean(scene, tile, lane, meshes);
+            const lockstep::SpanPart part =
+                tile.parts.empty() ? lockstep::SpanPart{0, meshes} : tile.parts.front();
+            const int count = std::min(meshes, part.end - part.first);
+            record.sensor.back() = signals::synthesize(
+                tile.views, lane, tile.integration.content, scene.span(), path_[0][0],
+                realization.inputs.path_exponent, part.first, count);
+            record.te.back() = te_without_mean(scene, tile, lane, part.first, count);
         }
     }
     record.integration_s /= lanes_run;

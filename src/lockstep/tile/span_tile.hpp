@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "lockstep/tile/integrated_tile.hpp"
 
@@ -29,8 +30,15 @@ class SpanTile : protected IntegratedTile<W> {
         return converged;
     }
 
+    bool is_recorded(int k) const {
+        return k >= 0 &&
+               (span_.parts.empty() || std::ranges::any_of(span_.parts, [&](const SpanPart& part) {
+                    return k >= part.first && k < part.end;
+                }));
+    }
+
     bool counts_contact_in(int k) const {
-        return contact_ && k >= 0 && counts_contact(k, span_.options.motion_meshes);
+        return contact_ && is_recorded(k) && counts_contact(k, span_.options.motion_meshes);
     }
 
     // Integrates mesh period k of the span, and adds the contact loss of the lanes in the mask.
@@ -79,8 +87,9 @@ class SpanTile : protected IntegratedTile<W> {
             .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
     }
 
-    // Integrates the run-in and every mesh period of the span. Each goes into its own record, or to
-    // RecordedSpan::on_record if `streamed`. Diverged lanes are marked unless they are `unused`.
+    // Integrates every mesh period of the span, or those of its parts, after their run-in. Each
+    // goes into its own record, or to RecordedSpan::on_record if `streamed`. Diverged lanes are
+    // marked unless they are `unused`.
     void integrate_span(bool streamed, const LaneMask<W>& unused = {}) {
         MeshRecord scratch = new_record(streamed && with_motion());
         const auto keep_state = [&] {
@@ -91,15 +100,24 @@ class SpanTile : protected IntegratedTile<W> {
         result_.states.run_in_meshes = span_.run_in_meshes;
         LaneMask<W> all;
         all.fill(true);
-        for (int k = -span_.run_in_meshes; k < span_.meshes; ++k) {
-            keep_state();
-            integrate_counting_contact(k, schedule_.all_overrides(k),
-                                       k < 0 || streamed ? scratch : add_record(k), all);
-            if (k >= 0 && streamed) {
-                span_.on_record(k, scratch);
+        const std::vector<SpanPart> whole{{0, span_.meshes}};
+        int k = std::numeric_limits<int>::min();
+        for (const auto& [first, end] : span_.parts.empty() ? whole : span_.parts) {
+            for (k = std::max(k, first - span_.run_in_meshes); k < end; ++k) {
+                keep_state();
+                const bool recorded = k >= first;
+                integrate_counting_contact(k, schedule_.all_overrides(k),
+                                           !recorded || streamed ? scratch : add_record(k), all);
+                if (recorded && streamed) {
+                    span_.on_record(k, scratch);
+                }
             }
         }
         keep_state();
+        if (!streamed && !span_.parts.empty()) {
+            std::ranges::replace(result_.content, kUnchanged,
+                                 result_.content[static_cast<std::size_t>(span_.parts[0].first)]);
+        }
         mark_diverged_lanes(unused);
     }
 

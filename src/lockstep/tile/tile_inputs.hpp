@@ -30,6 +30,13 @@ struct RecordOptions {
     bool states = false;  // also keeps TileResult::states
 };
 
+// Mesh periods [first, end) of a span.
+struct SpanPart {
+    int first = 0, end = 0;
+
+    bool operator==(const SpanPart&) const = default;
+};
+
 // Mesh periods that are integrated and recorded one by one.
 struct RecordedSpan {
     int meshes = 1;
@@ -41,6 +48,10 @@ struct RecordedSpan {
     // Receives the record of each mesh period k in order, instead of keeping it. Empty: all records
     // are kept.
     std::function<void(int k, const MeshRecord&)> on_record = {};
+    // The only mesh periods that FullSolution integrates and records, ascending and disjoint, each
+    // part after a run-in. Empty: all. In TileResult::content the others refer to the first
+    // recorded one if records are kept.
+    std::vector<SpanPart> parts = {};
 };
 
 }  // namespace gearpod::lockstep

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "mc/coupling/coupled_train.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/coupling/stage_gearbox.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "tests/mc/gearbox/stage_files.hpp"

@@ -43,6 +43,7 @@ class Computed {
     double operator[](std::size_t value) const { return values_[value]; }
     const Scene& scene() const { return scene_; }
     const LaneSignals& signals() const { return signals_; }
+    int meshes() const { return tile_.meshes; }
     double noise_m_s2() const { return tile_.realizations[0].inputs.noise_m_s2; }
     RecordWindow window() const {
         const Realization& one = tile_.realizations[0];
@@ -146,6 +147,80 @@ TEST_CASE(
     const auto first = [&](GearboxId id) { return record_window(scene, id, 10).first_mesh; };
     CHECK(first({Group::graded, 1}) != first({Group::graded, 1, Record::baseline}));
     CHECK(first({Group::threshold, 1}) != first({Group::threshold, 1, Record::test, 1}));
+}
+
+// Gearboxes whose teeth have errors: every mesh period has to be integrated.
+Study real_teeth(std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(),
+                     {kCompared, "sensor.noise_levels=[0.001]", "sensor.record_turns=1.2",
+                      "features.baseline_records=2", "features.baseline_torque_scatter=0.02",
+                      "numerics.precision=\"double\"", "numerics.settle_tolerance=1e-6",
+                      "random.fault.depth_mm={distribution=\"constant\",value=3}"});
+    return test::shipped_study("planet-crack.toml", overrides);
+}
+
+TEST_CASE("Records that are integrated alone are those of the whole signal") {
+    // Gearbox 16 is the first of its group, whose window is its own.
+    const GearboxId id{Group::graded, 16};
+    const Computed alone(real_teeth({}), id);
+    REQUIRE(integrates_records_only(alone.scene()));
+    const Computed whole(real_teeth({"ensemble.threshold_records=2"}), id);
+    REQUIRE(!integrates_records_only(whole.scene()));
+    REQUIRE(alone.window().first_mesh == whole.window().first_mesh);
+    for (const std::size_t feature : {0, 1, 2, 3}) {
+        INFO(feature);
+        CHECK(alone[feature] == Approx(whole[feature]).epsilon(1e-4));
+    }
+    CHECK(alone.meshes() < 0.25 * whole.meshes());
+    // Others have the window of the first one, whatever tile computes them.
+    const Computed other(real_teeth({}), {Group::graded, 19});
+    CHECK(other.window().first_mesh == alone.window().first_mesh);
+    const SensorPaths path = sensor_paths(other.scene());
+    std::vector<GearboxId> ids;
+    for (std::uint64_t index = 16; index < 24; ++index) {
+        ids.push_back({Group::graded, index});
+    }
+    const GearboxTile tile = run_gearboxes(other.scene(), path, ids, 8);
+    const HealthyReference healthy;
+    RealizationFeatures features(other.scene(), &healthy);
+    const std::vector<double> values =
+        features.compute(lane_signals(other.scene(), path, tile, 3, other.scene().signal_meshes()),
+                         tile.realizations[3]);
+    for (const std::size_t feature : {0, 1, 2, 3}) {
+        CHECK(values[feature] == other[feature]);
+    }
+    const Simulation simulation = simulate(other.scene(), {Group::graded, 19}, 93);
+    CHECK(simulation.features == values);
+}
+
+TEST_CASE("Parts of a baseline record include the windows of the test record and of its copies") {
+    const Scene scene(real_teeth({"features.baseline_torque_scatter=0"}));
+    const Realization one = scene.sampler().draw({Group::threshold, 3, Record::baseline});
+    const auto parts = parts_of_records(scene, std::span(&one, 1));
+    const auto within = [&](const GearboxId& id) {
+        const int first = record_window(scene, id, 3).first_mesh;
+        return std::ranges::any_of(parts, [&](const lockstep::SpanPart& part) {
+            return part.first <= first && first + 93 <= part.end;
+        });
+    };
+    for (const std::size_t k : {0, 1}) {
+        GearboxId id = one.id;
+        id.baseline = k;
+        CHECK(within(id));
+    }
+    CHECK(within({Group::threshold, 0}));
+    CHECK(parts.size() <= 3);
+    // Studies whose records need other parts of the signal integrate all of it.
+    for (const char* key :
+         {"ensemble.threshold_records=2", "operation.speed_noise=0.01",
+          "random.operation.carrier_speed_rpm={distribution=\"constant\",value=8}"}) {
+        INFO(key);
+        std::vector<std::string> keys{key};
+        if (keys[0].find("speed_noise") != std::string::npos) {
+            keys.emplace_back("operation.speed_noise_band_Hz=3");
+        }
+        CHECK(!shares_windows(real_teeth(keys)));
+    }
 }
 
 TEST_CASE("The length of records changes no other random input, and no results without it") {

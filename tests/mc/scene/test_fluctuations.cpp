@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "mc/description/effect_costs.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"
@@ -181,25 +180,6 @@ TEST_CASE("Every mesh is integrated where none repeats, and only there") {
     const std::string speed = "carrier_speed_rpm = 8.87";
     standing.replace(standing.find(speed), speed.size(), "fixed = \"carrier\"\nsun_speed_rpm = 50");
     CHECK(study_of(standing, {"effects.gravity=true"}).numerics.horizon == Horizon::periodic);
-}
-
-TEST_CASE("A scene's cost includes its own effects only") {
-    const auto effects = [](const std::string& text, const std::vector<std::string>& overrides) {
-        std::vector<std::string> names;
-        for (const EffectCost& cost : effect_costs(study_of(text, overrides))) {
-            CHECK(cost.share > 0.0);
-            names.push_back(cost.effect);
-        }
-        return names;
-    };
-    using Names = std::vector<std::string>;
-    CHECK(effects(kExampleStudy, {"effects.inertial_terms=false"}).empty());
-    CHECK(effects(kExampleStudy, {"effects.gravity=true"}) == Names{"inertial terms", "gravity"});
-    CHECK(effects(kExampleStudy, {"operation.torque_noise=0",
-                                  "operation.torque_noise_band_Hz=3"}) == Names{"inertial terms"});
-    CHECK(effects(kQuasiStaticStudy,
-                  {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"})
-              .empty());
 }
 
 TEST_CASE("Without inertia the transmission error follows the torque from mesh to mesh") {
