@@ -12,9 +12,8 @@
 namespace gearpod::mc {
 
 // Largest number of values (gearboxes x features x noise levels) for POD curves, areas and ranking,
-// which need all values at once. These take 130 MB, and about as much again during the computation.
-// Larger ensembles have detection rates only.
-inline constexpr std::size_t kMostAssessedValues = std::size_t{1} << 24;
+// which need all values at once, some 60 bytes for each. Larger ensembles have detection rates only.
+inline constexpr std::size_t kMostAssessedValues = 50'000'000;
 
 // Assesses all features. `frame.detection` must be up to date (detect_all). `condition`: name of a
 // parameter with separate thresholds for its values, "" for none. Throws std::runtime_error with
