@@ -17,6 +17,17 @@ double rms_apart(std::span<const double> signal, std::span<const double> a, doub
     return std::sqrt(sum / static_cast<double>(signal.size()));
 }
 
+// Step of depth in which the crack begins to grow.
+int first_measured_step(const Life& life) {
+    constexpr double kRounding = 1e-9;
+    const double steps = crack_begin_m(life) / *life.last_depth_m * life.depth_steps;
+    return std::min(static_cast<int>(steps + kRounding), life.depth_steps - 1);
+}
+
+double middle_m(int step, const Life& life) {
+    return *life.last_depth_m * (step + 0.5) / life.depth_steps;
+}
+
 }  // namespace
 
 void InterpolationErrors::take(const InterpolationErrors& other) {
@@ -26,18 +37,18 @@ void InterpolationErrors::take(const InterpolationErrors& other) {
 }
 
 double first_interpolated_m(const Life& life) {
-    return 0.5 * *life.last_depth_m / life.depth_steps;
+    return middle_m(first_measured_step(life), life);
 }
 
 double last_interpolated_m(const Life& life) {
-    return *life.last_depth_m - first_interpolated_m(life);
+    return middle_m(life.depth_steps - 1, life);
 }
 
 void LifeTiles::InterpolationCheck::between_depths(int step, const SignalsByLoad& healthy,
                                                    const SignalsByLoad& low,
                                                    const SignalsByLoad& high) {
     const Life& life = tiles_.scene_.study().life;
-    const bool first = step == 0, last = step + 1 == life.depth_steps;
+    const bool first = step == first_measured_step(life), last = step + 1 == life.depth_steps;
     if (errors_.empty() || !(first || last)) {
         return;
     }

@@ -16,8 +16,8 @@ class LifeTiles::InterpolationCheck {
 
     // Computes the largest error halfway between neighbouring loads.
     void between_loads(const SignalsByLoad& healthy);
-    // Computes the error at the middle of a depth step at the first load. Only the first and last
-    // steps are evaluated.
+    // Computes the error at the middle of a depth step at the first load. Only the step in which
+    // the crack begins to grow and the last step are evaluated.
     void between_depths(int step, const SignalsByLoad& healthy, const SignalsByLoad& low,
                         const SignalsByLoad& high);
 

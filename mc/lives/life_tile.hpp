@@ -23,9 +23,9 @@ struct GearboxLife {
 };
 
 // Interpolation errors as rms over the span; NaN if not measured. `first` and `last`: at the middle
-// of the first and last depth steps, relative to the effect of the crack there. `load`: the largest
-// error halfway between neighbouring integrated torques and speeds, without a crack, relative to
-// the signal there.
+// of the depth step in which the crack begins to grow, and of the last one, relative to the effect
+// of the crack there. `load`: the largest error halfway between neighbouring integrated torques and
+// speeds, without a crack, relative to the signal there.
 struct InterpolationErrors {
     double first = std::numeric_limits<double>::quiet_NaN();
     double last = std::numeric_limits<double>::quiet_NaN();

@@ -241,10 +241,12 @@ TEST_CASE("A dataset replaces no other file, and lives have none") {
         std::filesystem::remove_all(folder.file("other"));
     }
     const std::string lives = folder.file("lives.h5");
-    const Outcome ran = program("lives " + test::study("planet-life.toml") +
-                                " --instances 2 --set ensemble.threshold_instances=2 --set "
-                                "life.healthy_lives=2 --set life.records=30 --quiet --out " +
-                                lives);
+    const Outcome ran =
+        program("lives " + test::study("planet-life.toml") +
+                " --instances 2 --set ensemble.threshold_instances=2 --set "
+                "life.healthy_lives=2 --set life.records=30 --set life.depth_steps=1 "
+                "--set life.torque_scatter=0 --quiet --out " +
+                lives);
     INFO(ran.output);
     const Outcome refused = program("report " + lives + " --dataset " + folder.file("lives"));
     CHECK(refused.code == 2);
