@@ -104,6 +104,10 @@ void add_explicit_limit(const AccuracyReport& report, Text out) {
               0, out);
 }
 
+std::size_t column_width(const StabilityCurve& curve) {
+    return std::max<std::size_t>(8, curve.integrator.size());
+}
+
 // Every third factor of the map: a tenth, the study's own stiffness, ten times.
 void add_stability(const StabilityMap& map, Text out) {
     fmt::format_to(out,
@@ -121,12 +125,12 @@ void add_stability(const StabilityMap& map, Text out) {
     }
     fmt::format_to(out, "\n\n{:<40}", "the same in hard cases");
     for (const StabilityCurve& curve : map.curves) {
-        fmt::format_to(out, " {:>11.11}", curve.integrator);
+        fmt::format_to(out, " {:>{}}", curve.integrator, column_width(curve));
     }
     for (const HardCase& one : map.hard) {
         fmt::format_to(out, "\n{:<40}", one.name);
-        for (const double steps : one.steps) {
-            fmt::format_to(out, " {:>11.0f}", steps);
+        for (std::size_t i = 0; i < one.steps.size(); ++i) {
+            fmt::format_to(out, " {:>{}.0f}", one.steps[i], column_width(map.curves[i]));
         }
     }
     fmt::format_to(out, "\n");

@@ -253,7 +253,8 @@ def _stability(report, page):
     if not given:
         return ""
     factors, limit = given["stiffness_factors"], given["most_explicit_steps"]
-    figure, axes = panel(3.6)
+    hard = given.get("hard_cases", [])
+    figure, axes = panel(5.0 if hard else 3.6)
     for k, curve in enumerate(given["curves"]):
         axes.plot(factors, curve["steps"], color=colour(k), marker=marker(k), markersize=4,
                   linewidth=1.1, label=curve["integrator"])
@@ -267,12 +268,11 @@ def _stability(report, page):
     # Hard cases with the study's own method, or the first explicit one.
     names = [curve["integrator"] for curve in given["curves"]]
     shown = names.index(given["own"]) if given["own"] in names else 0
-    hard = given.get("hard_cases", [])
     for k, case in enumerate(hard):
         axes.axhline(case["steps"][shown], color=colour(len(names) + k), linewidth=1.1,
                      linestyle=(0, (4, 2 + 2 * k)),
                      label=f"{case['name']} ({names[shown]})")
-    legend_below(axes, 2)
+    legend_below(axes, 1 if hard else 2)
     about = "; ".join(f"{curve['integrator']}: {number(curve['steps'][len(factors) // 2])} steps"
                       for curve in given["curves"])
     table = blocks.table("Fewest stable steps per mesh period by the factor on the stiffness",

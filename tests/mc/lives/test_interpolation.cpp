@@ -95,7 +95,7 @@ TEST_CASE("Numbers of torques and speeds are raised until the tolerance is kept"
     CHECK(mc::choose_interpolation(mc::Scene(life_study())).error == 0.0);
     // Without the key, a tenth of the crack's change is accepted.
     const auto by_default = mc::choose_interpolation(
-        mc::Scene(life_study({"life.speed_scatter=0.02", "ensemble.instances=8"})));
+        mc::Scene(life_study({"life.speed_scatter=0.005", "ensemble.instances=8"})));
     CHECK(by_default.life.polynomial_speeds > 2);
     CHECK(by_default.error <= 0.1);
 }
