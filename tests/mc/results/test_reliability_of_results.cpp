@@ -64,7 +64,7 @@ TEST_CASE("An ensemble that exceeds the memory is not assessed, and the text rep
         reliability_of(r, ColumnRows(r), "", 2, 1999);  // one thousand gearboxes, 2 values each
     CHECK(!none);
     CHECK_THAT(report_text(results_report(r, ColumnRows(r), none)),
-               Catch::Contains("is limited to 8388608"));
+               Catch::Contains("is limited to 25000000"));
 }
 
 }  // namespace test_reliability_of_results
