@@ -300,6 +300,9 @@ int describe_command(const DescribeOptions& options) {
         print_effect_changes(*study, kEffectsShare * options.seconds);
     } catch (const machine::Cancelled&) {
         print_omitted("measuring what further effects change", options);
+    } catch (const SceneError& error) {
+        print_heading("what the effects change");
+        print_entry("not measured", error.key() + ": " + error.what());
     }
     return kDone;
 }
