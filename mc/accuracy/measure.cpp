@@ -33,7 +33,7 @@ constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 class AccuracyMeasurement {
   public:
     AccuracyMeasurement(const Study& study, const AccuracyRequest& request)
-        : study_(plain(study)),
+        : study_(without_tolerance(study)),
           request_(request),
           time_(request.seconds),
           scenes_(study_),
@@ -88,10 +88,6 @@ class AccuracyMeasurement {
     }
 
   private:
-    static Study plain(Study study) {
-        study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
-        return study;
-    }
     void add(const SolverSetting& setting, const std::string& refusal = "") {
         report_.settings.emplace_back();
         report_.settings.back().setting = setting;

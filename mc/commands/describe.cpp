@@ -29,6 +29,7 @@
 #include "mc/gearbox/record_window.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/numerics/choice.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/false_alarm_target.hpp"
@@ -219,10 +220,8 @@ void print_fallback(const Study& study, const std::optional<Scene>& scene) {
     if (scene) {
         return print_step_forecast(*scene);
     }
-    Study plain = study;
-    plain.numerics.tolerance = plain.numerics.scatter_tolerance = 0.0;
     try {
-        const Scene with_defaults(plain);
+        const Scene with_defaults(without_tolerance(study));
         print_entry("solver setting", "the default, not the one that a pilot run would choose");
         print_step_forecast(with_defaults);
     } catch (const SceneError& error) {
@@ -267,7 +266,6 @@ int describe_command(const DescribeOptions& options) {
     const char* missing =
         "gearbox, effects and cost, because a pilot run chooses the solver setting first";
     std::optional<Scene> scene;
-    bool forecast = false;
     try {
         const Deadline deadline(options.seconds * std::max(1, thread_count(*study)));
         const auto made = make_scene(options.study);
@@ -286,18 +284,15 @@ int describe_command(const DescribeOptions& options) {
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
         print_forecast(*scene, begun_s + setup_s, options.ranks);
-        forecast = true;
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
-    }
-    if (!forecast) {
         print_fallback(*study, scene);
         return kDone;
     }
     std::fflush(stdout);
     try {
         const Deadline deadline(options.seconds);
-        print_effect_changes(*study, kEffectsShare * options.seconds);
+        print_effect_changes(*study, *scene, kEffectsShare * options.seconds);
     } catch (const machine::Cancelled&) {
         print_omitted("measuring what further effects change", options);
     } catch (const SceneError& error) {

@@ -70,6 +70,7 @@ inline constexpr int kMarginMeshes = 2;
 // Every record has stages at random positions of their teeth and of their carriers. Lanes of a tile
 // share them: eight gearboxes with consecutive numbers have the same position in the same record.
 CoupledSpan coupled_span(const Scene& scene, int run_in_meshes, const GearboxId& id);
+
 // Shafts in a tile of that many lanes; stage i + 1 of the integration is number i of
 // CoupledSpan::stages.
 std::vector<lockstep::CouplingShaft> coupling_shafts(const Scene& scene, const CoupledSpan& span,

@@ -61,7 +61,9 @@ std::size_t shared_records(const Study& study, std::span<const GearboxId> ids, s
 std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
                                                  std::span<const Realization> records) {
     const bool compares = !compared_needs(used_features(scene.study())).change.empty();
-    const int baselines = scene.study().features.baseline_records;
+    // A motion that all baseline records have is cut at the window of each.
+    const int copies =
+        computed_baselines(scene.study()) == 1 ? scene.study().features.baseline_records : 1;
     std::vector<lockstep::SpanPart> all;
     for (const Realization& record : records) {
         const int turns = record_turns(scene, record.inputs);
@@ -75,8 +77,7 @@ std::vector<lockstep::SpanPart> parts_of_records(const Scene& scene,
             continue;
         }
         GearboxId other = record.id;
-        // A motion that all baseline records have is cut at the window of each.
-        for (int k = 1; k < baselines && computed_baselines(scene.study()) == 1; ++k) {
+        for (int k = 1; k < copies; ++k) {
             other.baseline = static_cast<std::size_t>(k);
             add(other);
         }

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <optional>
 
 #include "mc/description/entries.hpp"
 #include "mc/gearbox/record_window.hpp"
+#include "mc/numerics/choice.hpp"
 #include "mc/numerics/measured_effects.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene_error.hpp"
@@ -16,28 +16,22 @@
 namespace gearpod::mc {
 namespace {
 
-// Scene of the study without the pilot runs that a tolerance asks for.
-Scene own_scene(Study study) {
-    study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
-    return Scene(study);
-}
-
-// Scene with short records, where every mesh period is integrated and the features allow it.
-Scene short_scene(const Study& study) {
-    Scene scene = own_scene(study);
-    const signals::SpanLayout& span = scene.span();
+// Scene with the study's own numerics, and with short records where every mesh period is integrated
+// and the features allow it.
+Scene short_scene(const Study& study, const Scene& chosen) {
+    const Study plain = without_tolerance(study);
     if (reason_not_periodic(study).empty()) {
-        return scene;
+        return Scene(plain);
     }
-    Study brief = study;
+    Study brief = plain;
     brief.sensor.record_turns.reset();
     // Half a mesh period more, because whole turns are taken.
-    brief.sensor.record_s =
-        (kLeastRecordTurns * span.planet_teeth + 0.5) / std::abs(scene.nominal_mesh_frequency_Hz());
+    brief.sensor.record_s = (kLeastRecordTurns * chosen.span().planet_teeth + 0.5) /
+                            std::abs(chosen.nominal_mesh_frequency_Hz());
     try {
-        return own_scene(brief);
+        return Scene(brief);
     } catch (const SceneError&) {
-        return scene;
+        return Scene(plain);
     }
 }
 
@@ -71,13 +65,13 @@ std::string change_text(const MeasuredEffect& effect, const Study& study, double
 
 }  // namespace
 
-void print_effect_changes(const Study& study, double seconds) {
+void print_effect_changes(const Study& study, const Scene& chosen, double seconds) {
     if (study.features.use.empty()) {
         return;
     }
     const double tolerance =
         study.numerics.tolerance > 0.0 ? study.numerics.tolerance : kChangeOfFeature;
-    const Scene scene = short_scene(study);
+    const Scene scene = short_scene(study, chosen);
     bool begun = false;
     const EffectMeasurement all = measure_effects(
         scene, {.seconds = seconds, .measured = [&](const MeasuredEffect& one) {

@@ -257,4 +257,9 @@ ResolvedStudy resolve_numerics(Study study) {
     return {std::move(study), std::move(choice)};
 }
 
+Study without_tolerance(Study study) {
+    study.numerics.tolerance = study.numerics.scatter_tolerance = 0.0;
+    return study;
+}
+
 }  // namespace gearpod::mc

@@ -19,4 +19,7 @@ struct ResolvedStudy {
 // no candidate keeps the tolerance.
 ResolvedStudy resolve_numerics(Study study);
 
+// The study with its own numerics, not those that a tolerance would choose.
+Study without_tolerance(Study study);
+
 }  // namespace gearpod::mc
