@@ -20,9 +20,24 @@ std::vector<double> column(std::span<const double> values, std::size_t level, st
     return out;
 }
 
+// Values of all healthy gearboxes and of all faulty ones, for AUC and ranking.
+struct HealthyAndFaulty {
+    std::vector<double> healthy, faulty;
+};
+
+HealthyAndFaulty healthy_and_faulty(const ReliabilityData& data, const FeatureColumns& feature,
+                                    std::size_t level, std::size_t levels) {
+    HealthyAndFaulty values{column(feature.healthy, level, levels), {}};
+    for (std::size_t i = 0; i < data.graded_size.size(); ++i) {
+        (data.graded_size[i] > 0.0 ? values.faulty : values.healthy)
+            .push_back(feature.graded[i * levels + level]);
+    }
+    return values;
+}
+
 // Values of one feature at one noise level.
 struct LevelValues {
-    std::vector<double> healthy, faulty;       // for AUC and ranking
+    HealthyAndFaulty all;
     std::vector<double> thresholds;            // of the threshold sample
     std::vector<double> graded;                // all test gearboxes in order
     std::vector<std::vector<double>> by_size;  // faulty gearboxes by size group
@@ -32,19 +47,14 @@ LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feat
                          const std::vector<std::size_t>& group, std::size_t groups,
                          std::size_t level, std::size_t levels) {
     LevelValues values;
-    values.healthy = column(feature.healthy, level, levels);
+    values.all = healthy_and_faulty(data, feature, level, levels);
     values.thresholds =
-        feature.records.empty() ? values.healthy : column(feature.records, level, levels);
+        column(feature.records.empty() ? feature.healthy : feature.records, level, levels);
     values.graded = column(feature.graded, level, levels);
     values.by_size.resize(groups);
     for (std::size_t i = 0; i < values.graded.size(); ++i) {
-        if (data.graded_size[i] > 0.0) {
-            values.faulty.push_back(values.graded[i]);
-            if (group[i] != kNoGroup) {
-                values.by_size[group[i]].push_back(values.graded[i]);
-            }
-        } else {
-            values.healthy.push_back(values.graded[i]);
+        if (data.graded_size[i] > 0.0 && group[i] != kNoGroup) {
+            values.by_size[group[i]].push_back(values.graded[i]);
         }
     }
     return values;
@@ -57,10 +67,11 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     level.noise_level = detection.noise_level;
     level.has_threshold = !std::isnan(detection.threshold);
     const bool high = feature.alarm == Alarm::high;
-    level.auc = auc(values.healthy, values.faulty, high, confidence);
-    level.roc = roc_curve(values.healthy, values.faulty, high);
+    const auto& [healthy, all_faulty] = values.all;
+    level.auc = auc(healthy, all_faulty, high, confidence);
+    level.roc = roc_curve(healthy, all_faulty, high);
     for (const std::vector<double>& faulty : values.by_size) {
-        level.auc_by_size.push_back(auc(values.healthy, faulty, high, confidence));
+        level.auc_by_size.push_back(auc(healthy, faulty, high, confidence));
     }
     const std::vector<int> hit = outcomes(values.graded, detection.threshold, feature.alarm);
     level.hit_miss = pod_of_outcomes(data.graded_size, hit, detection, confidence);
@@ -94,6 +105,20 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     level.demonstrated_size =
         demonstrated_size(detection, data.graded_size, hit, kReliablePd, confidence);
     return level;
+}
+
+FeatureRanking ranking_at(const ReliabilityData& data, std::size_t level, std::size_t levels,
+                          double confidence) {
+    std::vector<HealthyAndFaulty> values;
+    for (const FeatureColumns& feature : data.features) {
+        values.push_back(healthy_and_faulty(data, feature, level, levels));
+    }
+    std::vector<RankedFeature> ranked;
+    for (std::size_t f = 0; f < values.size(); ++f) {
+        ranked.push_back(
+            {data.features[f].name, data.features[f].alarm, values[f].healthy, values[f].faulty});
+    }
+    return rank_features(ranked, confidence);
 }
 
 CombinedDetector combined_at(const ReliabilityData& data, std::size_t level,
@@ -134,46 +159,50 @@ LevelSensitivity sensitivity_at(const ReliabilityData& data,
 
 }  // namespace
 
-Reliability assess_reliability(const ReliabilityData& data,
-                               const std::vector<FeatureDetection>& detections,
-                               const DetectionRequest& request, int threads) {
+std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
+                                           const std::vector<FeatureDetection>& detections,
+                                           const DetectionRequest& request, PairShare share,
+                                           int threads) {
     if (detections.size() != data.features.size()) {
         throw std::invalid_argument("reliability: needs one detection per feature");
     }
-    const std::size_t levels = request.noise_levels.size();
+    const std::size_t levels = request.noise_levels.size(), pairs = data.features.size() * levels;
+    const std::size_t count =
+        share.first < pairs ? (pairs - share.first + share.step - 1) / share.step : 0;
     const std::vector<std::size_t> group = groups_of(data.graded_size, request.groups);
+    std::vector<LevelReliability> result(count);
+    // Entries are independent, so the results do not depend on the number of threads.
+    machine::for_each_index(count, threads, [&](std::size_t i) {
+        const std::size_t pair = share.first + i * share.step;
+        const std::size_t f = pair / levels, n = pair % levels;
+        const FeatureColumns& feature = data.features[f];
+        result[i] = assess_level(
+            data, feature, level_values(data, feature, group, request.groups.size(), n, levels),
+            detections[f].levels[n], request.confidence);
+    });
+    return result;
+}
+
+Reliability assess_reliability(const ReliabilityData& data,
+                               const std::vector<FeatureDetection>& detections,
+                               const DetectionRequest& request, std::vector<LevelReliability> pairs,
+                               int threads) {
+    const std::size_t levels = request.noise_levels.size();
     Reliability result;
+    auto next = pairs.begin();
     for (const FeatureColumns& feature : data.features) {
         result.features.push_back({feature.name, feature.alarm, {}});
+        for (std::size_t n = 0; n < levels; ++n) {
+            result.features.back().levels.push_back(std::move(*next++));
+        }
         for (const ConditionColumn& condition : data.condition) {
             result.conditions.push_back(detect_by_condition(
                 feature.name, feature.alarm, {data.healthy_size, feature.healthy},
                 {data.graded_size, feature.graded}, condition, request));
         }
     }
-    const std::size_t features = data.features.size();
-    std::vector<LevelValues> values(features * levels);
-    for (std::size_t f = 0; f < features; ++f) {
-        result.features[f].levels.resize(levels);
-        for (std::size_t n = 0; n < levels; ++n) {
-            values[f * levels + n] =
-                level_values(data, data.features[f], group, request.groups.size(), n, levels);
-        }
-    }
-    // Entries are independent, so the results do not depend on the number of threads.
-    machine::for_each_index(values.size(), threads, [&](std::size_t i) {
-        const std::size_t f = i / levels, n = i % levels;
-        result.features[f].levels[n] = assess_level(data, data.features[f], values[i],
-                                                    detections[f].levels[n], request.confidence);
-    });
     for (std::size_t n = 0; n < levels; ++n) {
-        std::vector<RankedFeature> ranked;
-        for (std::size_t f = 0; f < features; ++f) {
-            const LevelValues& at = values[f * levels + n];
-            ranked.push_back(
-                {data.features[f].name, data.features[f].alarm, at.healthy, at.faulty});
-        }
-        result.rankings.push_back(rank_features(ranked, request.confidence));
+        result.rankings.push_back(ranking_at(data, n, levels, request.confidence));
     }
     result.combined.resize(levels);
     result.sensitivities.resize(levels);
@@ -182,6 +211,13 @@ Reliability assess_reliability(const ReliabilityData& data,
         result.sensitivities[n] = sensitivity_at(data, detections, result.rankings[n], n, request);
     });
     return result;
+}
+
+Reliability assess_reliability(const ReliabilityData& data,
+                               const std::vector<FeatureDetection>& detections,
+                               const DetectionRequest& request, int threads) {
+    return assess_reliability(data, detections, request,
+                              assess_pairs(data, detections, request, {}, threads), threads);
 }
 
 std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size_t level) {

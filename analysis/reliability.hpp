@@ -89,9 +89,27 @@ struct ReliabilityData {
     std::vector<std::size_t> record_gearbox = {};
 };
 
-// Evaluates all features. `detections` are the results of detect() in the order of data.features.
-// Healthy gearboxes are the threshold sample and the test gearboxes of size 0. Results do not depend
-// on the number of threads.
+// Every `step`-th pair of a feature and a noise level, from pair number `first` on. The pairs of a
+// feature are consecutive.
+struct PairShare {
+    std::size_t first = 0, step = 1;
+};
+
+// Evaluates these pairs in order. `detections` are the results of detect() in the order of
+// data.features. Healthy gearboxes are the threshold sample and the test gearboxes of size 0.
+// Results depend neither on the number of threads nor on the shares.
+std::vector<LevelReliability> assess_pairs(const ReliabilityData& data,
+                                           const std::vector<FeatureDetection>& detections,
+                                           const DetectionRequest& request, PairShare share,
+                                           int threads);
+
+// Evaluates all features. `pairs` are the results of assess_pairs() for all pairs.
+Reliability assess_reliability(const ReliabilityData& data,
+                               const std::vector<FeatureDetection>& detections,
+                               const DetectionRequest& request, std::vector<LevelReliability> pairs,
+                               int threads);
+
+// The same, including the pairs.
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
                                const DetectionRequest& request, int threads);

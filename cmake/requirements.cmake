@@ -34,6 +34,8 @@ gearpod_need(pugixml "${pugixml_FOUND}")
 # These come without a CMake package, or as headers alone.
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h)
 gearpod_need(Random123 "${RANDOM123_INCLUDE_DIR}")
+find_path(CEREAL_INCLUDE_DIR cereal/cereal.hpp)
+gearpod_need(cereal "${CEREAL_INCLUDE_DIR}")
 find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh)
 gearpod_need(kissfft "${KISSFFT_INCLUDE_DIR}")
 foreach(name matio sndfile)

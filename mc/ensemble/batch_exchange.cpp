@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "machine/wall_clock.hpp"
-#include "mc/ensemble/batch_messages.hpp"
+#include "mc/ensemble/messages.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -38,7 +38,7 @@ class PollInterval {
     double shortest_s_ = 1.0;
 };
 
-void send(const Ranks& ranks, int to, MessageKind what, const std::vector<std::byte>& bytes = {}) {
+void send(const Ranks& ranks, int to, MessageKind what, const std::string& bytes = {}) {
     ranks.send(to, static_cast<int>(what), bytes);
 }
 
@@ -113,7 +113,7 @@ class Leader {
         if (rank == 0) {
             team_.give(batch);
         } else {
-            send(run_.ranks, static_cast<int>(rank), MessageKind::compute, bytes_of_number(batch));
+            send(run_.ranks, static_cast<int>(rank), MessageKind::compute, bytes_of(batch));
         }
     }
 
@@ -125,24 +125,21 @@ class Leader {
             const auto rank = static_cast<std::size_t>(message->from);
             switch (static_cast<MessageKind>(message->kind)) {
                 case MessageKind::finished:
-                    accept(rank, batch_of(message->bytes));
+                    accept(rank, value_of<FinishedBatch>(message->bytes));
                     break;
                 case MessageKind::dropped:
-                    mark_returned(rank, number_of(message->bytes));
+                    mark_returned(rank, value_of<std::size_t>(message->bytes));
                     break;
                 case MessageKind::stop:
-                    interrupt(text_of(message->bytes));
+                    interrupt(value_of<std::string>(message->bytes));
                     cancel_running(Interruption::kGrace);
                     break;
                 case MessageKind::times:
-                    outcome_.teams[rank] = times_of(message->bytes);
+                    outcome_.teams[rank] = value_of<TeamTimes>(message->bytes);
                     ++closed_;
                     break;
-                case MessageKind::compute:
-                case MessageKind::drop:
-                case MessageKind::cancel:
-                case MessageKind::close:
-                    break;  // only rank 0 sends these
+                default:
+                    break;  // rank 0 sends these; "assessed" follows all batches
             }
         }
     }
@@ -247,7 +244,7 @@ class Leader {
         run_.interruption->cancel_in(grace);
         const auto milliseconds = static_cast<std::size_t>(1e3 * grace.count());
         for (int rank = 1; rank < run_.ranks.size(); ++rank) {
-            send(run_.ranks, rank, MessageKind::cancel, bytes_of_number(milliseconds));
+            send(run_.ranks, rank, MessageKind::cancel, bytes_of(milliseconds));
         }
     }
 
@@ -325,12 +322,12 @@ class Follower {
                 if (!finished->failure.empty()) {
                     finished->failure = rank_name(run_.ranks) + ": " + finished->failure;
                 }
-                send(run_.ranks, 0, MessageKind::finished, bytes_of_batch(*finished));
+                send(run_.ranks, 0, MessageKind::finished, bytes_of(*finished));
             }
             report_signal();
             receive();
         }
-        send(run_.ranks, 0, MessageKind::times, bytes_of_times(team_.close()));
+        send(run_.ranks, 0, MessageKind::times, bytes_of(team_.close()));
     }
 
   private:
@@ -341,7 +338,7 @@ class Follower {
         const std::string reason = run_.interruption->reason({});
         if (!reason.empty()) {
             signal_reported_ = true;
-            send(run_.ranks, 0, MessageKind::stop, bytes_of_text(reason));
+            send(run_.ranks, 0, MessageKind::stop, bytes_of(reason));
         }
     }
 
@@ -349,7 +346,7 @@ class Follower {
         while (auto message = run_.ranks.receive()) {
             switch (static_cast<MessageKind>(message->kind)) {
                 case MessageKind::compute:
-                    team_.give(number_of(message->bytes));
+                    team_.give(value_of<std::size_t>(message->bytes));
                     ++batches_;
                     break;
                 case MessageKind::drop:
@@ -357,16 +354,13 @@ class Follower {
                     break;
                 case MessageKind::cancel:
                     run_.interruption->cancel_in(
-                        std::chrono::milliseconds(number_of(message->bytes)));
+                        std::chrono::milliseconds(value_of<std::size_t>(message->bytes)));
                     break;
                 case MessageKind::close:
                     closed_ = true;
                     break;
-                case MessageKind::finished:
-                case MessageKind::dropped:
-                case MessageKind::stop:
-                case MessageKind::times:
-                    break;  // only rank 0 receives these
+                default:
+                    break;  // only rank 0 receives the others
             }
         }
     }
@@ -374,7 +368,7 @@ class Follower {
     void drop() {
         const std::size_t dropped = team_.drop();
         batches_ -= dropped;
-        send(run_.ranks, 0, MessageKind::dropped, bytes_of_number(dropped));
+        send(run_.ranks, 0, MessageKind::dropped, bytes_of(dropped));
     }
 
     WorkerTeam& team_;

@@ -6,6 +6,7 @@
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -26,12 +27,24 @@ void wait_for(MPI_Request& request) {
     }
 }
 
-// Sends data from rank 0 to all ranks.
-void broadcast(void* data, int count, MPI_Datatype type) {
-    MPI_Request request;
-    MPI_Ibcast(data, count, type, 0, MPI_COMM_WORLD, &request);
-    wait_for(request);
+// Text of the first of some ranks, in each of them, in pieces that MPI can count.
+std::string broadcast(MPI_Comm ranks, std::string text) {
+    const auto send = [&](void* data, std::size_t bytes) {
+        MPI_Request request;
+        MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, ranks, &request);
+        wait_for(request);
+    };
+    std::size_t length = text.size();
+    send(&length, sizeof length);
+    text.resize(length);
+    constexpr std::size_t kPiece = std::size_t{1} << 30;
+    for (std::size_t at = 0; at < length; at += kPiece) {
+        send(text.data() + at, std::min(kPiece, length - at));
+    }
+    return text;
 }
+
+MPI_Comm first_ranks = MPI_COMM_NULL;  // the first rank of each machine
 
 }  // namespace
 
@@ -62,7 +75,15 @@ Ranks::Ranks() {
     MPI_Comm machine = MPI_COMM_NULL;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
     MPI_Comm_size(machine, &on_this_machine_);
+    int place = 0;
+    MPI_Comm_rank(machine, &place);
     MPI_Comm_free(&machine);
+    MPI_Comm_split(MPI_COMM_WORLD, place == 0 ? 0 : MPI_UNDEFINED, 0, &first_ranks);
+    machines_ = 0;
+    if (first_ranks != MPI_COMM_NULL) {
+        MPI_Comm_size(first_ranks, &machines_);
+        MPI_Comm_rank(first_ranks, &machine_);
+    }
     if (provided < MPI_THREAD_FUNNELED && leads()) {
         fmt::print(stderr, "gearpod: this MPI library does not support threads\n");
         abort(2);
@@ -71,6 +92,9 @@ Ranks::Ranks() {
 
 Ranks::~Ranks() {
     if (started_) {
+        if (first_ranks != MPI_COMM_NULL) {
+            MPI_Comm_free(&first_ranks);
+        }
         MPI_Finalize();
     }
 }
@@ -100,18 +124,14 @@ std::vector<std::string> Ranks::gather(const std::string& text) const {
 }
 
 std::string Ranks::from_leader(const std::string& text) const {
-    if (size_ == 1) {
-        return text;
-    }
-    int length = static_cast<int>(text.size());
-    broadcast(&length, 1, MPI_INT);
-    std::string copy = text;
-    copy.resize(static_cast<std::size_t>(length));
-    broadcast(copy.data(), length, MPI_CHAR);
-    return copy;
+    return size_ == 1 ? text : broadcast(MPI_COMM_WORLD, text);
 }
 
-void Ranks::send(int to, int kind, std::span<const std::byte> bytes) const {
+std::string Ranks::from_leader_to_machines(std::string text) const {
+    return machines_ == 1 ? text : broadcast(first_ranks, std::move(text));
+}
+
+void Ranks::send(int to, int kind, const std::string& bytes) const {
     MPI_Request request;
     MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, kind, MPI_COMM_WORLD,
               &request);
@@ -131,7 +151,7 @@ std::optional<Ranks::Message> Ranks::receive() const {
     int count = 0;
     MPI_Get_count(&status, MPI_BYTE, &count);
     Message message{status.MPI_SOURCE, status.MPI_TAG,
-                    std::vector<std::byte>(static_cast<std::size_t>(count))};
+                    std::string(static_cast<std::size_t>(count), '\0')};
     MPI_Request request;
     MPI_Irecv(message.bytes.data(), count, MPI_BYTE, message.from, message.kind, MPI_COMM_WORLD,
               &request);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,18 +28,25 @@ class Ranks {
     bool leads() const { return rank_ == 0; }
     // Number of ranks on this machine.
     int on_this_machine() const { return on_this_machine_; }
+    // True for the lowest rank of each machine. Only these ranks have the number of machines, and
+    // the number of their own machine; rank 0 is on machine 0.
+    bool first_on_machine() const { return machines_ > 0; }
+    int machines() const { return machines_; }
+    int machine() const { return machine_; }
 
     // Texts of all ranks, in every rank. All ranks must call it together.
     std::vector<std::string> gather(const std::string& text) const;
     // Text of rank 0, in every rank. All ranks must call it together.
     std::string from_leader(const std::string& text) const;
+    // Text of rank 0, in the first rank of every machine. All of these must call it together.
+    std::string from_leader_to_machines(std::string text) const;
 
     struct Message {
         int from = 0;
         int kind = 0;
-        std::vector<std::byte> bytes;
+        std::string bytes;
     };
-    void send(int to, int kind, std::span<const std::byte> bytes) const;
+    void send(int to, int kind, const std::string& bytes) const;
     // Next message that has arrived, if any.
     std::optional<Message> receive() const;
 
@@ -51,6 +57,7 @@ class Ranks {
     int rank_ = 0;
     int size_ = 1;
     int on_this_machine_ = 1;
+    int machines_ = 1, machine_ = 0;
     bool started_ = false;
 };
 

@@ -1,12 +1,12 @@
 #include "mc/ensemble/rare_rate.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
 #include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/messages.hpp"
 #include "mc/ensemble/miss_rate.hpp"
 
 namespace gearpod::mc {
@@ -48,11 +48,7 @@ class SplitRun {
         if (ranks_.leads()) {
             read(store, plan, values);
         }
-        std::string bytes(values.size() * sizeof(double), '\0');
-        std::memcpy(bytes.data(), values.data(), bytes.size());
-        bytes = ranks_.from_leader(bytes);
-        std::memcpy(values.data(), bytes.data(), bytes.size());
-        return values;
+        return value_of<std::vector<double>>(ranks_.from_leader(bytes_of(values)));
     }
     long failed() const { return failed_; }
 

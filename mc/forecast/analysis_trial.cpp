@@ -15,8 +15,9 @@ namespace gearpod::mc {
 namespace {
 
 // Peak memory of the assessment in bytes per value (gearbox, feature and noise level): columns,
-// their parts by size, ranks. Measured for `run` with 192,500 and 770,000 values.
-constexpr double kBytesOfValue = 75.0;
+// and those of the pairs that the threads assess. Measured for `run` with 0.2 and 2.6 million
+// values.
+constexpr double kBytesOfValue = 40.0;
 
 // Memory in bytes per record while the rates of a feature are counted at one noise level, and per
 // value of its columns (row_source.hpp), which grow by doubling.

@@ -1,6 +1,7 @@
 #include "mc/forecast/run_cost.hpp"
 
 #include <algorithm>
+#include <future>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -12,7 +13,6 @@
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
-#include "mc/study/housing.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -23,10 +23,10 @@ std::size_t at(Group group) {
 
 constexpr std::size_t kTriedRecords = 4;  // per gearbox; further records cost as much
 
-// Free blocks between used ones after many tiles: bytes per thread, and share of the memory of the
-// first tiles, more where the response of a housing takes and frees blocks of the size of a record.
-// Measured for gearboxes that take 10 to 250 MB.
-constexpr double kFragmentsOfThread = 2.5e6, kFragmentShare = 0.05, kShareWithResponse = 0.12;
+// Free blocks between used ones after many tiles: bytes per thread, and share of the memory of two
+// tiles per thread, or of fewer. Measured for tiles that take 10 to 2,000 MB
+// (tests/bench/prediction.py --settings).
+constexpr double kFragmentsOfThread = 2.5e6, kFragmentShare = 0.05, kShareAfterFew = 0.12;
 
 // Enumerates all tiles of a plan without storing them. The first ones come from each group; the
 // order spreads every leading subset over the ensemble.
@@ -104,13 +104,21 @@ class CostMeasurement {
 
     std::vector<MeasuredTile> run(int threads) {
         start_ = WallClock::now();
-        machine::run_team(threads, [&](int granted) { work(granted); });
+        // A team of another thread than the first, as in a run: memory of the first thread is
+        // managed differently and has fewer free blocks.
+        std::async(std::launch::async, [&] {
+            machine::run_team(threads, [&](int granted) { work(granted); });
+        }).get();
         return std::move(measured_);
     }
 
     int threads() const { return threads_; }
     // Peak memory of the process after the first tile.
     double peak_alone() const { return peak_alone_; }
+    // The same after one tile of each thread and another. Later tiles alternate between the groups,
+    // unlike in a run, and leave more free blocks.
+    double early_peak() const { return early_peak_; }
+    bool few_tiles() const { return measured_tiles_ < 2 * threads_; }
 
   private:
     // `own_s`: processor time of the thread so far.
@@ -123,6 +131,10 @@ class CostMeasurement {
 
     void work(int threads) {
         int had = 0;
+        {
+            const std::scoped_lock lock(mutex_);
+            threads_ = threads;
+        }
         std::optional<BatchWorker> worker;
         const double processor_start_s = thread_processor_s();
         const auto compute_next = [&] {
@@ -147,8 +159,6 @@ class CostMeasurement {
         });
         while (compute_next()) {
         }
-        const std::scoped_lock lock(mutex_);
-        threads_ = threads;
     }
 
     void compute(BatchWorker& worker, MeasuredTile measured, WallClock::time_point start) {
@@ -156,6 +166,9 @@ class CostMeasurement {
         measured.wall_s = seconds_since(start);
         measured.reused = measured.work.meshes == 0;
         const std::scoped_lock lock(mutex_);
+        if (!measured.repeated && ++measured_tiles_ <= threads_ + 1) {
+            early_peak_ = peak_memory_bytes();
+        }
         measured_.push_back(std::move(measured));
     }
 
@@ -166,8 +179,8 @@ class CostMeasurement {
     WallClock::time_point start_;
     std::mutex mutex_;
     std::once_flag alone_;
-    double peak_alone_ = 0.0;
-    int threads_ = 0;
+    double peak_alone_ = 0.0, early_peak_ = 0.0;
+    int threads_ = 0, measured_tiles_ = 0;
     std::vector<MeasuredTile> measured_;
 };
 
@@ -270,10 +283,10 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCost
     // In a run all threads reach the peak of a tile together at some time.
     const double of_thread = measurement.peak_alone() - result.memory.before;
     result.memory.peak =
-        std::max(peak_memory_bytes(), result.memory.before + result.threads * of_thread);
+        std::max(measurement.early_peak(), result.memory.before + result.threads * of_thread);
     result.memory.held = resident_memory_bytes();
     result.memory.fragments = kFragmentsOfThread * result.threads +
-                              (any_response(scene.study()) ? kShareWithResponse : kFragmentShare) *
+                              (measurement.few_tiles() ? kShareAfterFew : kFragmentShare) *
                                   (result.memory.peak - result.memory.before);
     const double bytes_each = motion_bytes(scene);
     result.memory.kept = -bytes_each * static_cast<double>(task.cache.kept());

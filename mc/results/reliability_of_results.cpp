@@ -6,27 +6,6 @@
 namespace gearpod::mc {
 namespace {
 
-// ResultColumns of one group of gearboxes.
-struct ResultColumns {
-    std::vector<std::vector<double>> parameters;
-    std::vector<std::vector<double>> features;  // gearboxes x noise levels
-    std::size_t rows = 0;
-
-    explicit ResultColumns(const RowShape& shape)
-        : parameters(shape.parameters), features(shape.features) {}
-
-    void add(const double* values, const RowShape& shape) {
-        for (std::size_t p = 0; p < shape.parameters; ++p) {
-            parameters[p].push_back(values[p]);
-        }
-        for (std::size_t f = 0; f < shape.features; ++f) {
-            const double* first = values + shape.value_of(f, 0);
-            features[f].insert(features[f].end(), first, first + shape.levels);
-        }
-        ++rows;
-    }
-};
-
 void check_condition(const Results& frame, const std::string& condition) {
     std::string names;
     for (const ParameterResult& parameter : frame.parameters) {
@@ -47,11 +26,19 @@ void check_condition(const Results& frame, const std::string& condition) {
 
 }  // namespace
 
-std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
-                                                    const std::string& condition, int threads,
-                                                    std::size_t most_values,
-                                                    std::optional<analysis::Costs> costs) {
-    check_condition(frame, condition);
+void ResultColumns::add(const double* values, const RowShape& shape) {
+    for (std::size_t p = 0; p < shape.parameters; ++p) {
+        parameters[p].push_back(values[p]);
+    }
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        const double* first = values + shape.value_of(f, 0);
+        features[f].insert(features[f].end(), first, first + shape.levels);
+    }
+    ++rows;
+}
+
+std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowSource& rows,
+                                                std::size_t most_values) {
     const RowShape shape = row_shape(frame);
     // Areas and curves use one record per gearbox, the first.
     const std::size_t records = frame.request.threshold_records;
@@ -60,7 +47,8 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     }
     // Thresholds use all records if they fit into memory.
     const bool repeated = records > 1 && rows.rows() * shape.features * shape.levels <= most_values;
-    ResultColumns healthy(shape), graded(shape), repeats(shape);
+    AssessedColumns columns{
+        ResultColumns(shape), ResultColumns(shape), ResultColumns(shape), {}, {}};
     std::vector<std::size_t> repeated_rows, healthy_rows;
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
@@ -70,52 +58,72 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
                 continue;
             }
             if (sets_threshold && repeated) {
-                repeats.add(values, shape);
+                columns.repeats.add(values, shape);
                 repeated_rows.push_back(block.first + row);
             }
             if (!sets_threshold || (block.first + row) % records == 0) {
-                (sets_threshold ? healthy : graded).add(values, shape);
+                (sets_threshold ? columns.healthy : columns.graded).add(values, shape);
                 if (sets_threshold) {
                     healthy_rows.push_back(block.first + row);
                 }
             }
         }
     });
-    const std::vector<double> no_fault(std::max(healthy.rows, graded.rows), 0.0);
-    analysis::ReliabilityData data;
-    data.costs = costs;
-    const std::vector<std::size_t> gearbox = gearboxes_of(frame, healthy_rows);
-    data.record_gearbox = repeated ? gearboxes_of(frame, repeated_rows) : gearbox;
+    columns.healthy_gearbox = gearboxes_of(frame, healthy_rows);
+    columns.record_gearbox =
+        repeated ? gearboxes_of(frame, repeated_rows) : columns.healthy_gearbox;
+    return columns;
+}
+
+AssessedData::AssessedData(const Results& frame, const AssessedColumns& columns,
+                           const std::string& condition, std::optional<analysis::Costs> costs)
+    : no_fault_(std::max(columns.healthy.rows, columns.graded.rows), 0.0) {
+    check_condition(frame, condition);
+    const auto& [healthy, graded, repeats, healthy_gearbox, record_gearbox] = columns;
+    data_.costs = costs;
+    data_.record_gearbox = record_gearbox;
     std::span<const double> weights;
-    data.healthy_size = {no_fault.data(), healthy.rows};
-    data.graded_size = {no_fault.data(), graded.rows};
-    for (std::size_t p = 0; p < shape.parameters; ++p) {
+    data_.healthy_size = {no_fault_.data(), healthy.rows};
+    data_.graded_size = {no_fault_.data(), graded.rows};
+    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
         const ParameterResult& parameter = frame.parameters[p];
         if (parameter.name == frame.request.size.name) {
-            data.healthy_size = healthy.parameters[p];
-            data.graded_size = graded.parameters[p];
+            data_.healthy_size = healthy.parameters[p];
+            data_.graded_size = graded.parameters[p];
             continue;
         }
         if (parameter.name == kNoiseWeight) {
             weights = repeats.parameters[p];
             continue;
         }
-        data.inputs.push_back({parameter.name, parameter.unit, graded.parameters[p]});
+        data_.inputs.push_back({parameter.name, parameter.unit, graded.parameters[p]});
         if (std::ranges::count(frame.request.uncertain, parameter.name) > 0) {
-            data.uncertain.push_back(data.inputs.back());
+            data_.uncertain.push_back(data_.inputs.back());
         }
         if (parameter.name == condition) {
-            data.condition.push_back({parameter.name, parameter.unit, healthy.parameters[p],
-                                      graded.parameters[p], gearbox});
+            data_.condition.push_back({parameter.name, parameter.unit, healthy.parameters[p],
+                                       graded.parameters[p], healthy_gearbox});
         }
     }
-    for (std::size_t f = 0; f < shape.features; ++f) {
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
         const std::string& name = frame.features[f].name;
-        data.features.push_back({name, frame.features[f].alarm, healthy.features[f],
-                                 graded.features[f], repeats.features[f],
-                                 uses_noise_weights(name) ? weights : std::span<const double>()});
+        data_.features.push_back({name, frame.features[f].alarm, healthy.features[f],
+                                  graded.features[f], repeats.features[f],
+                                  uses_noise_weights(name) ? weights : std::span<const double>()});
     }
-    return analysis::assess_reliability(data, frame.detection, frame.request, threads);
+}
+
+std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
+                                                    const std::string& condition, int threads,
+                                                    std::size_t most_values,
+                                                    std::optional<analysis::Costs> costs) {
+    check_condition(frame, condition);
+    const auto columns = assessed_columns(frame, rows, most_values);
+    if (!columns) {
+        return std::nullopt;
+    }
+    const AssessedData data(frame, *columns, condition, costs);
+    return analysis::assess_reliability(*data, frame.detection, frame.request, threads);
 }
 
 analysis::Subject subject_of(const Results& frame) {

@@ -12,8 +12,48 @@
 namespace gearpod::mc {
 
 // Largest number of values (gearboxes x features x noise levels) for POD curves, areas and ranking,
-// which need all values at once, some 60 bytes for each. Larger ensembles have detection rates only.
+// which need all values at once, some 40 bytes for each. Larger ensembles have detection rates
+// only.
 inline constexpr std::size_t kMostAssessedValues = 50'000'000;
+
+// Columns of some rows of results.
+struct ResultColumns {
+    std::vector<std::vector<double>> parameters;
+    std::vector<std::vector<double>> features;  // rows x noise levels
+    std::size_t rows = 0;
+
+    ResultColumns() = default;
+    explicit ResultColumns(const RowShape& shape)
+        : parameters(shape.parameters), features(shape.features) {}
+    void add(const double* values, const RowShape& shape);
+};
+
+// Columns that curves, areas and ranking need.
+struct AssessedColumns {
+    ResultColumns healthy, graded;  // one record per gearbox
+    ResultColumns repeats;          // all records of the threshold sample, if there are several
+    std::vector<std::size_t> healthy_gearbox;
+    std::vector<std::size_t> record_gearbox;  // of `repeats`, or of `healthy` if that is empty
+};
+
+// Empty if there are more than `most_values` values.
+std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowSource& rows,
+                                                std::size_t most_values = kMostAssessedValues);
+
+// Columns with their names and units. Refers to both arguments. `condition` and `costs` as in
+// reliability_of().
+class AssessedData {
+  public:
+    AssessedData(const Results& frame, const AssessedColumns& columns, const std::string& condition,
+                 std::optional<analysis::Costs> costs);
+    AssessedData(const AssessedData&) = delete;
+    AssessedData& operator=(const AssessedData&) = delete;
+    const analysis::ReliabilityData& operator*() const { return data_; }
+
+  private:
+    std::vector<double> no_fault_;  // sizes in a study without faults
+    analysis::ReliabilityData data_;
+};
 
 // Assesses all features. `frame.detection` must be up to date (detect_all). `condition`: name of a
 // parameter with separate thresholds for its values, "" for none. Throws std::runtime_error with

@@ -12,14 +12,13 @@
 #include "machine/wall_clock.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
-#include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/results/provenance.hpp"
-#include "mc/results/reliability_of_results.hpp"
 #include "mc/results/row_source.hpp"
+#include "mc/run/reliability_on_machines.hpp"
 #include "mc/run/run_agreement.hpp"
 #include "mc/run/run_checks.hpp"
 #include "mc/run/run_to_end.hpp"
@@ -156,8 +155,9 @@ class Run {
     // Texts of results that have been written.
     Texts texts_of(const Results& all, const RowSource& rows) const {
         try {
-            const analysis::Report report =
-                results_report(all, rows, reliability_of(all, rows, "", idle_threads()));
+            const analysis::Report report = results_report(
+                all, rows,
+                reliability_on_machines(all, rows, ranks_, threads_of_machine(study_, ranks_)));
             return {report_text(report), "\n" + headline_text(report)};
         } catch (const machine::Cancelled&) {
             return {"the time limit is reached; `gearpod report` shows the results", ""};
@@ -209,18 +209,14 @@ class Run {
             fmt::print("{}\n", texts.report);
             print_failures(counts, scene_.max_meshes());
             print_computing_times(outcome);
-            fmt::print("set-up {:.2f} s, detection and results {:.2f} s\n", setup_s_,
-                       seconds_since(start));
+            fmt::print(
+                "set-up {:.2f} s, detection and results {:.2f} s{}\n", setup_s_,
+                seconds_since(start),
+                ranks_.machines() == 1 ? "" : fmt::format(" on {} machines", ranks_.machines()));
             print_end(outcome, path);
             fmt::print("{}", texts.headline);
         }
         return counts.failed() == 0 ? kDone : kSomeFailed;
-    }
-
-    // Number of threads of all ranks on this machine, which are idle now.
-    int idle_threads() const {
-        const int ranks = ranks_.on_this_machine();
-        return std::min(machine::processors(), ranks * thread_count(study_, ranks));
     }
 
     std::string state_of(const EnsembleOutcome& outcome) const {
@@ -345,7 +341,7 @@ int run_study(const RunOptions& options, const Ranks& ranks) {
     }
     if (!ranks.leads()) {
         compute_for_leader(options, *scene, ranks, interruption);
-        return std::stoi(ranks.from_leader(""));
+        return std::stoi(assess_for_leader(scene->study(), ranks));
     }
     const int code =
         run_to_end(options, made, ranks, std::move(checkpoint), seconds_since(start), interruption);

@@ -68,7 +68,7 @@ struct Study {
         return all;
     }
 
-    Reliability assess(bool by_torque = false, int threads = 2) const {
+    Reliability assess(bool by_torque = false, int threads = 2, std::size_t shares = 1) const {
         ReliabilityData data;
         data.healthy_size = healthy_size;
         data.graded_size = graded_size;
@@ -79,7 +79,16 @@ struct Study {
         for (std::size_t f = 0; f < names.size(); ++f) {
             data.features.push_back({names[f], Alarm::high, healthy[f], graded[f]});
         }
-        return assess_reliability(data, detections(), request, threads);
+        const auto found = detections();
+        std::vector<LevelReliability> pairs(names.size() * request.noise_levels.size());
+        // Shares in an arbitrary number, as on several machines.
+        for (std::size_t first = 0; first < shares; ++first) {
+            auto share = assess_pairs(data, found, request, {first, shares}, threads);
+            for (std::size_t i = 0; i < share.size(); ++i) {
+                pairs[first + i * shares] = std::move(share[i]);
+            }
+        }
+        return assess_reliability(data, found, request, std::move(pairs), threads);
     }
 };
 
@@ -187,6 +196,7 @@ TEST_CASE("The JSON maps detection over every input and does not depend on the n
     const Study study;
     const auto json = reliability_json(study.assess(false, 1), study.request);
     CHECK(json.dump() == reliability_json(study.assess(false, 4), study.request).dump());
+    CHECK(json.dump() == reliability_json(study.assess(false, 2, 3), study.request).dump());
     const auto& torque = json["robustness"]["torque"]["features"];
     REQUIRE(torque.size() == 5);
     const auto& good = torque[0]["levels"][0];
