@@ -14,10 +14,10 @@
 namespace gearpod::mc {
 namespace {
 
-// Peak memory of the assessment in bytes per value (gearbox, feature and noise level): columns,
-// and those of the pairs that the threads assess. Measured for `run` with 0.2 and 2.6 million
-// values.
-constexpr double kBytesOfValue = 40.0;
+// Peak memory of the assessment in bytes per value (gearbox, feature and noise level): at first
+// while thresholds are set, which holds up to 64 MB of values at once, later for the columns of all
+// values and of the pairs in work. Measured with 0.2, 2.6, 4 and 40 million values.
+constexpr double kFirstBytesOfValue = 40.0, kBytesOfValue = 22.0, kBytesBeyond = 70e6;
 
 // Memory in bytes per record while the rates of a feature are counted at one noise level, and per
 // value of its columns (row_source.hpp), which grow by doubling.
@@ -243,8 +243,9 @@ Results synthetic_results(const Scene& scene, const RunCost& calibration, const 
 }
 
 double assessment_bytes(const Study& study, const BatchPlan& plan) {
-    const auto assessed = [](std::size_t values) {
-        return kBytesOfValue * static_cast<double>(values);
+    const auto assessed = [](std::size_t count) {
+        const auto values = static_cast<double>(count);
+        return std::min(kFirstBytesOfValue * values, kBytesBeyond + kBytesOfValue * values);
     };
     const double gearboxes = assessed(std::min(values_of(study, plan), kMostAssessedValues));
     if (plan.threshold_records() == 1) {

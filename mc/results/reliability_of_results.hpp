@@ -12,7 +12,7 @@
 namespace gearpod::mc {
 
 // Largest number of values (gearboxes x features x noise levels) for POD curves, areas and ranking,
-// which need all values at once, some 40 bytes for each. Larger ensembles have detection rates
+// which need all values at once, 22 to 40 bytes for each. Larger ensembles have detection rates
 // only.
 inline constexpr std::size_t kMostAssessedValues = 50'000'000;
 

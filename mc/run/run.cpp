@@ -14,6 +14,7 @@
 #include "mc/ensemble/run_store.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/results/provenance.hpp"
@@ -66,7 +67,9 @@ class Run {
                 study_.detection.confidence, analysis::Subject::gearboxes,
                 study_.ensemble.threshold_records, study_.ensemble.uses_importance_sampling());
             !shortage.empty()) {
-            fmt::print(stderr, "{}: {}\n", options_.study.path, shortage);
+            fmt::print(
+                stderr, "{}\n",
+                wrapped_text(fmt::format("{}: warning: {}", options_.study.path, shortage), 2));
         }
         if (!options_.quiet) {
             fmt::print(stderr, "running {}: {}\n", options_.study.path, study_.title);
