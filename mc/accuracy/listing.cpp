@@ -48,7 +48,7 @@ void add_graded(const Study& study, const SolverFamily& family, double least_cos
 // cannot use it.
 void add_scaled(const Study& study, std::vector<ListedSetting>& all) {
     constexpr int kMostScaledSteps = 8;  // per sample
-    SolverSetting setting = own_setting(without_steps(study));
+    SolverSetting setting = own_setting(without_setting(study));
     setting.numerics.integrator = lockstep::Integrator::central_difference;
     setting.numerics.convergence_tolerance = convergence_tolerances().front();
     setting.options.emplace_back("mass_scaling_Hz");
@@ -74,17 +74,19 @@ void add_scaled(const Study& study, std::vector<ListedSetting>& all) {
 
 }  // namespace
 
-Study without_steps(const Study& study) {
+Study without_setting(const Study& study) {
     Study free = study;
     free.numerics.integrator.reset();
     free.numerics.steps_per_mesh = 0;
     free.numerics.mass_scaling_Hz = 0.0;
+    free.numerics.precision = Precision::double_precision;
+    free.numerics.lanes = std::min(free.numerics.lanes, full_lanes(Precision::double_precision));
     return free;
 }
 
 std::vector<ListedSetting> listed_settings(const Study& study) {
     const std::vector<SolverFamily> all_families =
-        solver_families(without_steps(study), kListedBeyondOwnRule);
+        solver_families(without_setting(study), kListedBeyondOwnRule);
     double least_cost = INFINITY;
     for (const SolverFamily& family : all_families) {
         least_cost = family.graded() ? least_cost : std::min(least_cost, own_cost(study, family));

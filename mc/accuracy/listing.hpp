@@ -14,8 +14,8 @@ struct ListedSetting {
     std::string refusal;  // why it is not measured
 };
 
-// Study without a given integrator and number of steps.
-Study without_steps(const Study& study);
+// Study without a given integrator, number of steps, mass scaling and single precision.
+Study without_setting(const Study& study);
 
 // Settings to measure: the study's own first; then all uniform steps and graded grids with the
 // tightest convergence tolerance; last the study's own with every mesh period integrated.

@@ -52,7 +52,7 @@ class AccuracyMeasurement {
         request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
         reference.seconds = kReferenceErrorShare * time_.seconds();
-        report_.reference = converged_reference(without_steps(study_), pilot_, reference);
+        report_.reference = converged_reference(without_setting(study_), pilot_, reference);
         measure_effect_costs(scenes_.own(), request_, time_, report_);
         for (const ListedSetting& listed : listed_settings(study_)) {
             add(listed.setting, listed.refusal);
@@ -246,7 +246,7 @@ class AccuracyMeasurement {
             report_.choices.push_back(check);
             return;
         }
-        Study study = without_steps(study_);
+        Study study = without_setting(study_);
         study.numerics.tolerance = tolerance;
         try {
             const SolverSetting setting = resolve_numerics(study).choice->setting;

@@ -37,7 +37,7 @@ void write_hdf5(const std::string& path, const Simulation& simulation, const Stu
     }
     if (!simulation.contact_loss.empty()) {
         const Hdf5Handle group = create_group(file.get(), kContactLoss);
-        for (const MeshResult& mesh : simulation.contact_loss) {
+        for (const RowColumn& mesh : simulation.contact_loss) {
             write_numbers(group.get(), mesh.name, {1}, mesh.values);
             write_text(group.get(), mesh.name, "unit", "1");
         }
@@ -59,7 +59,7 @@ void print_summary(const Simulation& simulation, const std::string& out) {
         }
         fmt::print("\n");
     }
-    for (const MeshResult& mesh : simulation.contact_loss) {
+    for (const RowColumn& mesh : simulation.contact_loss) {
         fmt::print("contact loss    {:>12.4g} of a tooth pair's time, {}\n", mesh.values[0],
                    mesh.name);
     }

@@ -31,8 +31,12 @@ RowShape row_shape(const Study& study) {
     const std::size_t meshes =
         teeth_can_separate(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
     const std::size_t variants = study.sensor.additional.size() + (has_other_fault(study) ? 1 : 0);
-    return {input_columns(study).size(), study.features.use.size(),
-            study.sensor.noise_levels.size(), meshes, variants};
+    return {input_columns(study).size(),
+            study.features.use.size(),
+            study.sensor.noise_levels.size(),
+            meshes,
+            variants,
+            study.numerics.horizon == Horizon::superposed ? std::size_t{1} : std::size_t{0}};
 }
 
 BatchWorker::BatchWorker(const BatchTask& task)
@@ -148,6 +152,12 @@ void BatchWorker::add_row(const Realization& record, const GearboxTile& computed
         std::ranges::fill(loss, std::numeric_limits<double>::quiet_NaN());
     }
     rows.values.insert(rows.values.end(), loss.begin(), loss.end());
+    if (shape_.integration > 0) {
+        const std::vector<char>& superposed = computed.integration.superposed;
+        rows.values.push_back(status != Status::ok                           ? kNone
+                              : !superposed.empty() && superposed[lane] != 0 ? 1.0
+                                                                             : 0.0);
+    }
     rows.values.insert(rows.values.end(), variants.begin(), variants.end());
 }
 

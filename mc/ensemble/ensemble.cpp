@@ -48,6 +48,9 @@ Results results_frame(const Study& study) {
             results.contact_loss.push_back({mesh_name(mesh), {}});
         }
     }
+    if (study.numerics.horizon == Horizon::superposed) {
+        results.integration.push_back({"superposed", {}});
+    }
     return results;
 }
 

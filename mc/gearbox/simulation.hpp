@@ -11,7 +11,7 @@ namespace gearpod::mc {
 
 struct Simulation {
     std::vector<SignalColumn> columns;
-    std::vector<MeshResult> contact_loss;  // over the mesh periods of the signals
+    std::vector<RowColumn> contact_loss;  // over the mesh periods of the signals
     std::vector<double> noise_levels;
     std::vector<std::string> feature_names;
     std::vector<double> features;  // [feature * levels + level], as in a results file

@@ -45,6 +45,7 @@ Results lives_frame(const Study& study) {
     frame.parameters.pop_back();  // the fault size, which is not constant
     frame.variants.clear();
     frame.contact_loss.clear();  // superposed records have no contact loss ratio
+    frame.integration.clear();
     for (const OwnColumn& column : kOwnColumns) {
         frame.parameters.push_back({column.name, column.unit, {}});
     }

@@ -86,7 +86,9 @@ std::vector<SolverFamily> solver_families(const Study& study, double beyond) {
         }
         SolverSetting setting = own_setting(study);
         setting.numerics.integrator = integrator;
-        add_families(study, setting, beyond, all);
+        if (setting.numerics.precision == Precision::double_precision) {
+            add_families(study, setting, beyond, all);
+        }
         setting.numerics.precision = Precision::single_precision;
         setting.options.emplace_back("precision");
         add_families(study, setting, beyond, all);

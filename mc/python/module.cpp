@@ -85,7 +85,7 @@ py::dict simulate(mc::OpenStudy& study, const std::vector<long>& rows, long mesh
         static_cast<py::ssize_t>(all.columns.empty() ? 0 : all.columns.front().values.size()) /
         std::max<py::ssize_t>(1, count);
     py::dict contact_loss;
-    for (mc::MeshResult& mesh : all.contact_loss) {
+    for (mc::RowColumn& mesh : all.contact_loss) {
         contact_loss[py::str(mesh.name)] = array_of(std::move(mesh.values));
     }
     const auto features = static_cast<py::ssize_t>(all.feature_names.size());

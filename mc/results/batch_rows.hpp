@@ -18,13 +18,15 @@ namespace gearpod::mc {
 inline constexpr int kBatchRows = 16;
 
 // Numbers in a row: the parameters (input_columns()), then features x noise levels, then
-// the contact loss ratio of each mesh, then features x noise levels of each variant.
+// the contact loss ratio of each mesh, then whether the motion was superposed, then features x
+// noise levels of each variant.
 struct RowShape {
     std::size_t parameters = 0;
     std::size_t features = 0;
     std::size_t levels = 0;
-    std::size_t meshes = 0;    // 0 if teeth cannot lose contact
-    std::size_t variants = 0;  // as Results::variants
+    std::size_t meshes = 0;       // 0 if teeth cannot lose contact
+    std::size_t variants = 0;     // as Results::variants
+    std::size_t integration = 0;  // as Results::integration
 
     std::size_t values() const { return variant_value_of(variants, 0); }
     // Index of the fault size, and of the importance weight of a row that has one.
@@ -32,12 +34,13 @@ struct RowShape {
     std::size_t noise_weight() const { return parameters - 2; }
     // Index of the first contact loss ratio.
     std::size_t contact_loss() const { return parameters + features * levels; }
+    std::size_t integration_value() const { return contact_loss() + meshes; }
     std::size_t value_of(std::size_t feature, std::size_t level) const {
         return parameters + feature * levels + level;
     }
     // Index of the first noise level of a variant's feature.
     std::size_t variant_value_of(std::size_t variant, std::size_t feature) const {
-        return contact_loss() + meshes + (variant * features + feature) * levels;
+        return integration_value() + integration + (variant * features + feature) * levels;
     }
     bool operator==(const RowShape&) const = default;
 };

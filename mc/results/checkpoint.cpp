@@ -48,9 +48,10 @@ std::string_view view(const std::vector<std::byte>& bytes) {
 
 std::string text_of(const RunIdentity& identity) {
     const RowShape& shape = identity.shape;
-    return fmt::format("{}\n{}\n{} {} {} {} {}{}{}\n{}", identity.version, identity.seed,
+    return fmt::format("{}\n{}\n{} {} {} {} {} {}{}{}\n{}", identity.version, identity.seed,
                        shape.parameters, shape.features, shape.levels, shape.meshes, shape.variants,
-                       identity.part.empty() ? "" : " ", identity.part, identity.study);
+                       shape.integration, identity.part.empty() ? "" : " ", identity.part,
+                       identity.study);
 }
 
 RunIdentity identity_of(const std::string& text) {
@@ -63,7 +64,7 @@ RunIdentity identity_of(const std::string& text) {
     std::istringstream numbers(text.substr(seed + 1, shape - seed - 1));
     RowShape& own = identity.shape;
     numbers >> own.parameters >> own.features >> own.levels >> own.meshes >> own.variants >>
-        identity.part;
+        own.integration >> identity.part;
     identity.study = text.substr(shape + 1);
     return identity;
 }

@@ -45,11 +45,15 @@ RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange
         read_rows(root, "features/" + frame.features[f].name, {rows, shape.levels}, range, column);
         put(shape.value_of(f, 0), shape.levels);
     }
-    for (std::size_t m = 0; m < shape.meshes; ++m) {
-        read_rows(root, std::string(kContactLoss) + "/" + frame.contact_loss[m].name, {rows}, range,
-                  column);
-        put(shape.contact_loss() + m, 1);
-    }
+    const auto put_columns = [&](const std::string& group, const std::vector<RowColumn>& columns,
+                                 std::size_t at) {
+        for (const RowColumn& one : columns) {
+            read_rows(root, group + "/" + one.name, {rows}, range, column);
+            put(at++, 1);
+        }
+    };
+    put_columns(kContactLoss, frame.contact_loss, shape.contact_loss());
+    put_columns(kIntegration, frame.integration, shape.integration_value());
     for (std::size_t v = 0; v < shape.variants; ++v) {
         const Variant& variant = frame.variants[v];
         for (std::size_t f = 0; f < shape.features; ++f) {

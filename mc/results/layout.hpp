@@ -10,6 +10,9 @@ inline constexpr const char* kStatusMeanings =
     "0 ok, 1 diverged, 2 not converged, 3 unstable above a critical speed of the carrier, 4 "
     "unstable by parametric resonance, 5 step too long, 6 no equilibrium";
 inline constexpr const char* kContactLoss = "contact_loss";
+inline constexpr const char* kIntegration = "integration";
+inline constexpr const char* kSuperposedMeaning =
+    "1: the motion was superposed from unit responses; 0: all mesh periods were integrated";
 inline constexpr const char* kVariants = "variants";
 inline constexpr const char* kContactLossMeaning =
     "contact loss ratio: the share of its engagement, within the nominal path of contact, in which "

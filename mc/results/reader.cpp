@@ -46,7 +46,8 @@ class ResultsReader {
         read_provenance();
         read_instances();
         read_features();
-        read_contact_loss();
+        read_columns(kContactLoss, results_.contact_loss);
+        read_columns(kIntegration, results_.integration);
         read_variants();
         read_detection();
         read_numerical_groups(root_, most_, results_);
@@ -142,14 +143,14 @@ class ResultsReader {
         return std::ranges::count(link_names(root_), name) > 0;
     }
 
-    void read_contact_loss() {
-        if (!has_group(kContactLoss)) {
+    void read_columns(const char* group_name, std::vector<RowColumn>& columns) {
+        if (!has_group(group_name)) {
             return;
         }
-        const Hdf5Handle group = open_group(root_, kContactLoss);
+        const Hdf5Handle group = open_group(root_, group_name);
         for (const std::string& name : link_names(group.get())) {
-            results_.contact_loss.push_back({name, column(group.get(), name)});
-            require_count(results_.contact_loss.back().values.size(), results_.group.size(), name);
+            columns.push_back({name, column(group.get(), name)});
+            require_count(columns.back().values.size(), results_.group.size(), name);
         }
     }
 

@@ -7,6 +7,9 @@
 //   /contact_loss/<mesh>   one value per row, attributes `unit` ("1") and `description`: the
 //                          contact loss ratio. Absent if teeth cannot lose contact, and in files
 //                          of versions before 0.3
+//   /integration/superposed one value per row, attributes `unit` and `description`: 1 if the motion
+//                          was superposed, 0 if all mesh periods were integrated. Absent unless
+//                          numerics.horizon is "superposed"
 //   /variants/<variant>/<feature>  as /features/<feature>, of the same gearboxes with other
 //                          signals; attribute `description` of the variant
 //   /noise_levels          factors on the sensor and encoder noise
@@ -91,9 +94,10 @@ struct FeatureResult {
     std::vector<double> values;  // rows x noise levels, row-major; NaN: no value
 };
 
-// Contact loss ratio of one mesh.
-struct MeshResult {
-    std::string name;            // "sun-planet", "ring-planet" or "pinion-gear"
+// What is known of the motion of every gearbox: the contact loss ratio of one mesh, or whether the
+// motion was superposed.
+struct RowColumn {
+    std::string name;            // "sun-planet", "ring-planet", "pinion-gear" or "superposed"
     std::vector<double> values;  // one per row; NaN for a gearbox that failed
 };
 
@@ -177,7 +181,8 @@ struct Results {
     std::vector<int> status;           // Status of each row
     std::vector<double> noise_levels;  // for lives: hours of the records
     std::vector<FeatureResult> features;
-    std::vector<MeshResult> contact_loss;  // empty if teeth cannot lose contact
+    std::vector<RowColumn> contact_loss;  // empty if teeth cannot lose contact
+    std::vector<RowColumn> integration;   // "superposed" if numerics.horizon requests it
     std::vector<Variant> variants;
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;

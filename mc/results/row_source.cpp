@@ -79,8 +79,10 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
                 block.values.push_back(parameter.values[row]);
             }
             add_levels(results_.features, row, levels, block.values);
-            for (const MeshResult& mesh : results_.contact_loss) {
-                block.values.push_back(mesh.values[row]);
+            for (const auto* columns : {&results_.contact_loss, &results_.integration}) {
+                for (const RowColumn& column : *columns) {
+                    block.values.push_back(column.values[row]);
+                }
             }
             for (const Variant& variant : results_.variants) {
                 add_levels(variant.features, row, levels, block.values);
@@ -112,8 +114,8 @@ bool uses_noise_weights(const std::string& feature) {
 }
 
 RowShape row_shape(const Results& results) {
-    return {results.parameters.size(), results.features.size(), results.noise_levels.size(),
-            results.contact_loss.size(), results.variants.size()};
+    return {results.parameters.size(),   results.features.size(), results.noise_levels.size(),
+            results.contact_loss.size(), results.variants.size(), results.integration.size()};
 }
 
 void fill_columns(Results& results, const RowSource& rows) {
@@ -133,6 +135,9 @@ void fill_columns(Results& results, const RowSource& rows) {
             }
             for (std::size_t m = 0; m < shape.meshes; ++m) {
                 results.contact_loss[m].values.push_back(values[shape.contact_loss() + m]);
+            }
+            for (std::size_t i = 0; i < shape.integration; ++i) {
+                results.integration[i].values.push_back(values[shape.integration_value() + i]);
             }
             for (std::size_t v = 0; v < shape.variants; ++v) {
                 for (std::size_t f = 0; f < shape.features; ++f) {

@@ -32,8 +32,10 @@ void check_shapes(const Results& results) {
         require(feature.values.size() == rows * results.noise_levels.size(),
                 feature.name + " is not rows x noise levels");
     }
-    for (const MeshResult& mesh : results.contact_loss) {
-        require(mesh.values.size() == rows, mesh.name + " has another number of rows");
+    for (const auto* columns : {&results.contact_loss, &results.integration}) {
+        for (const RowColumn& column : *columns) {
+            require(column.values.size() == rows, column.name + " has another number of rows");
+        }
     }
     for (const Variant& variant : results.variants) {
         require(variant.features.size() == results.features.size(),
@@ -113,18 +115,18 @@ void create_variants(hid_t root, const Results& frame, hsize_t rows, Places& pla
     }
 }
 
-void create_contact_loss(hid_t root, const Results& frame, hsize_t rows, Places& places) {
-    if (frame.contact_loss.empty()) {
+// Columns of one value per row, from place `first` of a row.
+void create_columns(hid_t root, const char* group_name, const std::vector<RowColumn>& columns,
+                    const char* meaning, std::size_t first, hsize_t rows, Places& places) {
+    if (columns.empty()) {
         return;
     }
-    const std::size_t first = row_shape(frame).contact_loss();
-    const Hdf5Handle group = create_group(root, kContactLoss);
-    for (std::size_t m = 0; m < frame.contact_loss.size(); ++m) {
-        const std::string& name = frame.contact_loss[m].name;
+    const Hdf5Handle group = create_group(root, group_name);
+    for (const RowColumn& column : columns) {
         places.numbers.push_back(
-            {create_column(group.get(), name, {rows}, ColumnKind::numbers), first + m, 1});
-        write_text(group.get(), name, "unit", "1");
-        write_text(group.get(), name, "description", kContactLossMeaning);
+            {create_column(group.get(), column.name, {rows}, ColumnKind::numbers), first++, 1});
+        write_text(group.get(), column.name, "unit", "1");
+        write_text(group.get(), column.name, "description", meaning);
     }
 }
 
@@ -238,7 +240,11 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         }
         create_instances(root.get(), frame, rows, places);
         create_features(root.get(), frame, rows, places);
-        create_contact_loss(root.get(), frame, rows, places);
+        const RowShape shape = row_shape(frame);
+        create_columns(root.get(), kContactLoss, frame.contact_loss, kContactLossMeaning,
+                       shape.contact_loss(), rows, places);
+        create_columns(root.get(), kIntegration, frame.integration, kSuperposedMeaning,
+                       shape.integration_value(), rows, places);
         create_variants(root.get(), frame, rows, places);
         write_detection(root.get(), frame);
         write_numerical_groups(root.get(), frame);

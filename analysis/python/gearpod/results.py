@@ -70,6 +70,7 @@ class Results:
             self.features: List[str] = list(file["features"])
             # Meshes whose contact loss ratio is known; none where teeth cannot separate.
             self.meshes: List[str] = list(file.get("contact_loss", {}))
+            self.integration: List[str] = list(file.get("integration", {}))
             # Other signals of the same gearboxes whose features are stored, by name.
             self.variants: Dict[str, str] = {
                 name: _text(group.attrs["description"])
@@ -117,6 +118,11 @@ class Results:
         the nominal path of contact, in which a tooth pair carries no load; NaN where there is no
         value."""
         return self._read("contact_loss", mesh, self.meshes)
+
+    def superposed(self) -> Array:
+        """1 for each gearbox whose motion was superposed, 0 where all mesh periods were integrated;
+        NaN where there is no value. Only for studies whose numerics.horizon is "superposed"."""
+        return self._read("integration", "superposed", self.integration)
 
     def variant(self, name: str, feature: str) -> Array:
         """Values of a feature of other signals, gearboxes x noise levels. The variant "sensor_NAME"

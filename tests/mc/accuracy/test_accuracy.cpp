@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
@@ -134,6 +135,14 @@ TEST_CASE("a study with its choice written out leads to the same choice", "[accu
     REQUIRE(back.study.has_value());
     CHECK(*back.study == study);
     CHECK(resolve_numerics(*back.study).study == study);
+}
+
+TEST_CASE("A study in single precision is compared with double precision too", "[accuracy]") {
+    const auto listed =
+        listed_settings(tian({"numerics.integrator=rk4", "numerics.precision=single"}));
+    CHECK(std::ranges::any_of(listed, [](const ListedSetting& one) {
+        return one.setting.numerics.precision == Precision::double_precision;
+    }));
 }
 
 TEST_CASE("a tolerance that the given steps cannot meet is refused", "[accuracy]") {

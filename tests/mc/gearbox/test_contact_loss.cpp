@@ -42,7 +42,7 @@ TEST_CASE("Rows hold the share of time out of contact of each mesh, for any lane
     REQUIRE(wide.contact_loss.size() == 2);
     CHECK(wide.contact_loss[0].name == "sun-planet");
     CHECK(wide.contact_loss[1].name == "ring-planet");
-    for (const MeshResult& mesh : wide.contact_loss) {
+    for (const RowColumn& mesh : wide.contact_loss) {
         REQUIRE(mesh.values.size() == wide.status.size());
         for (const double value : mesh.values) {
             CHECK(value >= 0.0);

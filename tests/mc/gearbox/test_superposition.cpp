@@ -9,6 +9,7 @@
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/random_tooth_errors.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
+#include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_superposition {
@@ -130,6 +131,18 @@ TEST_CASE("Gearboxes whose tooth pairs lose contact are integrated in full, to t
     }
     CHECK(same > 0);
     CHECK(same < 8);
+
+    // The results file names the gearboxes, after two healthy ones of the threshold sample.
+    const test::Folder folder;
+    write_results(folder.file("r.h5"), test::run(study_with("superposed", {kLight})));
+    const Results results = read_results(folder.file("r.h5"));
+    REQUIRE(results.integration.size() == 1);
+    CHECK(results.integration[0].name == "superposed");
+    for (std::size_t row = 2; row < results.status.size(); ++row) {
+        CHECK(results.integration[0].values.at(row) ==
+              (superposed->integration.superposed.at(row - 2) != 0 ? 1.0 : 0.0));
+    }
+    CHECK(test::run(study_with("full", {kLight})).integration.empty());
 }
 
 namespace {
