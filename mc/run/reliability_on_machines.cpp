@@ -80,7 +80,8 @@ class AllMachines {
     }
     Evaluated receive() const {
         for (;;) {
-            if (auto message = ranks_.receive()) {
+            if (auto message = ranks_.receive();
+                message && message->kind == static_cast<int>(MessageKind::assessed)) {
                 return value_of<Evaluated>(std::move(message->bytes));
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -107,7 +108,7 @@ void evaluate_share(const Study& study, const Ranks& ranks) {
             analysis::assess_pairs(*data, frame.detection, frame.request,
                                    {evaluated.machine, static_cast<std::size_t>(ranks.machines())},
                                    threads_of_machine(study, ranks));
-    } catch (const std::exception&) {  // rank 0 reports the problem when it meets it
+    } catch (...) {  // rank 0 reports the problem when it meets it, or is cancelled too
         evaluated = {evaluated.machine, {}, true};
     }
     ranks.send(0, static_cast<int>(MessageKind::assessed), bytes_of(evaluated));
@@ -126,8 +127,9 @@ std::optional<analysis::Reliability> reliability_on_machines(const Results& fram
         return std::nullopt;
     }
     const AssessedData data(frame, *columns, "", {});
+    std::string bytes = bytes_of(*columns, frame.detection);
     ranks.from_leader(kAssess);
-    ranks.from_leader_to_machines(bytes_of(*columns, frame.detection));
+    ranks.from_leader_to_machines(std::move(bytes));
     Levels pairs = AllMachines(frame, *data, ranks, threads).run();
     return analysis::assess_reliability(*data, frame.detection, frame.request, std::move(pairs),
                                         threads);
