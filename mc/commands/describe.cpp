@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -24,6 +25,7 @@
 #include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/python/python_worker.hpp"
+#include "mc/forecast/memory.hpp"
 #include "mc/gearbox/integration_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/record_window.hpp"
@@ -216,14 +218,15 @@ void print_omitted(const char* what, const DescribeOptions& options) {
 
 // Forecast where the budget is used up. `scene`: null if the pilot run that chooses the solver
 // setting took too long.
-void print_fallback(const Study& study, const std::optional<Scene>& scene) {
+void print_fallback(const Study& study, const std::optional<Scene>& scene,
+                    const PeakMemory& memory) {
     if (scene) {
-        return print_step_forecast(*scene);
+        return print_step_forecast(*scene, memory);
     }
     try {
         const Scene with_defaults(without_tolerance(study));
         print_entry("solver setting", "the default, not the one that a pilot run would choose");
-        print_step_forecast(with_defaults);
+        print_step_forecast(with_defaults, memory);
     } catch (const SceneError& error) {
         print_problems({{"", 0, error.key(), error.what(), ""}});
     }
@@ -266,6 +269,8 @@ int describe_command(const DescribeOptions& options) {
     const char* missing =
         "gearbox, effects and cost, because a pilot run chooses the solver setting first";
     std::optional<Scene> scene;
+    PeakMemory memory{.setup_bytes = peak_memory_bytes()};
+    double before_bytes = std::numeric_limits<double>::infinity();  // before the forecast
     try {
         const Deadline deadline(options.seconds * std::max(1, thread_count(*study)));
         const auto made = make_scene(options.study);
@@ -275,6 +280,7 @@ int describe_command(const DescribeOptions& options) {
         }
         const double setup_s = seconds_since(start);
         scene.emplace(*made.scene);
+        memory.setup_bytes = peak_memory_bytes();
         print_python_features(*study);
         print_gearbox(*scene);
         print_effects(*scene);
@@ -283,10 +289,13 @@ int describe_command(const DescribeOptions& options) {
         print_cost(*scene, made.choice);
         std::fflush(stdout);
         missing = "computing some gearboxes and their analysis for the forecast";
+        before_bytes = peak_memory_bytes();
         print_forecast(*scene, begun_s + setup_s, options.ranks);
     } catch (const machine::Cancelled&) {
         print_omitted(missing, options);
-        print_fallback(*study, scene);
+        const double now_bytes = peak_memory_bytes();
+        memory.computed_bytes = now_bytes > before_bytes ? now_bytes : 0.0;
+        print_fallback(*study, scene, memory);
         return kDone;
     }
     std::fflush(stdout);

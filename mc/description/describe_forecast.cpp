@@ -145,7 +145,7 @@ bool print_lives(const Scene& scene, double setup_s) {
 
 }  // namespace
 
-void print_step_forecast(const Scene& scene) {
+void print_step_forecast(const Scene& scene, const PeakMemory& memory) {
     const Study& study = scene.study();
     const BatchPlan plan(study.ensemble);
     const auto threads =
@@ -173,10 +173,10 @@ void print_step_forecast(const Scene& scene) {
                 seconds_text(tiles * meshes * mesh_period_s(scene) / static_cast<double>(threads)),
                 tiles, study.numerics.lanes, meshes, scene.plan().grid.steps.size()));
     }
-    print_entry("memory", fmt::format("at least {:.0f} MB",
-                                      (peak_memory_bytes() +
-                                       least_memory_bytes(scene, plan, static_cast<int>(threads))) /
-                                          1e6));
+    const double least_bytes =
+        std::max(memory.setup_bytes + least_memory_bytes(scene, plan, static_cast<int>(threads)),
+                 memory.computed_bytes);
+    print_entry("memory", fmt::format("at least {:.0f} MB", least_bytes / 1e6));
 }
 
 void print_forecast(const Scene& scene, double setup_s, int ranks) {

@@ -10,8 +10,14 @@ namespace gearpod::mc {
 // `setup_s`: time used to start the program and build the scene.
 void print_forecast(const Scene& scene, double setup_s, int ranks);
 
+// Peak memory of this process.
+struct PeakMemory {
+    double setup_bytes = 0.0;     // when the scene was built
+    double computed_bytes = 0.0;  // while gearboxes were computed; 0 if they took no more
+};
+
 // Forecast from the numbers of gearboxes and time steps alone, where computing some gearboxes takes
 // too long.
-void print_step_forecast(const Scene& scene);
+void print_step_forecast(const Scene& scene, const PeakMemory& memory);
 
 }  // namespace gearpod::mc
