@@ -38,10 +38,6 @@ class PollInterval {
     double shortest_s_ = 1.0;
 };
 
-void send(const Ranks& ranks, int to, MessageKind what, const std::string& bytes = {}) {
-    ranks.send(to, static_cast<int>(what), bytes);
-}
-
 class Leader {
   public:
     Leader(WorkerTeam& team, const BatchPlan& plan, const EnsembleRun& run)
@@ -138,7 +134,11 @@ class Leader {
                     outcome_.teams[rank] = value_of<TeamTimes>(message->bytes);
                     ++closed_;
                     break;
-                default:
+                case MessageKind::compute:
+                case MessageKind::drop:
+                case MessageKind::cancel:
+                case MessageKind::close:
+                case MessageKind::assessed:
                     break;  // rank 0 sends these; "assessed" follows all batches
             }
         }
@@ -359,8 +359,12 @@ class Follower {
                 case MessageKind::close:
                     closed_ = true;
                     break;
-                default:
-                    break;  // only rank 0 receives the others
+                case MessageKind::finished:
+                case MessageKind::dropped:
+                case MessageKind::stop:
+                case MessageKind::times:
+                case MessageKind::assessed:
+                    break;  // only rank 0 receives these
             }
         }
     }

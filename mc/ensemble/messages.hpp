@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 
+#include "mc/ensemble/ranks.hpp"
 #include "mc/ensemble/worker_team.hpp"
 
 namespace gearpod {
@@ -36,6 +37,10 @@ enum class MessageKind {
     times,     // to rank 0: times of the threads; the last message about batches
     assessed,  // to rank 0: detection statistics of a machine's share
 };
+
+inline void send(const Ranks& ranks, int to, MessageKind what, const std::string& bytes = {}) {
+    ranks.send(to, static_cast<int>(what), bytes);
+}
 
 using gearpod::serialize;
 

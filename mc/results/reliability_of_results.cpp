@@ -78,7 +78,6 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
 AssessedData::AssessedData(const Results& frame, const AssessedColumns& columns,
                            const std::string& condition, std::optional<analysis::Costs> costs)
     : no_fault_(std::max(columns.healthy.rows, columns.graded.rows), 0.0) {
-    check_condition(frame, condition);
     const auto& [healthy, graded, repeats, healthy_gearbox, record_gearbox] = columns;
     data_.costs = costs;
     data_.record_gearbox = record_gearbox;

@@ -41,7 +41,7 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
                                                 std::size_t most_values = kMostAssessedValues);
 
 // Columns with their names and units. Refers to both arguments. `condition` and `costs` as in
-// reliability_of().
+// reliability_of(), which checks the condition.
 class AssessedData {
   public:
     AssessedData(const Results& frame, const AssessedColumns& columns, const std::string& condition,

@@ -94,7 +94,7 @@ struct FeatureResult {
     std::vector<double> values;  // rows x noise levels, row-major; NaN: no value
 };
 
-// What is known of the motion of every gearbox: the contact loss ratio of one mesh, or whether the
+// One number about the motion of every gearbox: the contact loss ratio of a mesh, or whether the
 // motion was superposed.
 struct RowColumn {
     std::string name;            // "sun-planet", "ring-planet", "pinion-gear" or "superposed"

@@ -17,7 +17,7 @@ using Levels = std::vector<analysis::LevelReliability>;
 
 const std::string kAssess = "assess";
 
-// What the first rank of a machine sends to rank 0.
+// Share that the first rank of a machine sends to rank 0.
 struct Evaluated {
     std::size_t machine = 0;
     Levels levels;
@@ -111,7 +111,7 @@ void evaluate_share(const Study& study, const Ranks& ranks) {
     } catch (...) {  // rank 0 reports the problem when it meets it, or is cancelled too
         evaluated = {evaluated.machine, {}, true};
     }
-    ranks.send(0, static_cast<int>(MessageKind::assessed), bytes_of(evaluated));
+    send(ranks, 0, MessageKind::assessed, bytes_of(evaluated));
 }
 
 }  // namespace
