@@ -5,11 +5,26 @@
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
+
+namespace {
+
+struct AccuracyOptions {
+    StudyOptions study;
+    std::string json;               // "": none; "-": standard output instead of the table
+    std::string html, figures;      // page and folder of its figures; "": none
+    std::string peers;              // table of other programs' results, "": none
+    int repeats = 3;                // timings of each solver setting
+    std::optional<long> gearboxes;  // size of the pilot ensemble; 0: no detection rates
+    double seconds = 300.0;         // limit of processor time; 0: none
+    bool force = false;             // replaces outputs of another kind
+    bool quiet = false;
+};
 
 int accuracy_command(const AccuracyOptions& options) {
     std::vector<FileRole> others{{"the study", options.study.path}, {"--peers", options.peers}};
@@ -71,6 +86,36 @@ int accuracy_command(const AccuracyOptions& options) {
         fmt::print(stderr, "{}\n", exception_text(error));
     }
     return kBadInput;
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& app, int& code) {
+    const auto options = std::make_shared<AccuracyOptions>();
+    auto* command = app.add_subcommand(
+        "accuracy",
+        "compare solver settings for a study: numerical error and computing time of each");
+    add_study(*command, options->study);
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(command->add_option("--html", options->html,
+                                          "write a page with work-precision diagrams to a file"));
+    require_file_name(command->add_option(
+        "--figures", options->figures, "write the page's figures into a folder, as SVG and PNG"));
+    command->add_option("--peers", options->peers,
+                        "table (CSV) with results of other programs, for comparison");
+    add_number(*command, "--repeats", options->repeats,
+               "number of timings of each solver setting (default: 3)", from_to(1, 1000));
+    add_number(*command, "--gearboxes", options->gearboxes,
+               "number of gearboxes whose detection rates are compared; 0: none (default: 480, or "
+               "as many as the time allows)",
+               from_to(0, 1e6));
+    add_number(*command, "--seconds", options->seconds,
+               "processor time after which remaining parts are omitted; 0: no limit (default: 300)",
+               from_to(0.0, 1e9, "s"));
+    add_force(*command, options->force);
+    command->add_flag("--quiet", options->quiet, "show no progress");
+    command->callback([options, &code] { code = accuracy_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -6,17 +6,16 @@
 
 #include <algorithm>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "mc/calibration/healthy_records.hpp"
+#include "mc/calibration/calibration_report.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
-#include "mc/input/wrapped_text.hpp"
+#include "mc/options/options.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/run/support.hpp"
 #include "mc/study/housing.hpp"
@@ -25,6 +24,20 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct CalibrateOptions {
+    StudyOptions study;
+    std::vector<std::string> healthy;  // files, or glob patterns
+    std::string manifest;              // table of recordings, instead of `healthy`
+    std::string features;              // table of features, instead of `healthy`
+    SignalColumns columns;
+    std::vector<std::string> priors;   // KEY=LOW:HIGH[:log]; empty: the default priors
+    std::vector<std::string> feature;  // features to compare; empty: all
+    long sets = 200;                   // parameter sets integrated in each round
+    std::string out, json;
+    bool force = false;  // replaces outputs of another kind
+    bool quiet = false;
+};
 
 // Keeps the recordings labelled healthy, or all recordings if none has a label.
 void keep_healthy(RecordingList& list) {
@@ -231,102 +244,15 @@ class Command {
 
     int finish(const Study& study, const CalibrationTask& task, const CalibrationResult& result) {
         if (options_.json != "-" && options_.out != "-") {
-            print_table(result);
+            fmt::print("{}", calibration_text(result));
         }
-        const std::string text = calibrated_study(study, result, intro(study, result));
+        const std::string text =
+            calibrated_study(study, result, calibration_intro(study, set_, result));
         const bool out = options_.out.empty() || write_text_to(options_.out, text);
-        const bool json = options_.json.empty() ||
-                          write_text_to(options_.json, json_text(json_of(task, result), 2) + "\n");
+        const bool json =
+            options_.json.empty() ||
+            write_text_to(options_.json, json_text(calibration_json(set_, task, result), 2) + "\n");
         return out && json ? kDone : kBadInput;
-    }
-
-    std::vector<std::string> intro(const Study& study, const CalibrationResult& result) const {
-        std::vector<std::string> lines{
-            fmt::format("Calibrated to {} record(s) of {} healthy gearbox(es) by approximate",
-                        set_.records, set_.lengths.size()),
-            fmt::format("Bayesian computation: {} simulated sets ({} failed), seed {}.",
-                        result.sets, result.failed, study.ensemble.seed),
-            "Each distribution is the uncertainty of one value, the same for all gearboxes.",
-            "A run with this study includes that uncertainty."};
-        for (const FeatureCheck& check : result.checks) {
-            if (check.outside()) {
-                lines.push_back(fmt::format("NOT REPRODUCED: {} {:.4g}, simulated {:.4g} to {:.4g}",
-                                            check.name, check.measured, check.low, check.high));
-            }
-        }
-        return lines;
-    }
-
-    static void print_table(const CalibrationResult& result) {
-        fmt::print("{:<36}{:>11}{:>11}{:>11}{:>8}\n", "input", "median", "5 %", "95 %", "width");
-        for (const InputPosterior& one : result.found) {
-            const std::string source =
-                one.is_informed
-                    ? fmt::format("determined by {}", fmt::join(one.strongest_summaries, ", "))
-                    : "NOT DETERMINED by the recordings: this is the prior";
-            fmt::print("{:<36}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %\n    {}\n", one.input.key,
-                       one.median, one.low, one.high, 100.0 * one.width_ratio,
-                       wrapped_text(source, 4));
-        }
-        for (const CorrelatedPair& pair : result.pairs) {
-            const std::string both =
-                fmt::format("{} and {} are only determined jointly, rank correlation {:+.2f}",
-                            result.found[pair.first].input.key, result.found[pair.second].input.key,
-                            pair.correlation);
-            fmt::print("{}\n", wrapped_text(both, 2));
-        }
-        fmt::print(
-            "width: width of the 90 % interval divided by that of the prior\n"
-            "determined by: features that determine the input, with their rank "
-            "correlations\n\n{:<22}{:>12}{:>26}\n",
-            "feature", "measured", "simulated, 98 %");
-        for (const FeatureCheck& check : result.checks) {
-            fmt::print("{:<22}{:>12.5g}{:>13.5g} to{:>10.5g}  {}\n", check.name, check.measured,
-                       check.low, check.high, check.outside() ? "NOT REPRODUCED" : "");
-        }
-        if (result.failed > 0) {
-            fmt::print("{} of {} simulated sets have no features and were ignored\n", result.failed,
-                       result.sets);
-        }
-    }
-
-    nlohmann::ordered_json json_of(const CalibrationTask& task,
-                                   const CalibrationResult& result) const {
-        nlohmann::ordered_json json;
-        json["records"] = set_.records;
-        json["gearboxes"] = set_.lengths.size();
-        json["left_out"] = set_.left_out;
-        json["integrated_draws"] = kCalibrationRounds * task.integrated;
-        json["simulated_sets"] = result.sets;
-        json["failed_sets"] = result.failed;
-        json["inputs"] = nlohmann::ordered_json::array();
-        for (const InputPosterior& one : result.found) {
-            json["inputs"].push_back({{"key", one.input.key},
-                                      {"prior_low", one.input.low},
-                                      {"prior_high", one.input.high},
-                                      {"logarithmic", one.input.logarithmic},
-                                      {"median", one.median},
-                                      {"low", one.low},
-                                      {"high", one.high},
-                                      {"left", one.width_ratio},
-                                      {"is_informed", one.is_informed},
-                                      {"informed_by", one.strongest_summaries}});
-        }
-        json["together"] = nlohmann::ordered_json::array();
-        for (const CorrelatedPair& pair : result.pairs) {
-            json["together"].push_back({{"first", result.found[pair.first].input.key},
-                                        {"second", result.found[pair.second].input.key},
-                                        {"correlation", pair.correlation}});
-        }
-        json["features"] = nlohmann::ordered_json::array();
-        for (const FeatureCheck& check : result.checks) {
-            json["features"].push_back({{"name", check.name},
-                                        {"measured", check.measured},
-                                        {"low", check.low},
-                                        {"high", check.high},
-                                        {"reproduced", !check.outside()}});
-        }
-        return json;
     }
 
     const CalibrateOptions& options_;
@@ -336,8 +262,6 @@ class Command {
     std::vector<CalibratedInput> inputs_;
 };
 
-}  // namespace
-
 int calibrate_command(const CalibrateOptions& options) {
     try {
         return Command(options).run();
@@ -345,6 +269,57 @@ int calibrate_command(const CalibrateOptions& options) {
         fmt::print(stderr, "{}\n", exception_text(error));
         return kBadInput;
     }
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, int& code) {
+    const auto options = std::make_shared<CalibrateOptions>();
+    auto* command = app.add_subcommand(
+        "calibrate",
+        "fit tooth errors, background noise, tones, gain and path exponent of a study to "
+        "recordings of healthy gearboxes: approximate Bayesian computation with regression "
+        "adjustment");
+    add_study(*command, options->study);
+    command
+        ->add_option("--healthy", options->healthy,
+                     "recordings of healthy gearboxes, each of a different gearbox, or name "
+                     "patterns; same formats as for `features`")
+        ->allow_extra_args(false);
+    command->add_option("--manifest", options->manifest,
+                        "instead: table (CSV) of recordings as for `features`; column gearbox "
+                        "names the gearbox; faulty recordings are ignored");
+    command->add_option("--features", options->features,
+                        "instead: table (CSV) of features as written by `features --csv`");
+    add_columns(*command, options->columns);
+    command
+        ->add_option(
+            "--prior", options->priors,
+            "KEY=LOW:HIGH or KEY=LOW:HIGH:log: uniform or log-uniform prior of a study key; may "
+            "be repeated (default: gearbox.tooth_quality=2:11, or pitch_error_um if the study has "
+            "it; sensor.noise_m_s2 or its density, 1 to 105 % of the recordings' rms, log; "
+            "sensor.gain=0.05:20:log; sensor.path_exponent=-0.2:0.4; with tones "
+            "sensor.tone_level=0.01:20:log)")
+        ->type_name("KEY=LOW:HIGH")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--feature", options->feature,
+                     "feature to compare; may be repeated (default: all features of the "
+                     "acceleration except those of sun and ring and those that transform the "
+                     "whole record)")
+        ->allow_extra_args(false);
+    add_number(*command, "--draws", options->sets,
+               "parameter sets simulated in each of two rounds (default: 200); each set integrates "
+               "every gearbox once",
+               from_to(50, 100000));
+    require_file_name(command->add_option("--out", options->out,
+                                          "write a study file (TOML) with the calibrated inputs in "
+                                          "[random], or - for standard output"));
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    command->add_flag("--quiet", options->quiet, "do not print the computing time");
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = calibrate_command(*options); });
 }
 
 }  // namespace gearpod::mc

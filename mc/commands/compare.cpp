@@ -14,6 +14,7 @@
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -23,6 +24,12 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct CompareOptions {
+    std::vector<std::string> results;  // the others are compared with the first
+    std::string json, html;            // "": none; JSON "-": standard output
+    bool force = false;                // replaces outputs of another kind
+};
 
 // Results file with its own results.
 struct Side : ComparedSide {
@@ -125,8 +132,6 @@ std::vector<Side> read_sides(const std::vector<std::string>& paths) {
     return printed.empty() ? std::move(sides) : std::vector<Side>{};
 }
 
-}  // namespace
-
 int compare_command(const CompareOptions& options) {
     std::vector<FileRole> read;
     for (const std::string& path : options.results) {
@@ -168,6 +173,25 @@ int compare_command(const CompareOptions& options) {
         return kBadInput;
     }
     return kDone;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& code) {
+    const auto options = std::make_shared<CompareOptions>();
+    auto* command = app.add_subcommand(
+        "compare",
+        "compare detection between results files, for example of two sensors, noises or designs");
+    command
+        ->add_option("results", options->results,
+                     "results files (HDF5); all others are compared with the first")
+        ->required();
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", options->html, "write a page with figures to a file"));
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = compare_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -32,6 +32,7 @@
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/numerics/choice.hpp"
+#include "mc/options/options.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/false_alarm_target.hpp"
@@ -40,6 +41,14 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct DescribeOptions {
+    StudyOptions study;
+    bool keys = false;  // print the keys of study files instead
+    int ranks = 0;      // also forecast a run with this many MPI ranks; 0: do not
+    // Processor seconds of each thread for the forecast; then it falls back on step counts.
+    double seconds = 10.0;
+};
 
 // Prints the lengths of graded time steps and where the short ones lie.
 void print_steps(const Scene& scene) {
@@ -246,8 +255,6 @@ int print_keys(const std::string& word) {
     return kDone;
 }
 
-}  // namespace
-
 int describe_command(const DescribeOptions& options) {
     // Processor time used so far to load the program.
     const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -309,6 +316,35 @@ int describe_command(const DescribeOptions& options) {
         print_entry("not measured", error.key() + ": " + error.what());
     }
     return kDone;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, int& code) {
+    const auto options = std::make_shared<DescribeOptions>();
+    auto* command = app.add_subcommand(
+        "describe",
+        "print a study's settings, the effects simulated and omitted, and the estimated time and "
+        "memory of a run; computes for a few seconds and writes nothing");
+    add_study(*command, options->study)->required(false);
+    command->add_flag("--keys", options->keys,
+                      "print all keys of study files, or those with a word: describe --keys "
+                      "sensor");
+    add_number(*command, "--ranks", options->ranks,
+               "also forecast a run with this many MPI ranks: time, memory per rank, disk, and the "
+               "number of ranks from which rank 0 limits the speed",
+               from_to(1, 1e6));
+    add_number(
+        *command, "--seconds", options->seconds,
+        "processor seconds of each thread for the description, 10 by default; if they do not "
+        "suffice, the forecast is from the number of time steps alone",
+        from_to(0.1, 1e5));
+    command->callback([options, &code] {
+        if (options->study.path.empty() && !options->keys) {
+            throw CLI::RequiredError("study");
+        }
+        code = describe_command(*options);
+    });
 }
 
 }  // namespace gearpod::mc

@@ -1,4 +1,6 @@
 // Command `features SIGNAL --study STUDY`: features of one measured signal.
+#include "mc/commands/features.hpp"
+
 #include <fmt/format.h>
 
 #include <exception>
@@ -9,6 +11,7 @@
 #include "mc/input/exception_text.hpp"
 #include "mc/input/wrapped_text.hpp"
 #include "mc/library/signal_features.hpp"
+#include "mc/options/options.hpp"
 #include "mc/run/support.hpp"
 
 namespace gearpod::mc {
@@ -77,8 +80,6 @@ std::string decisions_text(const PopulationDecisions& against, const MeasuredSig
     return text;
 }
 
-}  // namespace
-
 int features_command(const FeaturesOptions& options) {
     if (options.against.empty() && !options.feature.empty()) {
         fmt::print(stderr, "--feature {}: is only used with --against\n", options.feature);
@@ -133,6 +134,79 @@ int features_command(const FeaturesOptions& options) {
         fmt::print(stderr, "{}\n", exception_text(error));
     }
     return kBadInput;
+}
+
+}  // namespace
+
+void add_features(CLI::App& app, int& code) {
+    const auto options = std::make_shared<FeaturesOptions>();
+    auto* command = app.add_subcommand(
+        "features",
+        "compute the features of measured signals (CSV, HDF5, MAT, TDMS, sound, universal files)");
+    command->add_option("signal", options->signals,
+                        "signal files (.csv, .h5, .hdf5, .mat, .tdms, .uff, .wav and others), or "
+                        "name patterns with "
+                        "* and ?");
+    add_study_keys(*command, options->study);
+    command->add_option("--study", options->study.path, "study file (TOML)")->required();
+    command->add_option("--manifest", options->manifest,
+                        "table (CSV) of recordings with columns file, row, gearbox, time, label, "
+                        "size, and operating conditions");
+    add_columns(*command, options->columns);
+    command->add_option("--te", options->columns.te,
+                        "column of the transmission error, rad (default: te)");
+    command
+        ->add_option("--healthy", options->healthy,
+                     "recording of a healthy gearbox, the reference of na4, nb4 and nsds; may be "
+                     "repeated (default: gearboxes simulated from the study)")
+        ->allow_extra_args(false)
+        ->option_text("FILE");  // one for each --healthy, because the signals are files, too
+    require_file_name(command->add_option(
+        "--baseline", options->baseline,
+        "earlier recording of the same gearbox in healthy condition, the reference of own_... and "
+        "change_... features"));
+    add_number(*command, "--baseline-records", options->baselines.records,
+               "instead, many signals: the baseline of each gearbox is the mean of its first N "
+               "healthy recordings, aligned by circular correlation (or of those with yes in the "
+               "manifest's column baseline)",
+               from_to(1, 1000000));
+    command
+        ->add_option("--baseline-by", options->baselines.conditions,
+                     "operating condition of the manifest; recordings with equal values share a "
+                     "baseline; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("COLUMN");
+    command
+        ->add_option_function<std::string>(
+            "--baseline-scale",
+            [&baselines = options->baselines](const std::string& value) {
+                baselines.scaled = value == "fit";
+            },
+            "fit: scale the baseline to each recording before it is subtracted (least squares), so "
+            "that a drifting gain leaves no change; the part of a fault that resembles the "
+            "baseline is then lost, too (default: none)")
+        ->check(CLI::IsMember({"none", "fit"}));
+    add_number(*command, "--average", options->baselines.average,
+               "number of consecutive recordings of a gearbox, aligned with its baseline, that are "
+               "averaged before features (default: monitoring.average_records)",
+               from_to(1, 1000));
+    add_number(*command, "--noise-level", options->noise_level,
+               "noise level of the simulated gearboxes (default: 1)", at_least(0.0));
+    require_file_name(command->add_option(
+        "--json", options->json, "one signal: write JSON to a file, or - for standard output"));
+    require_file_name(command->add_option(
+        "--out", options->out, "many signals: write a results file (HDF5) for `report`"));
+    require_file_name(command->add_option(
+        "--csv", options->csv, "many signals: write a table to a file, or - for standard output"));
+    command->add_flag("--quiet", options->quiet, "show no progress");
+    require_file_name(command->add_option(
+        "--against", options->against,
+        "results file of healthy gearboxes; decide with its threshold: alarm or not"));
+    command->add_option("--feature", options->feature,
+                        "feature that decides the alarm (default: the best ranked in the "
+                        "results file)");
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = features_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -13,6 +13,7 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/options/options.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/run/run_checks.hpp"
@@ -21,6 +22,13 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct MergeOptions {
+    std::vector<std::string> results;  // results files of the parts of one study
+    std::string out;
+    bool force = false;  // overwrite the results of a different run
+    bool quiet = false;
+};
 
 // Results file and the number of batches that it contains.
 struct PartFile {
@@ -172,8 +180,6 @@ bool check_names(const MergeOptions& options) {
     return can_write({"--out", options.out}, parts);
 }
 
-}  // namespace
-
 int merge_command(const MergeOptions& options) {
     const auto start = WallClock::now();
     RunOptions run;
@@ -217,6 +223,22 @@ int merge_command(const MergeOptions& options) {
     }
     const Interruption interruption(std::nullopt);
     return run_to_end(run, made, ranks, std::move(checkpoint), seconds_since(start), interruption);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, int& code) {
+    const auto options = std::make_shared<MergeOptions>();
+    auto* command = app.add_subcommand(
+        "merge", "join the results files of all parts of a study into one, as one run writes it");
+    command->add_option("results", options->results, "results files of `run --part` 1/N to N/N")
+        ->required();
+    require_file_name(
+        command->add_option("--out", options->out, "results file to write")->required());
+    command->add_flag("--force", options->force,
+                      "overwrite the results of another study or any other file");
+    command->add_flag("--quiet", options->quiet, "print problems only");
+    command->callback([options, &code] { code = merge_command(*options); });
 }
 
 }  // namespace gearpod::mc

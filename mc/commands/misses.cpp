@@ -21,6 +21,18 @@
 namespace gearpod::mc {
 namespace {
 
+struct MissesOptions {
+    std::string results;
+    std::string feature;
+    double size = 0.0;                  // fault size in the unit of the study's key
+    std::optional<double> noise_level;  // empty: reference_level()
+    long gearboxes = 200;
+    int records = 64;  // per gearbox, most of them with exponentially tilted noise
+    std::string json;  // "": none; "-": standard output instead of the text
+    bool quiet = false;
+    bool force = false;  // replaces outputs of another kind
+};
+
 constexpr long kMostRows = 100'000'000;
 constexpr int kMostRecords = 10'000;  // the limit of ensemble.threshold_records
 
@@ -189,8 +201,6 @@ nlohmann::json misses_json(const MissesOptions& options, const Prepared& prepare
     return json;
 }
 
-}  // namespace
-
 int misses_command(const MissesOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
@@ -206,6 +216,34 @@ int misses_command(const MissesOptions& options) {
         return CommandResult{misses_report(*prepared, result),
                              misses_json(options, *prepared, result), result.failed};
     });
+}
+
+}  // namespace
+
+void add_misses(CLI::App& app, int& code) {
+    const auto options = std::make_shared<MissesOptions>();
+    auto* command = app.add_subcommand(
+        "misses",
+        "estimate how often a feature misses a fault of one size, when misses are rare and due to "
+        "noise (importance sampling of the noise)");
+    command
+        ->add_option("results", options->results,
+                     "results file (HDF5) of `run`; gives the study and the threshold")
+        ->required();
+    command->add_option("--feature", options->feature, "feature of the acceleration signal")
+        ->required();
+    add_number(*command, "--size", options->size, "fault size, in the unit of the study")
+        ->required();
+    add_number(*command, "--noise-level", options->noise_level,
+               "one of sensor.noise_levels (default: 1, or the first above 0)");
+    add_number(*command, "--gearboxes", options->gearboxes, "number of gearboxes (default: 200)");
+    add_number(*command, "--records", options->records,
+               "records of each gearbox, a multiple of four (default: 64)");
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    command->add_flag("--quiet", options->quiet, "show no progress");
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = misses_command(*options); });
 }
 
 }  // namespace gearpod::mc

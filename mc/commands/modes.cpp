@@ -11,6 +11,7 @@
 #include "mc/files/json_text.hpp"
 #include "mc/library/natural_frequencies.hpp"
 #include "mc/numerics/choice.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
@@ -19,6 +20,13 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct ModesOptions {
+    StudyOptions study;
+    std::string json;
+    std::string html, figures;  // page and folder of its figures; "": none
+    bool force = false;         // replaces outputs of another kind
+};
 
 // Relative difference below which frequencies are printed as one mode with a multiplicity.
 constexpr double kSameMode = 1e-6;
@@ -104,8 +112,6 @@ void print_critical_speeds(const Study& study, const Modes& modes) {
     }
 }
 
-}  // namespace
-
 int modes_command(const ModesOptions& options) {
     std::vector<FileRole> others{{"the study", options.study.path}};
     const bool json_good =
@@ -151,6 +157,24 @@ int modes_command(const ModesOptions& options) {
         fmt::print("\npage: {}\n", options.html);
     }
     return kDone;
+}
+
+}  // namespace
+
+void add_modes(CLI::App& app, int& code) {
+    const auto options = std::make_shared<ModesOptions>();
+    auto* command =
+        app.add_subcommand("modes", "print the natural frequencies at mean mesh stiffness");
+    add_study(*command, options->study);
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", options->html, "write a page with the Campbell diagram"));
+    require_file_name(
+        command->add_option("--figures", options->figures,
+                            "write the figures of the page to a folder, as SVG and PNG"));
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = modes_command(*options); });
 }
 
 }  // namespace gearpod::mc

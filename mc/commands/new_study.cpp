@@ -1,17 +1,29 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "mc/commands/commands.hpp"
 #include "mc/new_study/planetary.hpp"
 #include "mc/new_study/rexs_study.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/page.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/mesh_loads.hpp"
 
 namespace gearpod::mc {
 namespace {
+
+struct NewOptions {
+    std::string kind;     // gearbox kind; empty for a stage of a REXS model
+    std::string command;  // command line, quoted in the study's first comment
+    PlanetaryDatasheet planetary;
+    std::string rexs;  // model file; empty: the datasheet's values are options
+    RexsChoices rexs_choices;
+    std::string out = "-";  // "-": standard output
+    bool force = false;     // overwrite a file
+};
 
 // Comment from which editors take the JSON schema of the study.
 std::string schema_line() {
@@ -27,7 +39,62 @@ void warn_of_load(const NewStudy& made, const std::string& path) {
     }
 }
 
-}  // namespace
+// Options that a REXS model leaves open. It states all others.
+const std::set<std::string> kWithModel{
+    "--rexs",  "--stage",   "--load-case", "--planets",    "--input", "--torque", "--speed",
+    "--power", "--quality", "--addendum",  "--face-width", "--out",   "--force"};
+
+// Rejects missing options of a datasheet, and options whose values a model states.
+void check_new_options(const CLI::App& command, const NewOptions& options) {
+    if (options.rexs.empty()) {
+        if (options.kind.empty()) {
+            throw CLI::RequiredError("kind");
+        }
+        for (const char* name : {"--sun", "--planet", "--module"}) {
+            if (command.count(name) == 0) {
+                throw CLI::RequiredError(name);
+            }
+        }
+        for (const char* name : {"--stage", "--load-case"}) {
+            if (command.count(name) > 0) {
+                throw CLI::ValidationError(name, "chooses a part of a model; give --rexs");
+            }
+        }
+        return;
+    }
+    if (!options.kind.empty()) {
+        throw CLI::ValidationError("kind", "the model's stage states the kind; leave out \"" +
+                                               options.kind + "\" or --rexs");
+    }
+    for (const CLI::Option* option : command.parse_order()) {
+        if (!kWithModel.contains(option->get_name())) {
+            throw CLI::ValidationError(option->get_name(),
+                                       "the model states this; leave it out, and change the model "
+                                       "or the written study");
+        }
+    }
+}
+
+// Values that are given in addition to a model.
+void take_choices(const CLI::App& command, NewOptions& options) {
+    const PlanetaryDatasheet& data = options.planetary;
+    RexsChoices& choices = options.rexs_choices;
+    const auto given = [&](const char* name) { return command.count(name) > 0; };
+    if (given("--input")) {
+        choices.input = data.input;
+    }
+    if (given("--planets")) {
+        choices.planets = data.planets;
+    }
+    if (given("--quality")) {
+        choices.quality = data.quality;
+    }
+    choices.face_width_mm = data.face_width_mm;
+    choices.addendum = data.addendum;
+    choices.torque_N_m = data.torque_N_m;
+    choices.speed_rpm = data.speed_rpm;
+    choices.power_kW = data.power_kW;
+}
 
 int new_command(const NewOptions& options) {
     const bool exists = options.out != "-" && std::filesystem::exists(options.out);
@@ -54,6 +121,72 @@ int new_command(const NewOptions& options) {
             options.out);
     }
     return kDone;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, int& code) {
+    const auto options = std::make_shared<NewOptions>();
+    auto* command = app.add_subcommand("new",
+                                       "write a commented study from a gearbox datasheet or from a "
+                                       "stage of a REXS model (--rexs); missing values follow from "
+                                       "rules of thumb with sources");
+    PlanetaryDatasheet& data = options->planetary;
+    command->add_option("kind", options->kind, "kind of gearbox; not with --rexs")
+        ->check(CLI::IsMember({"planetary"}));
+    add_number(*command, "--sun", data.sun, "number of teeth of the sun");
+    add_number(*command, "--planet", data.planet, "number of teeth of a planet");
+    add_number(*command, "--ring", data.ring,
+               "number of teeth of the ring (default: sun + 2 planet)");
+    add_number(*command, "--planets", data.planets, "number of planets (default: 3)");
+    add_number(*command, "--module", data.module_mm, "normal module, mm");
+    add_number(*command, "--helix", data.helix_deg, "helix angle, degrees (default: 0)");
+    add_number(*command, "--pressure-angle", data.pressure_angle_deg,
+               "normal pressure angle, degrees (default: 20)");
+    add_number(*command, "--face-width", data.face_width_mm,
+               "face width, mm (default: four circular pitches)");
+    add_number(*command, "--addendum", data.addendum,
+               "addendum divided by the module (default: 1)");
+    add_number(*command, "--sun-shift", data.sun_shift, "profile shift coefficient of the sun");
+    add_number(*command, "--planet-shift", data.planet_shift,
+               "profile shift coefficient of the planets");
+    add_number(*command, "--ring-shift", data.ring_shift,
+               "profile shift coefficient of the ring; positive: thicker teeth (ISO "
+               "21771)");
+    add_number(*command, "--centre-distance", data.centre_distance_mm,
+               "centre distance of sun and planets, mm (default: from the shifts)");
+    const std::string tip = "tip circle diameter, mm (default: from addendum and shift)";
+    add_number(*command, "--sun-tip", data.sun_tip_mm, tip);
+    add_number(*command, "--planet-tip", data.planet_tip_mm, tip);
+    add_number(*command, "--ring-tip", data.ring_tip_mm, tip);
+    add_number(*command, "--quality", data.quality, "ISO 1328 grade of the teeth (default: 6)");
+    command->add_option("--input", data.input, "driving member (default: sun); the ring is fixed")
+        ->check(CLI::IsMember({"sun", "carrier"}));
+    add_number(*command, "--torque", data.torque_N_m, "input torque, N m");
+    add_number(*command, "--speed", data.speed_rpm, "input speed, rpm");
+    add_number(*command, "--power", data.power_kW, "power, kW, instead of torque or speed");
+    require_file_name(command->add_option("--rexs", options->rexs,
+                                          "gear-unit model to read instead (REXS 1.0 to 1.6, XML): "
+                                          "a planetary or cylindrical stage"));
+    command->add_option("--stage", options->rexs_choices.stage,
+                        "id of the model's stage; needed if it has several");
+    command->add_option("--load-case", options->rexs_choices.load_case,
+                        "id of the model's load case; needed if it has several");
+    require_file_name(command->add_option("--out", options->out,
+                                          "study file to write (default: - for standard output)"));
+    command->add_flag("--force", options->force, "overwrite an existing file");
+    command->callback([command, options, &code] {
+        check_new_options(*command, *options);
+        take_choices(*command, *options);
+        options->command = options->kind.empty() ? "new" : "new " + options->kind;
+        for (const CLI::Option* option : command->parse_order()) {
+            if (option->nonpositional() && !option->check_lname("out") &&
+                !option->check_lname("force")) {
+                options->command += " " + option->get_name() + " " + option->results().front();
+            }
+        }
+        code = new_command(*options);
+    });
 }
 
 }  // namespace gearpod::mc

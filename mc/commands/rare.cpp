@@ -15,6 +15,18 @@
 namespace gearpod::mc {
 namespace {
 
+struct RareOptions {
+    std::string results;
+    std::string feature;
+    std::optional<double> rate;         // false-alarm rate; find its threshold
+    std::optional<double> size;         // or fault size in its unit; find its miss rate
+    std::optional<double> noise_level;  // empty: reference_level()
+    long gearboxes = 1000;              // per level
+    std::string json;                   // "": none; "-": standard output instead of the text
+    bool quiet = false;
+    bool force = false;  // replaces outputs of another kind
+};
+
 constexpr long kFewestOfLevel = 20, kMostOfLevel = 1'000'000;
 constexpr double kRarestAlarms = 1e-9;
 
@@ -214,8 +226,6 @@ nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepare
     return json;
 }
 
-}  // namespace
-
 int rare_command(const RareOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
@@ -231,6 +241,35 @@ int rare_command(const RareOptions& options) {
         return CommandResult{rare_text(*prepared, result), rare_json(options, *prepared, result),
                              result.failed};
     });
+}
+
+}  // namespace
+
+void add_rare(CLI::App& app, int& code) {
+    const auto options = std::make_shared<RareOptions>();
+    auto* command = app.add_subcommand(
+        "rare",
+        "estimate the threshold of rare false alarms, or a rare miss rate, when they are due to "
+        "variation between gearboxes (multilevel splitting)");
+    command
+        ->add_option("results", options->results,
+                     "results file (HDF5) of `run`; gives the study and the threshold")
+        ->required();
+    command->add_option("--feature", options->feature, "feature of the file")->required();
+    auto* rate =
+        add_number(*command, "--rate", options->rate, "false-alarm rate; find its threshold");
+    add_number(*command, "--size", options->size,
+               "fault size, in the unit of the study; find its miss rate")
+        ->excludes(rate);
+    add_number(*command, "--noise-level", options->noise_level,
+               "one of sensor.noise_levels (default: 1, or the first above 0)");
+    add_number(*command, "--gearboxes", options->gearboxes,
+               "number of gearboxes of each level (default: 1000)");
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    command->add_flag("--quiet", options->quiet, "show no progress");
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = rare_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -20,6 +20,10 @@
 namespace gearpod::mc {
 namespace {
 
+struct RepairOptions {
+    std::string results;
+};
+
 // Throws std::runtime_error unless the file can be read completely and holds values that a run may
 // write.
 void check_contents(const std::string& path) {
@@ -35,8 +39,6 @@ void renew_hash(const std::string& path) {
         throw std::runtime_error(path + ": cannot be written (" + std::strerror(errno) + ")");
     }
 }
-
-}  // namespace
 
 int repair_command(const RepairOptions& options) {
     const std::string& path = options.results;
@@ -57,6 +59,18 @@ int repair_command(const RepairOptions& options) {
         "now cannot be detected\n",
         path);
     return kDone;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, int& code) {
+    const auto options = std::make_shared<RepairOptions>();
+    auto* command = app.add_subcommand(
+        "repair",
+        "renew the integrity hash of a results file that another program has changed on purpose or "
+        "written anew; the file is read completely first");
+    command->add_option("results", options->results, "results file (HDF5)")->required();
+    command->callback([options, &code] { code = repair_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -1,3 +1,5 @@
+#include "mc/commands/report.hpp"
+
 #include <fmt/core.h>
 
 #include <exception>
@@ -14,6 +16,7 @@
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/dataset.hpp"
 #include "mc/report/evidence.hpp"
 #include "mc/report/json.hpp"
@@ -109,8 +112,6 @@ bool read_costs(const ReportOptions& options, std::optional<analysis::Costs>& co
     return true;
 }
 
-}  // namespace
-
 int report_command(const ReportOptions& options) {
     const FileRole read{"the results file", options.results}, json{"--json", options.json},
         html{"--html", options.html};
@@ -165,6 +166,48 @@ int report_command(const ReportOptions& options) {
         return kBadInput;
     }
     return kDone;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int& code) {
+    const auto options = std::make_shared<ReportOptions>();
+    auto* command = app.add_subcommand(
+        "report", "print detection rates, POD and feature ranking from a results file");
+    command->add_option("results", options->results, "results file (HDF5)")->required();
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", options->html, "write a page with figures to a file"));
+    require_file_name(command->add_option("--pdf", options->pdf,
+                                          "write a one-page summary with its limits to a file"));
+    require_file_name(command->add_option("--csv", options->csv, "write all tables into a folder"));
+    require_file_name(command->add_option(
+        "--figures", options->figures, "write the page's figures into a folder, as SVG and PNG"));
+    require_file_name(command->add_option(
+        "--evidence", options->evidence,
+        "write an evidence pack into a folder: a document (PDF) by subjects of EASA AMC1 29.1465 "
+        "and MIL-HDBK-1823A, all tables, the JSON, the study and the hashes of these files"));
+    require_file_name(command->add_option(
+        "--dataset", options->dataset,
+        "write a dataset for machine learning into a folder: features with labels, fault sizes and "
+        "gearboxes, split by gearbox for training, validation and test (CSV), stored signals, and "
+        "a data card"));
+    command->add_option("--by", options->condition,
+                        "random input, e.g. torque_N_m; also use a separate threshold for each of "
+                        "its values");
+    add_number(*command, "--alarm-cost", options->alarm_cost,
+               "cost of a false alarm; with the next two options, find the threshold of least "
+               "expected cost",
+               at_least(0.0));
+    add_number(*command, "--miss-cost", options->miss_cost, "cost of a missed fault",
+               at_least(0.0));
+    add_number(*command, "--fault-share", options->fault_share,
+               "share of records that have a fault", from_to(0.0, 1.0));
+    command->add_flag("--show-withheld", options->shows_withheld,
+                      "report lives although their signals are interpolated too coarsely");
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = report_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -9,6 +9,7 @@
 #include "mc/input/bad_input.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/library/simulated_row.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
@@ -16,6 +17,14 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct SimulateOptions {
+    StudyOptions study;
+    long instance = 0;   // row of the results file
+    long meshes = 0;     // 0: one planet turn
+    std::string out;     // .h5 or .csv
+    bool force = false;  // replaces outputs of another kind
+};
 
 void write_hdf5(const std::string& path, const Simulation& simulation, const Study& study) {
     const Hdf5Handle file = create_memory_file();
@@ -68,8 +77,6 @@ void print_summary(const Simulation& simulation, const std::string& out) {
     }
 }
 
-}  // namespace
-
 int simulate_command(const SimulateOptions& options) {
     const auto scene = load_scene(options.study).scene;
     const bool csv = options.out.ends_with(".csv");
@@ -114,6 +121,23 @@ int simulate_command(const SimulateOptions& options) {
         return kBadInput;
     }
     return kDone;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& code) {
+    const auto options = std::make_shared<SimulateOptions>();
+    auto* command =
+        app.add_subcommand("simulate", "compute the signals and features of one gearbox");
+    add_study(*command, options->study);
+    add_number(*command, "--instance", options->instance, "row of the results file, from 0")
+        ->required();
+    require_file_name(
+        command->add_option("--out", options->out, "file for the signals, .h5 or .csv"));
+    add_number(*command, "--meshes", options->meshes,
+               "number of mesh periods (default: one planet turn)", at_least(1));
+    add_force(*command, options->force);
+    command->callback([options, &code] { code = simulate_command(*options); });
 }
 
 }  // namespace gearpod::mc

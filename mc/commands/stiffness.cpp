@@ -6,6 +6,7 @@
 #include "mc/commands/commands.hpp"
 #include "mc/description/describe_gearbox.hpp"
 #include "mc/library/stiffness_columns.hpp"
+#include "mc/options/options.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/stiffness_curves.hpp"
 #include "mc/study/gears.hpp"
@@ -13,6 +14,14 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct StiffnessOptions {
+    StudyOptions study;
+    std::string csv;  // "": a summary; "-": standard output
+    int points = 1000;
+    bool te = false;     // loaded static transmission error instead of the stiffness
+    bool force = false;  // replaces outputs of another kind
+};
 
 std::string csv_text(const std::vector<SignalColumn>& columns) {
     std::string text;
@@ -63,8 +72,6 @@ void print_summary(const Scene& scene) {
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }
 
-}  // namespace
-
 int stiffness_command(const StiffnessOptions& options) {
     const bool writable =
         can_write({"--csv", options.csv}, {{"the study", options.study.path}},
@@ -81,6 +88,25 @@ int stiffness_command(const StiffnessOptions& options) {
         options.te ? transmission_error_columns(*scene, options.points)
                    : stiffness_columns(*scene, options.points);
     return write_text_to(options.csv, csv_text(columns)) ? kDone : kBadInput;
+}
+
+}  // namespace
+
+void add_stiffness(CLI::App& app, int& code) {
+    const auto options = std::make_shared<StiffnessOptions>();
+    auto* command =
+        app.add_subcommand("stiffness", "print the mesh stiffness over one mesh period");
+    add_study(*command, options->study);
+    require_file_name(command->add_option("--csv", options->csv,
+                                          "write the curves to a file, or - for standard output"));
+    add_number(*command, "--points", options->points, "phases of the curves (default: 1000)",
+               from_to(2, 1e6));
+    add_force(*command, options->force);
+    command->add_flag(
+        "--te", options->te,
+        "print the static transmission error under nominal load, including tooth relief, instead "
+        "of the stiffness");
+    command->callback([options, &code] { code = stiffness_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -15,6 +15,7 @@
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/lives/life_rows.hpp"
+#include "mc/options/options.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/run/run_checks.hpp"
@@ -25,6 +26,16 @@
 
 namespace gearpod::mc {
 namespace {
+
+struct SweepOptions {
+    StudyOptions study;
+    bool lives = false;             // true: run `lives` at every point; false: `run`
+    std::vector<std::string> vary;  // "section.key=[a, b, c]"
+    std::string out;                // results folder; "": the study's name with -sweep
+    std::string json, html;         // "": none; JSON "-": standard output
+    bool force = false;             // overwrite the results of a different run
+    bool quiet = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -255,8 +266,6 @@ bool can_write_outputs(const SweepOptions& options, const std::vector<SweepPoint
     return can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
 }
 
-}  // namespace
-
 int sweep_command(const SweepOptions& options) {
     const Ranks ranks;
     Problems problems;
@@ -281,6 +290,42 @@ int sweep_command(const SweepOptions& options) {
         return kBadInput;
     }
     return Sweep(options, keys, points, ranks).run();
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, int& code) {
+    const auto options = std::make_shared<SweepOptions>();
+    auto* command = app.add_subcommand(
+        "sweep",
+        "run a study at every combination of some key values, with the same random numbers, and "
+        "compare the results; finished points are not computed again");
+    add_study(*command, options->study);
+    command
+        ->add_option("--vary", options->vary,
+                     "key to vary and its values, e.g. sensor.noise_m_s2=[0.5,1,2]; repeat the "
+                     "option for more keys")
+        ->type_name("SECTION.KEY=[A,B,...]")
+        ->required()
+        ->allow_extra_args(false);
+    command->add_flag("--lives", options->lives,
+                      "run `lives` instead of `run`: cracks found before tooth failure, warning "
+                      "times and false alarms at every combination");
+    add_shorthand(*command, "--instances", "ensemble.instances",
+                  "number of gearboxes over all fault sizes", options->study);
+    add_shorthand(*command, "--seed", "ensemble.seed", "seed of all random numbers",
+                  options->study);
+    require_file_name(
+        command->add_option("--out", options->out,
+                            "folder of the results files (default: the study's name with -sweep)"));
+    require_file_name(command->add_option("--json", options->json,
+                                          "write JSON to a file, or - for standard output"));
+    require_file_name(
+        command->add_option("--html", options->html, "write a page with curves to a file"));
+    command->add_flag("--force", options->force,
+                      "overwrite the results of another study or any other file");
+    command->add_flag("--quiet", options->quiet, "show no progress");
+    command->callback([options, &code] { code = sweep_command(*options); });
 }
 
 }  // namespace gearpod::mc

@@ -1,11 +1,12 @@
-// Command-line definition (CLI11). Each add_...() function adds a command, which fills its options,
-// runs and stores its exit code in `code`.
+// Options that several commands have, and the parsing of the command line (CLI11).
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
-#include "mc/commands/commands.hpp"
 #include "mc/options/number_options.hpp"
+#include "mc/recordings/recording_columns.hpp"
+#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 
@@ -31,17 +32,7 @@ void add_progress(CLI::App& command, RunOptions& run);
 // Adds --force to a command whose outputs otherwise replace files of their own kind only.
 void add_force(CLI::App& command, bool& force);
 
-void add_run(CLI::App& app, RunOptions& run, int& code);
-void add_new(CLI::App& app, NewOptions& options, int& code);
-void add_sweep(CLI::App& app, SweepOptions& options, int& code);
-void add_lives(CLI::App& app, LivesOptions& options, int& code);
-void add_features(CLI::App& app, FeaturesOptions& features, int& code);
-void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code);
-void add_pod(CLI::App& app, PodOptions& pod, int& code);
-void add_report(CLI::App& app, ReportOptions& report, int& code);
-void add_repair(CLI::App& app, RepairOptions& repair, int& code);
-void add_misses(CLI::App& app, MissesOptions& misses, int& code);
-void add_rare(CLI::App& app, RareOptions& rare, int& code);
-void add_compare(CLI::App& app, CompareOptions& compare, int& code);
+// Adds options for the columns, units and sampling of recordings.
+void add_columns(CLI::App& command, SignalColumns& columns);
 
 }  // namespace gearpod::mc

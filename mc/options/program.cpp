@@ -59,7 +59,8 @@ int run_safely(int argc, char** argv, int (*program)(int argc, char** argv)) {
     try {
         // A program that was built for another processor would end in an illegal instruction.
         lockstep::choose_instruction_set({});
-        // A limit on file sizes is an error of the write, as a full disk is, and no end by a signal.
+        // A limit on file sizes is an error of the write, as a full disk is, and no end by a
+        // signal.
         std::signal(SIGXFSZ, SIG_IGN);
         fit_terminal();
         const int code = program(argc, argv);

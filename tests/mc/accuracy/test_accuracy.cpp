@@ -8,7 +8,6 @@
 
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/report.hpp"
-#include "mc/commands/commands.hpp"
 #include "mc/numerics/choice.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/reference.hpp"

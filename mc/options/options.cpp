@@ -1,10 +1,11 @@
+#include "mc/options/options.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mc/input/wrapped_text.hpp"
-#include "mc/options/options.hpp"
 #include "mc/options/several_values.hpp"
 
 namespace gearpod::mc {

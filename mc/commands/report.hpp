@@ -1,0 +1,24 @@
+// Options of `report`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace gearpod::mc {
+
+struct ReportOptions {
+    std::string results;
+    std::string json;       // "": none; "-": standard output
+    std::string html, pdf;  // "": none
+    std::string csv;        // folder for every table; "": none
+    std::string figures;    // folder for the page's figures as SVG and PNG; "": none
+    std::string evidence;   // folder for the evidence pack; "": none
+    std::string dataset;    // folder for the dataset; "": none
+    std::string condition;  // random input; each of its values gets its own threshold; "": none
+    // Cost of a false alarm, cost of a missed fault, share of records with a fault: all or none.
+    std::optional<double> alarm_cost, miss_cost, fault_share;
+    bool shows_withheld = false;  // of lives with too large an interpolation error
+    bool force = false;           // replaces outputs of another kind
+};
+
+}  // namespace gearpod::mc
