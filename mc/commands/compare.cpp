@@ -15,11 +15,11 @@
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/options/options.hpp"
+#include "mc/report/failures.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/run/support.hpp"
-#include "mc/summary/failures.hpp"
 #include "mc/sweep/compared_results.hpp"
 
 namespace gearpod::mc {

@@ -22,6 +22,7 @@
 #include "mc/lives/life_rows.hpp"
 #include "mc/options/options.hpp"
 #include "mc/report/evidence.hpp"
+#include "mc/report/failures.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
@@ -31,7 +32,6 @@
 #include "mc/run/run_to_end.hpp"
 #include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
-#include "mc/summary/failures.hpp"
 
 namespace gearpod::mc {
 namespace {

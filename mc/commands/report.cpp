@@ -19,14 +19,14 @@
 #include "mc/options/options.hpp"
 #include "mc/report/dataset.hpp"
 #include "mc/report/evidence.hpp"
+#include "mc/report/failures.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/run/support.hpp"
-#include "mc/summary/failures.hpp"
-#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -15,9 +15,9 @@
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/numerics/step_error.hpp"
+#include "mc/report/contact_loss.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/summary/contact_loss.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -12,10 +12,10 @@
 #include "mc/files/text/text_table.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/report/row_identity.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/schema/schema.hpp"
-#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {

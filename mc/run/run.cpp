@@ -17,6 +17,8 @@
 #include "mc/input/wrapped_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/step_error.hpp"
+#include "mc/report/failures.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/run/reliability_on_machines.hpp"
@@ -24,8 +26,6 @@
 #include "mc/run/run_checks.hpp"
 #include "mc/run/run_to_end.hpp"
 #include "mc/run/support.hpp"
-#include "mc/summary/failures.hpp"
-#include "mc/summary/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -9,9 +9,9 @@
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/report_json.hpp"
 #include "mc/ensemble/results_check.hpp"
+#include "mc/report/failures.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/summary/failures.hpp"
 #include "mc/sweep/compared_results.hpp"
 
 namespace gearpod::mc {

@@ -12,9 +12,9 @@
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/recordings/manifest.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/study/study.hpp"
-#include "mc/summary/run_report.hpp"
 #include "tests/mc/edited_results.hpp"
 
 namespace {

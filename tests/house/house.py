@@ -23,6 +23,7 @@ QUOTED = re.compile(r'\s*#\s*include\s*"')
 # Headers that src must not include: files and messages.
 OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|sndfile|mc/|analysis/)")
 NAME = re.compile(r"[\w./*-]*[\w*]\.[ch]pp(?!\.?\w)")
+FOLDER = re.compile(r"`([\w/]+)/`")
 # Sources that have compiler options of their own and are never compiled together with others.
 ALONE = re.compile(r"_kernel\.cpp$")
 CONSTANT = re.compile(r"(?:inline |static )?constexpr [^(=]*?\b(k[A-Z]\w*)\s*(?:\[|=|\{)")
@@ -198,6 +199,19 @@ def missing_names(tree):
                     yield f"{file}:{number} names {name}, which does not exist"
 
 
+def missing_folders(tree):
+    """Yields names of missing folders in the overviews of folders, `name/`."""
+    known = {file[:place] for file in tree.files
+             for place, sign in enumerate(file) if sign == "/"}
+    for file in tree.files:
+        if not file.endswith("/README.md"):
+            continue
+        for number, line in enumerate(tree.lines(file), 1):
+            for name in FOLDER.findall(line):
+                if name != "build" and not any(f"/{one}".endswith(f"/{name}") for one in known):
+                    yield f"{file}:{number} names {name}/, which does not exist"
+
+
 def namespace(file):
     """Folder whose sources share a namespace: analysis, mc, and each folder of src."""
     parts = file.split("/")
@@ -235,6 +249,7 @@ def complaints(root, floors):
     yield from circles(tree, folder, "folders")
     yield from too_long(tree)
     yield from missing_names(tree)
+    yield from missing_folders(tree)
     yield from clashing_constants(tree)
     yield from not_executable(tree)
 

@@ -122,6 +122,10 @@ class House(unittest.TestCase):
                      "src/README.md:1 names low/gone_*.cpp, which does not exist",
                      "src/low/sand.cpp:1 names gone.hpp, which does not exist")
 
+    def test_names_of_missing_folders(self):
+        self.refused({"src/README.md": "`low/`, `src/low/`, `build/`\n| `gone/` | \n"},
+                     "src/README.md:2 names gone/, which does not exist")
+
 
 if __name__ == "__main__":
     unittest.main()

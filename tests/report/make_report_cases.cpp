@@ -5,8 +5,8 @@
 
 #include "mc/report/evidence.hpp"
 #include "mc/report/json.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/summary/run_report.hpp"
 #include "tests/report/report_cases.hpp"
 
 using namespace gearpod;

@@ -7,8 +7,8 @@
 
 #include "mc/files/sha256.hpp"
 #include "mc/report/evidence.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/summary/run_report.hpp"
 #include "tests/report/report_cases.hpp"
 
 namespace test_evidence {

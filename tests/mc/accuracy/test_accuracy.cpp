@@ -12,6 +12,7 @@
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/reference.hpp"
 #include "mc/numerics/solver_families.hpp"
+#include "mc/run/run_options.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 

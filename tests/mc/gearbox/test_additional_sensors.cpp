@@ -3,8 +3,8 @@
 #include <random>
 
 #include "analysis/statistics/distributions.hpp"
+#include "mc/report/sensors.hpp"
 #include "mc/results/row_source.hpp"
-#include "mc/summary/sensors.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
 
 namespace test_additional_sensors {

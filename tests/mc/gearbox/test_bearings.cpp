@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "mc/gearbox/other_sources.hpp"
+#include "mc/report/other_fault.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/study/other_sources.hpp"
-#include "mc/summary/other_fault.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
 
 namespace test_bearings {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "mc/numerics/step_error.hpp"
+#include "mc/report/contact_loss.hpp"
 #include "mc/report/json.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/summary/contact_loss.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace test_contact_loss {

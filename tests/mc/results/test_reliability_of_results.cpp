@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "mc/report/run_report.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "mc/summary/run_report.hpp"
 
 namespace test_reliability_of_results {
 

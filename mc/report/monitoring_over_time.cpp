@@ -1,4 +1,4 @@
-#include "mc/summary/monitoring_over_time.hpp"
+#include "mc/report/monitoring_over_time.hpp"
 
 #include <fmt/format.h>
 

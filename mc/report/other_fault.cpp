@@ -1,4 +1,4 @@
-#include "mc/summary/other_fault.hpp"
+#include "mc/report/other_fault.hpp"
 
 #include <fmt/format.h>
 

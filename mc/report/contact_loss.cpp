@@ -1,4 +1,4 @@
-#include "mc/summary/contact_loss.hpp"
+#include "mc/report/contact_loss.hpp"
 
 #include <fmt/format.h>
 

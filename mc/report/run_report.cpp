@@ -1,4 +1,4 @@
-#include "mc/summary/run_report.hpp"
+#include "mc/report/run_report.hpp"
 
 #include <fmt/core.h>
 
@@ -13,20 +13,20 @@
 #include "analysis/report/wording.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/report/alarms_over_time.hpp"
+#include "mc/report/contact_loss.hpp"
+#include "mc/report/failures.hpp"
+#include "mc/report/feature_values.hpp"
+#include "mc/report/monitoring_over_time.hpp"
+#include "mc/report/numerical_section.hpp"
+#include "mc/report/other_fault.hpp"
+#include "mc/report/sensors.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
-#include "mc/summary/alarms_over_time.hpp"
-#include "mc/summary/contact_loss.hpp"
-#include "mc/summary/failures.hpp"
-#include "mc/summary/feature_values.hpp"
-#include "mc/summary/monitoring_over_time.hpp"
-#include "mc/summary/numerical_section.hpp"
-#include "mc/summary/other_fault.hpp"
-#include "mc/summary/sensors.hpp"
 
 namespace gearpod::mc {
 namespace {

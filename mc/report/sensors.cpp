@@ -1,4 +1,4 @@
-#include "mc/summary/sensors.hpp"
+#include "mc/report/sensors.hpp"
 
 #include <fmt/format.h>
 

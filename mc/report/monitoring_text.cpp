@@ -7,7 +7,7 @@
 
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
-#include "mc/summary/monitoring_over_time.hpp"
+#include "mc/report/monitoring_over_time.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,4 +1,4 @@
-#include "mc/summary/numerical_section.hpp"
+#include "mc/report/numerical_section.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "mc/summary/feature_values.hpp"
+#include "mc/report/feature_values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "mc/summary/alarms_over_time.hpp"
+#include "mc/report/alarms_over_time.hpp"
 
 #include <fmt/format.h>
 

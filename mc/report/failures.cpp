@@ -1,4 +1,4 @@
-#include "mc/summary/failures.hpp"
+#include "mc/report/failures.hpp"
 
 #include <fmt/core.h>
 
