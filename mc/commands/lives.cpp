@@ -218,9 +218,9 @@ void add_lives(CLI::App& app, int& code) {
         "cracks found in time, the warning time and the false alarms");
     RunOptions& run = options->run;
     add_study(*command, run.study);
-    add_shorthand(*command, "--instances", "ensemble.instances",
+    add_shorthand(*command, "--instances", "ensemble", "instances",
                   "number of gearboxes with a growing crack", run.study);
-    add_shorthand(*command, "--seed", "ensemble.seed", "seed of all random numbers", run.study);
+    add_shorthand(*command, "--seed", "ensemble", "seed", "seed of all random numbers", run.study);
     add_results(*command, run,
                 "continue an interrupted run, or add cracked gearboxes to a finished one",
                 "overwrite the results of another study or any other file");

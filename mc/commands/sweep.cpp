@@ -311,9 +311,9 @@ void add_sweep(CLI::App& app, int& code) {
     command->add_flag("--lives", options->lives,
                       "run `lives` instead of `run`: cracks found before tooth failure, warning "
                       "times and false alarms at every combination");
-    add_shorthand(*command, "--instances", "ensemble.instances",
+    add_shorthand(*command, "--instances", "ensemble", "instances",
                   "number of gearboxes over all fault sizes", options->study);
-    add_shorthand(*command, "--seed", "ensemble.seed", "seed of all random numbers",
+    add_shorthand(*command, "--seed", "ensemble", "seed", "seed of all random numbers",
                   options->study);
     require_file_name(
         command->add_option("--out", options->out,

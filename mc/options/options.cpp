@@ -7,6 +7,7 @@
 
 #include "mc/input/wrapped_text.hpp"
 #include "mc/options/several_values.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -117,14 +118,18 @@ CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
     return command.add_option("study", options.path, "study file (TOML)")->required();
 }
 
-void add_shorthand(CLI::App& command, const char* name, const char* key, const char* doc,
-                   StudyOptions& options) {
-    command.add_option_function<std::string>(
-        name,
-        [&options, key](const std::string& value) {
-            options.overrides.push_back(std::string(key) + "=" + value);
-        },
-        doc);
+void add_shorthand(CLI::App& command, const char* option, const char* section, const char* name,
+                   const char* doc, StudyOptions& options) {
+    const Key& key = *find_key(section, name);
+    command
+        .add_option_function<std::string>(
+            option,
+            [&options, &key](const std::string& value) {
+                options.overrides.push_back(key.path() + "=" + value);
+            },
+            doc)
+        ->type_name("INT")
+        ->check(number_check(NumberForm::whole, {key.range.low, key.range.high}));
 }
 
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force) {

@@ -21,9 +21,9 @@ CLI::Option* require_file_name(CLI::Option* option);
 void add_study_keys(CLI::App& command, StudyOptions& options);
 CLI::Option* add_study(CLI::App& command, StudyOptions& options);
 
-// Adds an option that sets a key of the study, for example --seed S.
-void add_shorthand(CLI::App& command, const char* name, const char* key, const char* doc,
-                   StudyOptions& options);
+// Adds an option that sets a key of the study with a whole number, for example --seed S.
+void add_shorthand(CLI::App& command, const char* option, const char* section, const char* name,
+                   const char* doc, StudyOptions& options);
 
 // Adds --out, --resume, --force and --time-limit. `resume` and `force` are their help texts.
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force);

@@ -30,7 +30,7 @@ constexpr int kOpenExisting = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
 // Index of the first status in a stored batch, in units of 8 bytes.
 constexpr std::size_t kStatusAt = 2;
 
-std::string bytes_of(std::uint64_t number) {
+std::string number_bytes(std::uint64_t number) {
     std::string bytes(sizeof number, '\0');
     std::memcpy(bytes.data(), &number, sizeof number);
     return bytes;
@@ -72,12 +72,12 @@ RunIdentity identity_of(const std::string& text) {
 std::string header_of(const RunIdentity& identity) {
     const std::string text = text_of(identity);
     std::string header(kMagic);
-    header += bytes_of(text.size()) + text;
-    return header + bytes_of(fnv1a(header));
+    header += number_bytes(text.size()) + text;
+    return header + number_bytes(fnv1a(header));
 }
 
 std::uint64_t record_sum(std::size_t batch, std::string_view record) {
-    return fnv1a(record.substr(0, record.size() - 8), fnv1a(bytes_of(batch)));
+    return fnv1a(record.substr(0, record.size() - 8), fnv1a(number_bytes(batch)));
 }
 
 bool all_zero(std::string_view bytes) {
@@ -363,8 +363,8 @@ void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
 }
 
 void Checkpoint::write_counter() {
-    std::string counter = bytes_of(plan_.graded_instances()) + bytes_of(count_);
-    counter += bytes_of(fnv1a(counter));
+    std::string counter = number_bytes(plan_.graded_instances()) + number_bytes(count_);
+    counter += number_bytes(fnv1a(counter));
     if (!write_at(file_.get(), std::as_bytes(std::span(counter)),
                   static_cast<off_t>(header_.size())) ||
         ::fsync(file_.get()) != 0) {

@@ -1,0 +1,61 @@
+// Command `check STUDY...`: reports the problems of study files; nothing is simulated or written.
+#include <fmt/core.h>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "mc/commands/commands.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/options/options.hpp"
+#include "mc/run/support.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+struct CheckOptions {
+    std::vector<std::string> studies;
+    StudyOptions changes;  // keys that --set changes in every study
+};
+
+// Returns true if the study can be simulated. Prints its problems and warnings otherwise.
+bool check_study(const StudyOptions& study) {
+    try {
+        const StudyScene made = load_scene(study);
+        if (made) {
+            fmt::print("{}: can be simulated{}\n", printable(study.path),
+                       made.notices.empty() ? "" : "; see the warnings");
+            return true;
+        }
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: {}\n", printable(study.path), exception_text(error));
+    }
+    return false;
+}
+
+// Checks every study, also after a wrong one.
+int check_command(const CheckOptions& options) {
+    int code = kDone;
+    for (const std::string& path : options.studies) {
+        if (!check_study({path, options.changes.overrides})) {
+            code = kBadInput;
+        }
+    }
+    return code;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, int& code) {
+    const auto options = std::make_shared<CheckOptions>();
+    auto* command = app.add_subcommand(
+        "check",
+        "report all problems of study files without simulating them, for example before they are "
+        "queued; exit code 2 if one cannot be simulated");
+    command->add_option("studies", options->studies, "study files (TOML)")->required();
+    add_study_keys(*command, options->changes);
+    command->callback([options, &code] { code = check_command(*options); });
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,40 @@
+// Checks gearpod check: several study files, problems of each, the exit code.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "mc/run/run_options.hpp"
+#include "tests/mc/program.hpp"
+
+namespace test_check {
+
+using namespace gearpod;
+using namespace gearpod::test;
+
+TEST_CASE("check reports the problems of every study and simulates none") {
+    const Folder folder;
+    const std::string wrong = folder.file("wrong.toml"), unmeshed = folder.file("unmeshed.toml");
+    std::ofstream(wrong) << "[gearbox]\nsun_teeth = -3\nplanets = \"four\"\n";
+    std::ofstream(unmeshed) << "[gearbox]\nsun_teeth = 19\nplanet_teeth = 31\nring_teeth = 80\n";
+    const std::string sound = study("planet-crack.toml");
+    const Outcome all = program("check " + wrong + " " + sound + " " + unmeshed);
+    INFO(all.output);
+    CHECK(all.code == mc::kBadInput);
+    CHECK(all.mentions(wrong + ":2: gearbox.sun_teeth"));
+    CHECK(all.mentions(wrong + ":3: gearbox.planets"));
+    CHECK(all.mentions(sound + ": can be simulated"));
+    CHECK(all.mentions(unmeshed + ":"));
+    CHECK_FALSE(all.mentions(wrong + ": can be simulated"));
+    CHECK_FALSE(all.mentions(unmeshed + ": can be simulated"));
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("check of sound studies ends with code 0, unless a changed key is wrong") {
+    const std::string files = study("planet-crack.toml") + " " + study("bell-206b.toml");
+    CHECK(program("check " + files).code == mc::kDone);
+    const Outcome changed = program("check " + files + " --set sensor.noise_m_s2=-1");
+    INFO(changed.output);
+    CHECK(changed.code == mc::kBadInput);
+    CHECK(changed.mentions("sensor.noise_m_s2"));
+}
+
+}  // namespace test_check
