@@ -23,7 +23,8 @@ struct ComparedFile {
     long gearboxes = 0;
     std::vector<double> noise_levels;
     std::vector<std::optional<SmallestFault>> smallest;  // by noise level
-    // By noise level; a missing smallest fault then carries no information.
+    // True if no feature has a threshold at this noise level; an empty `smallest` then means
+    // unknown, not undetected.
     std::vector<bool> without_threshold;
     std::string shortage;  // result of sample_shortage()
     // Comparison with A; empty for A itself.

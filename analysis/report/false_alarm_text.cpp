@@ -182,13 +182,14 @@ std::string threshold_methods_text(double false_alarm_rate, double confidence) {
     const long by_order = sample_for_threshold(false_alarm_rate),
                by_tail = sample_for_tail(false_alarm_rate);
     return fmt::format(
-        "Healthy records needed for a rate of {:.3g}: {} by order statistic ({} for a rate of at "
-        "most "
-        "twice that at {}){}; by importance sampling (ensemble.threshold_tilt) {:g} gearboxes in "
-        "which noise causes alarms, accelerometer features only.",
+        "Healthy records needed for a rate of {:.3g}: {} by order statistic, and {} to show with "
+        "{} "
+        "confidence that the rate is at most twice that{}. Importance sampling "
+        "(ensemble.threshold_tilt), for accelerometer features only, needs {:g} gearboxes in which "
+        "noise causes alarms.",
         false_alarm_rate, by_order, sample_for_rate(false_alarm_rate, confidence),
         percent_text(confidence),
-        by_tail < by_order ? fmt::format(", {} by a tail fit to the most extreme values", by_tail)
+        by_tail < by_order ? fmt::format("; {} by a tail fit to the most extreme values", by_tail)
                            : "",
         kLeastContributing);
 }

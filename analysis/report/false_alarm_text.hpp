@@ -1,5 +1,5 @@
 // Text on whether a healthy sample is large enough for the requested false-alarm rate, printed
-// before a run and with a report's answer; and the size and cost of rarer false alarms as JSON.
+// before a run and with the report. Also the sample and cost of rarer false alarms as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

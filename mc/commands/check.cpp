@@ -19,13 +19,13 @@ struct CheckOptions {
     StudyOptions changes;  // keys that --set changes in every study
 };
 
-// Returns true if the study can be simulated. Prints its problems and warnings otherwise.
+// Returns true if the study can be simulated. Prints its problems and warnings.
 bool check_study(const StudyOptions& study) {
     try {
         const StudyScene made = load_scene(study);
         if (made) {
-            fmt::print("{}: can be simulated{}\n", printable(study.path),
-                       made.notices.empty() ? "" : "; see the warnings");
+            warn_of_shortage(made.scene->study(), printable(study.path));
+            fmt::print("{}: can be simulated\n", printable(study.path));
             return true;
         }
     } catch (const std::exception& error) {

@@ -87,10 +87,7 @@ void print_false_alarms(const Study& study) {
         print_entry("in time", target);
     }
     print_entry("methods", analysis::threshold_methods_text(rate, confidence));
-    const std::string shortage =
-        analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes, records,
-                                  study.ensemble.uses_importance_sampling());
-    if (!shortage.empty()) {
+    if (const std::string shortage = shortage_of(study); !shortage.empty()) {
         print_paragraph(shortage);
         return;
     }
@@ -159,10 +156,10 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
         print_steps(scene);
     }
     if (plan.precision == lockstep::Precision::single_precision) {
+        print_entry("precision", "single within a mesh period, double between mesh periods");
         print_entry(
-            "precision",
-            fmt::format("single within a mesh period, double between mesh periods; "
-                        "convergence to the periodic orbit within {:g} (requested: {:g})",
+            "convergence",
+            fmt::format("to the periodic orbit within {:g} (requested: {:g})",
                         convergence_tolerance(study), study.numerics.convergence_tolerance));
     }
     print_entry("record", record_length_text(scene));
@@ -218,10 +215,10 @@ class Deadline final : public machine::CancellationSource {
 };
 
 void print_omitted(const char* what, const DescribeOptions& options) {
-    print_heading("omitted");
+    print_heading("not computed");
     print_paragraph(
-        fmt::format("{}; it takes more than {:g} processor seconds of each thread "
-                    "(--seconds)",
+        fmt::format("{}: it needs more than {:g} s of processor time of each thread; "
+                    "raise --seconds",
                     what, options.seconds));
 }
 
@@ -327,9 +324,9 @@ void add_describe(CLI::App& app, int& code) {
         "print a study's settings, the effects simulated and omitted, and the estimated time and "
         "memory of a run; computes for a few seconds and writes nothing");
     add_study(*command, options->study)->required(false);
-    command->add_flag("--keys", options->keys,
-                      "print all keys of study files, or those with a word: describe --keys "
-                      "sensor");
+    command->add_flag(
+        "--keys", options->keys,
+        "print all keys of study files; `describe --keys WORD`: those with that word");
     add_number(*command, "--ranks", options->ranks,
                "also forecast a run with this many MPI ranks: time, memory per rank, disk, and the "
                "number of ranks from which rank 0 limits the speed",

@@ -69,7 +69,7 @@ std::string decisions_text(const PopulationDecisions& against, const MeasuredSig
     }
     text += "\n" + wrapped_text(against.sentence, 0) + "\n";
     const int turns = planet_turns(signal, scene);
-    if (!against.population.recordings && turns < scene.span().ring_teeth && signal.has_sensor) {
+    if (!against.population.is_measured && turns < scene.span().ring_teeth && signal.has_sensor) {
         text += wrapped_text(
                     fmt::format("The simulated gearboxes have {} planet turns, the recording has "
                                 "{}: it averages less, so its features scatter more.",

@@ -125,7 +125,9 @@ class Merge {
                               file.frame.provenance_value("numerics_choice"), first.path,
                               first.frame.provenance_value("numerics_choice"));
         }
-        return why.empty() ? "" : file.path + ": cannot be merged: it " + why + "\n";
+        return why.empty() ? ""
+                           : file.path + ": cannot be merged: it " + why +
+                                 "; merge with the program and the study of all parts\n";
     }
 
     // Batches that are in several files, or in none, as problem lines.

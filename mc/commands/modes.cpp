@@ -98,8 +98,8 @@ void print_critical_speeds(const Study& study, const Modes& modes) {
     }
     const double nominal_rpm = rpm(modes.speeds.back().speed_rad_s) / kHighestSpeed;
     fmt::print(
-        "\nspeeds of the {} at which mesh harmonics 1 to {} meet a natural frequency, up to "
-        "{:g} times\nthe nominal {:.5g} rpm{}\n",
+        "\nspeeds of the {} at which mesh harmonics 1 to {} meet a natural frequency,\n"
+        "up to {:g} times the nominal {:.5g} rpm{}\n",
         member_name(speed_member(study)), kHarmonics, kHighestSpeed, nominal_rpm,
         modes.critical.empty() ? ": none" : "");
     if (!modes.critical.empty()) {

@@ -48,12 +48,17 @@ const std::set<std::string> kWithModel{
 void check_new_options(const CLI::App& command, const NewOptions& options) {
     if (options.rexs.empty()) {
         if (options.kind.empty()) {
-            throw CLI::RequiredError("kind");
+            throw CLI::ValidationError(
+                "new: the kind of gearbox (planetary) or --rexs FILE is missing");
         }
+        std::string missing;
         for (const char* name : {"--sun", "--planet", "--module"}) {
             if (command.count(name) == 0) {
-                throw CLI::RequiredError(name);
+                missing += (missing.empty() ? "" : ", ") + std::string(name);
             }
+        }
+        if (!missing.empty()) {
+            throw CLI::ValidationError("new " + options.kind + ": missing: " + missing);
         }
         for (const char* name : {"--stage", "--load-case"}) {
             if (command.count(name) > 0) {
@@ -133,7 +138,12 @@ void add_new(CLI::App& app, int& code) {
                                        "rules of thumb with sources");
     PlanetaryDatasheet& data = options->planetary;
     command->add_option("kind", options->kind, "kind of gearbox; not with --rexs")
-        ->check(CLI::IsMember({"planetary"}));
+        ->check([](const std::string& kind) {
+            return kind == "planetary" ? ""
+                                       : "unknown kind of gearbox \"" + kind +
+                                             "\"; write planetary, or give a model (--rexs)";
+        })
+        ->type_name("planetary");
     add_number(*command, "--sun", data.sun, "number of teeth of the sun");
     add_number(*command, "--planet", data.planet, "number of teeth of a planet");
     add_number(*command, "--ring", data.ring,

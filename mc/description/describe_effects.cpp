@@ -254,12 +254,13 @@ void print_fault(const Study& study) {
     if (study.fault.kind == nullptr) {
         return;
     }
-    std::string where(member_name(*study.fault.member));
+    std::string where = fmt::format("the {}", member_name(*study.fault.member));
     if (study.fault.side) {
-        where += fmt::format(" {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
-                             study.fault.side == FaultSide::both ? "s" : "");
+        where =
+            fmt::format("planet {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
+                        study.fault.side == FaultSide::both ? "s" : "");
     }
-    print_entry("fault", fmt::format("{} on the {}", study.fault.kind->title(), where));
+    print_entry("fault", fmt::format("{} on {}", study.fault.kind->title(), where));
 }
 
 bool has_sensor_noise(const Study& study) {

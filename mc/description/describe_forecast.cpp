@@ -32,7 +32,8 @@ std::string seconds_text(double seconds) {
                             : fmt::format("{:.0f} s", seconds);
 }
 
-std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial) {
+std::string measured_text(const Study& study, const RunCost& calibration,
+                          const AnalysisTrial& trial) {
     if (calibration.integration_only) {
         return "the time of one mesh period and the number of mesh periods that the damping "
                "requires, because a batch of gearboxes takes too long";
@@ -46,8 +47,8 @@ std::string measured_text(const RunCost& calibration, const AnalysisTrial& trial
             fmt::format(" over {} of {} mesh periods", calibration.recorded, calibration.to_record);
     }
     return text +
-           fmt::format("; analysis of {} artificial gearboxes, {} noise level{}, in {:.1f} s",
-                       trial.rows, trial.levels, trial.levels == 1 ? "" : "s", trial.trial_s);
+           fmt::format("; analysis of {} artificial gearboxes, {} of {} noise levels, in {:.1f} s",
+                       trial.rows, trial.levels, study.sensor.noise_levels.size(), trial.trial_s);
 }
 
 // Rows of the gearboxes computed to calibrate the forecast.
@@ -202,7 +203,7 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     }
     print_step_error(scene);
     print_heading("forecast of a run");
-    print_entry("based on", measured_text(calibration, trial));
+    print_entry("based on", measured_text(scene.study(), calibration, trial));
     print_entry("threads", fmt::format("{}, {}", calibration.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", seconds_text(forecast.setup_s));

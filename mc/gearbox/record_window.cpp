@@ -161,9 +161,8 @@ std::string record_length_text(const Scene& scene) {
     const double mesh_Hz = std::abs(scene.nominal_mesh_frequency_Hz());
     const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
     return fmt::format(
-        "{:.3g} s, {} of the {} turns of {} mesh periods after which all teeth have "
-        "met{}",
-        turns * span.planet_teeth / mesh_Hz, turns, span.ring_teeth, span.planet_teeth,
+        "{:.3g} s: {} turns of {} mesh periods; all teeth have met after {}{}",
+        turns * span.planet_teeth / mesh_Hz, turns, span.planet_teeth, span.ring_teeth,
         length.given() ? ", from a random tooth position" + shared_text(scene.study()) : "");
 }
 

@@ -10,6 +10,7 @@
 
 #include "mc/input/input_file.hpp"
 #include "mc/input/nesting.hpp"
+#include "mc/input/printable.hpp"
 
 // toml++ 3.3 asserts conditions that malformed headers such as "[[[" violate, and relies on them in
 // release builds (see its pull request 301). Here a violated assertion throws an exception and is
@@ -231,10 +232,24 @@ const Entry* Value::find(std::string_view name) const {
     return found == entries.end() ? nullptr : &*found;
 }
 
-std::string_view Value::kind_name() const {
-    constexpr std::string_view names[] = {"true or false", "an integer", "a number", "a string",
-                                          "a list",        "a table",    "a date"};
-    return names[static_cast<int>(kind)];
+std::string Value::shown() const {
+    switch (kind) {
+        case Kind::boolean:
+            return boolean ? "true" : "false";
+        case Kind::integer:
+            return fmt::format("an integer ({})", integer);
+        case Kind::number:
+            return fmt::format("a number ({:#})", number);
+        case Kind::text:
+            return fmt::format("a string (\"{}\")", printable(text));
+        case Kind::array:
+            return "a list";
+        case Kind::table:
+            return "a table";
+        case Kind::date:
+            return "a date";
+    }
+    return "";
 }
 
 Value parse_document(const std::string& text, const std::string& file, Problems& problems) {

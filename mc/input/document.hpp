@@ -24,8 +24,8 @@ struct Value {
     Position position;
 
     const Entry* find(std::string_view name) const;
-    // Name of the kind for messages: "a string", "an integer", ...
-    std::string_view kind_name() const;
+    // Kind and value for messages: `a string ("50 kHz")`, "an integer (3)", "a list".
+    std::string shown() const;
 };
 
 struct Entry {

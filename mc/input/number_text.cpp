@@ -65,13 +65,13 @@ std::string range_text(const NumberRange& range) {
     const std::string unit = unit_text(range);
     if (low && high) {
         return range.without_low
-                   ? fmt::format("above {:g}, at most {:g}{}", range.low, range.high, unit)
-                   : fmt::format("{:g} to {:g}{}", range.low, range.high, unit);
+                   ? fmt::format("above {}, at most {}{}", range.low, range.high, unit)
+                   : fmt::format("{} to {}{}", range.low, range.high, unit);
     }
     if (low) {
-        return fmt::format("{} {:g}{}", range.without_low ? "above" : "at least", range.low, unit);
+        return fmt::format("{} {}{}", range.without_low ? "above" : "at least", range.low, unit);
     }
-    return high ? fmt::format("at most {:g}{}", range.high, unit) : "";
+    return high ? fmt::format("at most {}{}", range.high, unit) : "";
 }
 
 NumberRange from_to(double low, double high, const std::string& unit) {

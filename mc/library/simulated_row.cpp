@@ -14,10 +14,17 @@ Simulation simulate_row(const Scene& scene, long row, long meshes) {
     const long simulated = meshes > 0 ? meshes : scene.span().planet_teeth;
     // A record of given length begins within the span.
     const int most = scene.signal_meshes() - (has_record_length(study) ? scene.span_meshes() : 0);
-    if (row < 0 || row >= rows || simulated > most) {
-        throw BadInput(fmt::format(
-            "--instance must be a row of the results, 0 to {}; --meshes must be at most {}",
-            rows - 1, most));
+    std::string problems;
+    if (row < 0 || row >= rows) {
+        problems =
+            fmt::format("--instance {}: must be a row of the results, 0 to {}", row, rows - 1);
+    }
+    if (simulated > most) {
+        problems += fmt::format("{}--meshes {}: must be at most {}", problems.empty() ? "" : "\n",
+                                simulated, most);
+    }
+    if (!problems.empty()) {
+        throw BadInput(problems);
     }
     return simulate(scene, id_of_row(study, row), simulated);
 }

@@ -45,13 +45,7 @@ class Search {
         request.convergence_tolerance = std::min(1e-10, 1e-3 * tolerance_);
         reference_ = self_converged_reference(study, pilot_, request);
         if (!reference_.reached) {
-            throw SceneError(
-                "numerics.tolerance",
-                fmt::format("{:g} cannot be verified: with this study's integrator the features "
-                            "still change by {:.2g} from {} steps per mesh period to twice as many",
-                            tolerance_, reference_.agreement.largest_feature(),
-                            reference_.first.numerics.steps_per_mesh / 2),
-                "use a larger tolerance");
+            refuse_tolerance(request);
         }
     }
 
@@ -81,6 +75,26 @@ class Search {
     }
 
   private:
+    // Throws SceneError with the reason why the reference does not verify the tolerance.
+    [[noreturn]] void refuse_tolerance(const ReferenceRequest& request) const {
+        const int finest = reference_.first.numerics.steps_per_mesh;
+        if (reference_.integrations < 2) {
+            throw SceneError(
+                "numerics.tolerance",
+                fmt::format("{:g} cannot be verified: the check would double the {} steps per mesh "
+                            "period over {:.0f} mesh periods, more than {:g} steps",
+                            tolerance_, finest, reference_.record.tile_meshes,
+                            request.most_tile_steps),
+                "use numerics.scatter_tolerance, or shorter records (sensor.record_turns)");
+        }
+        throw SceneError(
+            "numerics.tolerance",
+            fmt::format("{:g} cannot be verified: with this study's integrator the features "
+                        "still change by {:.2g} from {} steps per mesh period to twice as many",
+                        tolerance_, reference_.agreement.largest_feature(), finest / 2),
+            "use a larger tolerance");
+    }
+
     double cost_of(const SolverFamily& family) const {
         return step_cost(study_, family.common).value();
     }

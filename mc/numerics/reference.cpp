@@ -172,7 +172,8 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
                              a.order(),
                              b.order(),
                              error,
-                             apart <= request.agreement};
+                             apart <= request.agreement,
+                             0};
             }
         }
     }
@@ -192,6 +193,7 @@ Reference self_converged_reference(const Study& study, const Pilot& pilot,
         const bool first = !method.has_result();
         PilotRecord before = first ? PilotRecord{} : method.finest();
         method.integrate(pilot);
+        ++reference.integrations;
         if (!first) {
             reference.agreement = pilot_error(before, method.finest());
             reference.reached = reference.agreement.largest_feature() <= request.agreement;

@@ -27,6 +27,7 @@ struct Reference {
     double second_order = 0.0;
     PilotError agreement;  // error of the second relative to the first
     bool reached = false;  // true: the requested agreement was reached
+    int integrations = 0;  // of self_converged_reference(), each with half the steps of the last
 };
 
 // Reference with signals to `agreement`. All methods are integrated with their own steps and half

@@ -1,10 +1,14 @@
 #include "mc/options/options.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "mc/input/spelling.hpp"
 #include "mc/input/wrapped_text.hpp"
 #include "mc/options/several_values.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -56,20 +60,48 @@ std::vector<std::string> separated_arguments(const CLI::App& app, int argc, char
     return words;
 }
 
-// Problems of all values that the checks of a command's options refuse, one line each. CLI11 itself
-// stops at the first one.
-std::string refused_values(CLI::App& app) {
-    std::string text;
+// Arguments that no option of the command takes.
+std::vector<std::string> unexpected_arguments(const CLI::App& command) {
+    std::vector<std::string> problems, names;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->nonpositional()) {
+            names.push_back(option->get_name());
+        }
+    }
+    bool after_option = false;  // a value of an unknown option is not reported once more
+    for (const std::string& word : command.remaining()) {
+        const std::string name = word.substr(0, word.find('='));
+        if (name.starts_with("-")) {
+            const std::string meant = suggest(name, {names.begin(), names.end()});
+            problems.push_back(fmt::format("{}: unknown option of `{}`{}", name, command.get_name(),
+                                           meant.empty() ? "" : "; " + meant));
+        } else if (!after_option) {
+            problems.push_back(word + ": unexpected argument");
+        }
+        after_option = name.starts_with("-") && name == word;
+    }
+    return problems;
+}
+
+// Problems of the arguments: unexpected ones, refused values, missing ones. CLI11 itself stops at
+// the first.
+std::string argument_problems(CLI::App& app) {
+    std::vector<std::string> problems;
     for (CLI::App* command : app.get_subcommands()) {
+        problems = unexpected_arguments(*command);
         for (CLI::Option* option : command->get_options()) {
             for (const std::string& value : option->results()) {
                 if (const std::string why = check_problem(*option, value); !why.empty()) {
-                    text += (text.empty() ? "" : "\n") + option->get_name() + ": " + why;
+                    problems.push_back(option->get_name() + ": " + why);
                 }
+            }
+            if (option->get_required() && option->count() == 0) {
+                problems.push_back(option->get_name() +
+                                   " is missing: " + option->get_description());
             }
         }
     }
-    return text;
+    return fmt::format("{}", fmt::join(problems, "\n"));
 }
 
 }  // namespace
@@ -87,11 +119,14 @@ int parse(CLI::App& app, int argc, char** argv, const int& code) {
     }
     try {
         app.parse(static_cast<int>(pointers.size()), pointers.data());
-    } catch (const CLI::ValidationError& error) {
-        const std::string all = refused_values(app);
-        return app.exit(all.empty() ? error : CLI::ValidationError(all)) == 0 ? kDone : kBadInput;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kDone : kBadInput;
+        const bool failed = error.get_exit_code() != 0;
+        const std::string all = failed ? argument_problems(app) : "";
+        if (all.empty()) {
+            return app.exit(error) == 0 ? kDone : kBadInput;
+        }
+        app.exit(CLI::ValidationError(all));
+        return kBadInput;
     }
     return code;
 }

@@ -76,7 +76,7 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
                       .auc;
     const analysis::LevelDetection& detection = results.detection[f].levels[level];
     feature.threshold = detection.threshold;
-    feature.sample = detection.threshold_sample;
+    feature.threshold_count = detection.threshold_sample;
     return feature;
 }
 
@@ -90,7 +90,7 @@ Population read_population(const std::string& path, double noise_level, const St
     check_teeth(path, results, study);
     Population population;
     population.file = path;
-    population.recordings = results.provenance_value("kind") == kRecordingsKind;
+    population.is_measured = results.provenance_value("kind") == kRecordingsKind;
     population.noise_level = noise_level;
     population.false_alarm_rate = results.request.false_alarm_rate;
     const std::size_t level = level_of(path, results, noise_level);
@@ -165,13 +165,14 @@ std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
 std::string decision_sentence(const std::string& recording, const Population& population,
                               const AlarmDecision& decision, const std::vector<WorstTooth>& teeth) {
     const PopulationFeature& known = *decision.population;
-    const char* whom = population.recordings ? "healthy recordings" : "simulated healthy gearboxes";
+    const char* whom =
+        population.is_measured ? "healthy recordings" : "simulated healthy gearboxes";
     std::string text = fmt::format(
         "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} (from {} {} at {:.3g} % false "
         "alarms), and {} than {} of {} healthy values ({:.4g} %)",
         printable(recording), decision.alarm ? "ALARM" : "no alarm", known.name, decision.value,
         100.0 * std::abs(decision.margin), decision.alarm ? "beyond" : "short of", known.threshold,
-        known.sample, whom, 100.0 * population.false_alarm_rate,
+        known.threshold_count, whom, 100.0 * population.false_alarm_rate,
         known.alarm == analysis::Alarm::high ? "larger" : "smaller", decision.less_extreme,
         known.healthy.size(),
         100.0 * static_cast<double>(decision.less_extreme) /

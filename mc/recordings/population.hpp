@@ -14,14 +14,15 @@ struct PopulationFeature {
     std::string name;
     analysis::Alarm alarm = analysis::Alarm::high;
     double threshold = 0.0;
-    long sample = 0;              // number of healthy gearboxes that set the threshold
-    std::vector<double> healthy;  // ascending; values of these and of graded ones without a fault
-    double auc = 0.0;             // NaN without faulty gearboxes
+    long threshold_count = 0;  // number of healthy gearboxes that set the threshold
+    // Values of these and of test gearboxes without a fault, ascending.
+    std::vector<double> healthy;
+    double auc = 0.0;  // NaN without faulty gearboxes
 };
 
 struct Population {
     std::string file;
-    bool recordings = false;  // true: measured; false: simulated
+    bool is_measured = false;  // false: simulated
     double noise_level = 1.0;
     double false_alarm_rate = 0.0;
     std::vector<PopulationFeature> features;  // by descending AUC

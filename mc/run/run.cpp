@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <set>
 
-#include "analysis/report/false_alarm_text.hpp"
 #include "machine/cancellation.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
@@ -14,7 +13,6 @@
 #include "mc/ensemble/run_store.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
-#include "mc/input/wrapped_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/report/failures.hpp"
@@ -62,15 +60,7 @@ class Run {
           setup_s_(setup_s) {}
 
     int run(const Interruption& interruption) {
-        if (const std::string shortage = analysis::sample_shortage(
-                study_.ensemble.threshold_instances, study_.detection.false_alarm_rate,
-                study_.detection.confidence, analysis::Subject::gearboxes,
-                study_.ensemble.threshold_records, study_.ensemble.uses_importance_sampling());
-            !shortage.empty()) {
-            fmt::print(
-                stderr, "{}\n",
-                wrapped_text(fmt::format("{}: warning: {}", options_.study.path, shortage), 2));
-        }
+        warn_of_shortage(study_, options_.study.path);
         if (!options_.quiet) {
             fmt::print(stderr, "running {}: {}\n", options_.study.path, study_.title);
             if (choice_) {

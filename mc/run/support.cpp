@@ -7,8 +7,10 @@
 #include <span>
 #include <utility>
 
+#include "analysis/report/false_alarm_text.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 
 namespace gearpod::mc {
 
@@ -30,6 +32,20 @@ StudyScene load_scene(const StudyOptions& options) {
     StudyScene made = make_scene(options);
     print_problems(made ? made.notices : made.problems);
     return made;
+}
+
+std::string shortage_of(const Study& study) {
+    const Ensemble& ensemble = study.ensemble;
+    return analysis::sample_shortage(ensemble.threshold_instances, study.detection.false_alarm_rate,
+                                     study.detection.confidence, analysis::Subject::gearboxes,
+                                     ensemble.threshold_records,
+                                     ensemble.uses_importance_sampling());
+}
+
+void warn_of_shortage(const Study& study, const std::string& path) {
+    if (const std::string shortage = shortage_of(study); !shortage.empty()) {
+        fmt::print(stderr, "{}\n", wrapped_text(fmt::format("{}: warning: {}", path, shortage), 2));
+    }
 }
 
 bool can_write(const FileRole& output, const std::vector<FileRole>& others) {

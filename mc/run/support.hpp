@@ -23,6 +23,12 @@ StudyScene make_scene(const StudyOptions& options);
 // The same; prints the problems.
 StudyScene load_scene(const StudyOptions& options);
 
+// States that the study has too few healthy gearboxes for its false-alarm rate, or "".
+std::string shortage_of(const Study& study);
+
+// Prints that as a warning.
+void warn_of_shortage(const Study& study, const std::string& path);
+
 // File that a command reads or writes, and its role, for example "the study" or "--json".
 struct FileRole {
     std::string role, path;

@@ -214,7 +214,7 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
         const Value& value = nested_value(document, split(key, '.').size());
         if (value.kind != Value::Kind::array || value.elements.empty()) {
             reject(fmt::format("must be a list of values, but is {}",
-                               value.kind == Value::Kind::array ? "empty" : value.kind_name()),
+                               value.kind == Value::Kind::array ? "empty" : value.shown()),
                    "write section.key=[a, b, c]");
             continue;
         }

@@ -50,7 +50,9 @@ LivesPoint summarise_life_point(const SweepPoint& point, const std::string& resu
     const Campaign campaign = campaign_of(summary.study, frame, rows);
     summary.cracked = campaign.cracked.size();
     for (const GearboxLife& life : campaign.cracked) {
-        summary.ended.push_back(life.status != Status::ok ? -1 : life.history.end_hours ? 1 : 0);
+        summary.tooth_failed.push_back(life.status != Status::ok ? -1
+                                       : life.history.end_hours  ? 1
+                                                                 : 0);
     }
     summary.failed = campaign.failed;
     summary.record = campaign.record;
@@ -111,11 +113,11 @@ std::vector<MonitoredFeature> order_over(const std::vector<LivesPoint>& points) 
 std::vector<int> life_outcomes(const LivesPoint& point, const MonitoredFeature& one) {
     std::vector<int> outcomes;
     std::size_t life = 0;
-    for (const int ended : point.ended) {
-        const bool found = ended >= 0 && life < one.performance.alarm_hours.size() &&
+    for (const int failed : point.tooth_failed) {
+        const bool found = failed >= 0 && life < one.performance.alarm_hours.size() &&
                            !std::isnan(one.performance.alarm_hours[life]);
-        life += ended >= 0;
-        outcomes.push_back(ended == 1 ? found : -1);
+        life += failed >= 0;
+        outcomes.push_back(failed == 1 ? found : -1);
     }
     return outcomes;
 }

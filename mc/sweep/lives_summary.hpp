@@ -16,9 +16,9 @@ struct LivesPoint {
     std::string results;  // file
     Study study;
     std::size_t cracked = 0;
-    // Lives with a crack by gearbox: 1 if the tooth fails within the records, 0 if not, -1 without
-    // values.
-    std::vector<int> ended;
+    // One entry for each gearbox with a crack: 1 if the tooth fails within the records, 0 if not,
+    // -1 if its features have no values.
+    std::vector<int> tooth_failed;
     long failed = 0;
     std::string record;  // description of a record
     InterpolationErrors interpolation;

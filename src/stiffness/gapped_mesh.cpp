@@ -237,12 +237,12 @@ class FaultyGappedMesh : public FaultyMesh {
           spur_(nominal_->slice()),
           face_(fault.face()) {
         const double begin = healthy_.path_begin();
-        std::vector<double> laws;
+        std::vector<double> fault_positions;
         for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
             for (const double at : fault.breaks())
-                laws.push_back(begin + tooth + at);
+                fault_positions.push_back(begin + tooth + at);
             for (const double at : fault.jumps())
-                laws.push_back(begin + tooth + at);
+                fault_positions.push_back(begin + tooth + at);
         }
         if (healthy_.slices_ == 1 && !healthy_.helical())
             for (const double jump : spur_.jumps())
@@ -251,7 +251,7 @@ class FaultyGappedMesh : public FaultyMesh {
         ExtendedPairs pairs(faulty, healthy_.gap_.extension);
         for (int tooth = first_tooth(); tooth < duration(); ++tooth) {
             std::vector<double> breaks = healthy_.breaks();
-            for (const double at : laws)
+            for (const double at : fault_positions)
                 if (const double own = at - tooth; own > 0 && own < healthy_.spur_ratio_)
                     breaks.push_back(own);
             sort_positions(breaks);

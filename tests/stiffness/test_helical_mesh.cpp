@@ -196,7 +196,7 @@ TEST_CASE("chips and pits act at their position along the face width") {
         }
 }
 
-TEST_CASE("a pit that hardly any helix spreads has its effect on a spur tooth") {
+TEST_CASE("at a nearly zero helix angle a pit has the same effect as on a spur tooth") {
     PitBand band = pits_at(0.8);
     band.depth_m = 0.5e-3;
     const ToothPitting pits(kPlanetRing, kLiangSteel, Profile::root_circle, 1, band);

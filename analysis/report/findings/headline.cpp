@@ -99,10 +99,11 @@ void add_notes(Section& section, const Findings& findings) {
     }
     section.state("note.tested", tested ? kTestedAlone : "");
     section.state("note.carried",
-                  carried.empty() ? ""
-                                  : fmt::format("+ the bound of {}, which finds no more faults of "
-                                                "any tested size.",
-                                                joined(carried)));
+                  carried.empty()
+                      ? ""
+                      : fmt::format("+ Bound of another feature or noise level, which detects no "
+                                    "more faults of any tested size: {}.",
+                                    joined(carried)));
 }
 
 // How the smallest fault found depends on noise.
@@ -118,10 +119,11 @@ std::string noise_limit(const Findings& findings) {
             findings.request.noise_levels[0] == 0.0 ? "without noise" : "at " + findings.noise(0);
         if (!here || findings.smallest[0]->size < 0.9 * here->size) {
             texts.push_back(
-                fmt::format("{} it would be {}{}", low, size(0),
+                fmt::format("{} the smallest fault found would be {}{}", low, size(0),
                             findings.smallest[0]->from_curve ? "" : " (a tested size)"));
         } else {
-            texts.push_back(fmt::format("{} it is no smaller ({})", low, size(0)));
+            texts.push_back(
+                fmt::format("{} the smallest fault found is no smaller ({})", low, size(0)));
         }
     }
     if (last > reference) {
@@ -131,7 +133,7 @@ std::string noise_limit(const Findings& findings) {
                                       ? " there is no threshold"
                                       : " no tested size is found"));
         } else if (here && findings.smallest[last]->size > 1.1 * here->size) {
-            texts.push_back(fmt::format("{} it is {}", at, size(last)));
+            texts.push_back(fmt::format("{} the smallest fault found is {}", at, size(last)));
         }
     }
     return texts.empty() ? "" : "Noise: " + joined(texts) + ".";

@@ -125,8 +125,7 @@ class FieldReader {
         const Value& value = entry.value;
         if (value.kind != Value::Kind::integer) {
             return add(entry.position, entry.name,
-                       fmt::format("must be an integer, but is {}", value.kind_name()),
-                       range.hint());
+                       fmt::format("must be an integer, but is {}", value.shown()), range.hint());
         }
         if (!range.contains(value.number)) {
             return add(entry.position, entry.name,
@@ -140,7 +139,7 @@ class FieldReader {
     bool convert(const Entry& entry, const Range& range, std::vector<double>& target) {
         if (entry.value.kind != Value::Kind::array) {
             return add(entry.position, entry.name,
-                       fmt::format("must be a list of numbers, but is {}", entry.value.kind_name()),
+                       fmt::format("must be a list of numbers, but is {}", entry.value.shown()),
                        "write values = [0, 1, 2]");
         }
         if (entry.value.elements.empty()) {
@@ -163,7 +162,7 @@ class FieldReader {
     bool check_number(const Entry& entry, const Value& value, const Range& range) {
         std::string what;
         if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-            what = fmt::format("must be a number, but is {}", value.kind_name());
+            what = fmt::format("must be a number, but is {}", value.shown());
         } else if (!std::isfinite(value.number)) {
             what = fmt::format("must be a finite number, but is {}", value.number);
         } else if (!computable(value.number)) {
@@ -320,13 +319,13 @@ std::optional<Distribution> Distribution::read(const Value& table, const std::st
         problems.push_back({table.position.file, table.position.line, key,
                             table.kind == Value::Kind::table
                                 ? "has no distribution"
-                                : fmt::format("must be a table, but is {}", table.kind_name()),
+                                : fmt::format("must be a table, but is {}", table.shown()),
                             "write { distribution = \"...\", ... } with " + choices});
         return std::nullopt;
     }
     if (kind->value.kind != Value::Kind::text) {
         problems.push_back({kind->position.file, kind->position.line, key + ".distribution",
-                            fmt::format("must be a string, but is {}", kind->value.kind_name()),
+                            fmt::format("must be a string, but is {}", kind->value.shown()),
                             choices});
         return std::nullopt;
     }

@@ -19,7 +19,7 @@ ListElement::ListElement(const Value& table, std::string which, std::span<const 
     : table_(table), which_(std::move(which)), example_(std::move(example)), reject_(reject) {
     if (table.kind != Value::Kind::table) {
         spelled_ = false;
-        reject_(fmt::format("{} must be a table, but is {}", which_, table.kind_name()), example_);
+        reject_(fmt::format("{} must be a table, but is {}", which_, table.shown()), example_);
     }
     std::vector<std::string_view> names;
     std::ranges::transform(fields, std::back_inserter(names), &TableField::name);
@@ -57,7 +57,7 @@ double ListElement::number(std::string_view name, const Range& range,
 void ListElement::check_number(std::string_view name, const Range& range,
                                const Value& value) const {
     if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-        reject(fmt::format("{} must be a number, but is {}", name, value.kind_name()), "");
+        reject(fmt::format("{} must be a number, but is {}", name, value.shown()), "");
     } else if (std::isfinite(value.number) && !computable(value.number)) {
         reject(fmt::format("{}: {} {}", name, value.number, kNotComputable), "");
     } else if (!std::isfinite(value.number) || !range.contains(value.number)) {
@@ -83,7 +83,7 @@ std::vector<double> ListElement::numbers(std::string_view name, const Range& ran
     }
     if (value->kind != Value::Kind::array || value->elements.empty()) {
         reject(fmt::format("{} must be a list of numbers, but is {}", name,
-                           value->kind == Value::Kind::array ? "empty" : value->kind_name()),
+                           value->kind == Value::Kind::array ? "empty" : value->shown()),
                "write numbers in [brackets], or { file = \"F.csv\", column = \"NAME\" }");
         return {};
     }
@@ -103,7 +103,7 @@ int ListElement::integer(std::string_view name, const Range& range) const {
     if (value->kind != Value::Kind::integer || !range.contains(value->number)) {
         reject(fmt::format("{} must be an integer {}, but is {}", name, range.text(),
                            value->kind == Value::Kind::integer ? fmt::format("{}", value->integer)
-                                                               : value->kind_name()),
+                                                               : value->shown()),
                "");
         return 0;
     }
@@ -125,7 +125,7 @@ std::optional<int> ListElement::choice(std::string_view name, std::span<const Ch
     }
     const std::string known = fmt::format("one of \"{}\"", fmt::join(texts, "\", \""));
     if (value->kind != Value::Kind::text) {
-        reject(fmt::format("{} must be a string, but is {}", name, value->kind_name()), known);
+        reject(fmt::format("{} must be a string, but is {}", name, value->shown()), known);
     } else {
         reject(fmt::format("{}: unknown value \"{}\" ({})", name, value->text, known),
                suggest(value->text, texts));
@@ -139,7 +139,7 @@ std::optional<std::string> ListElement::text(std::string_view name) const {
         return std::nullopt;
     }
     if (value->kind != Value::Kind::text) {
-        reject(fmt::format("{} must be a string, but is {}", name, value->kind_name()), "");
+        reject(fmt::format("{} must be a string, but is {}", name, value->shown()), "");
         return std::nullopt;
     }
     return value->text;

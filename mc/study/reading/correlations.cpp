@@ -20,7 +20,7 @@ class CorrelationReader {
 
     void read(const Value& table) {
         if (table.kind != Value::Kind::table) {
-            return reject(fmt::format("must be a table, but is {}", table.kind_name()), kPair);
+            return reject(fmt::format("must be a table, but is {}", table.shown()), kPair);
         }
         for (const Entry& entry : table.entries) {
             if (entry.name != "between" && entry.name != "rank") {
@@ -120,9 +120,9 @@ class CorrelationReader {
 
 void read_correlations(StudyDraft& draft, const Entry& list) {
     if (list.value.kind != Value::Kind::array) {
-        return draft.reject(
-            list.position, "random.correlations",
-            fmt::format("must be a list of pairs, but is {}", list.value.kind_name()), kPair);
+        return draft.reject(list.position, "random.correlations",
+                            fmt::format("must be a list of pairs, but is {}", list.value.shown()),
+                            kPair);
     }
     bool good = true;
     for (std::size_t i = 0; i < list.value.elements.size(); ++i) {

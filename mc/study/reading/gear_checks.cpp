@@ -129,10 +129,10 @@ void check_train(StudyDraft& draft) {
     const int fitting = train.sun_teeth + 2 * train.planet_teeth;
     const bool too_wide = !shift_given(draft.study) && train.ring_teeth != fitting;
     for (std::size_t i = 0; i < problems.size(); ++i) {
-        const std::string what = "the gears cannot be assembled (" + problems[i] + ")";
+        const std::string what = "the gears cannot be assembled: " + problems[i];
         if (i == 0 && too_wide) {
             draft.reject("gearbox.ring_teeth", what,
-                         fmt::format("use {} teeth, or give profile shifts", fitting));
+                         fmt::format("use ring_teeth = {}, or give profile shifts", fitting));
         } else {
             draft.reject("gearbox.planets", what, "use another number of planets or teeth");
         }

@@ -30,7 +30,7 @@ class PythonList {
         } else if (element.kind == Value::Kind::table) {
             add_table(element);
         } else {
-            reject_(fmt::format("must be a list of files, but contains {}", element.kind_name()),
+            reject_(fmt::format("must be a list of files, but contains {}", element.shown()),
                     "write [\"my_features.py\"]");
         }
     }
@@ -70,9 +70,9 @@ class PythonList {
                 reject_(fmt::format("unknown key {}", entry.name),
                         suggest(entry.name, kPythonNames));
             } else if (entry.value.kind != Value::Kind::text) {
-                reject_(fmt::format("{} must be a string, but is {}", entry.name,
-                                    entry.value.kind_name()),
-                        "");
+                reject_(
+                    fmt::format("{} must be a string, but is {}", entry.name, entry.value.shown()),
+                    "");
             } else {
                 texts[static_cast<std::size_t>(known - kPythonNames.begin())] = entry.value.text;
             }

@@ -26,7 +26,7 @@ void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
     if (key.range.contains(support)) {
         return;
     }
-    const auto bound = [](double value) { return fmt::format("{}", value); };
+    const auto bound = [](double value) { return fmt::format("{:.6g}", value); };
     std::string what =
         fmt::format("{} has values from {} to {}, but {} must be {}", distribution.name(),
                     bound(support.low), bound(support.high), key.name, key.range.text());
@@ -165,7 +165,7 @@ void read_random(StudyDraft& draft, const Value& section) {
                        " (write section.key = { distribution = \"...\", ... })");
         } else if (entry.value.kind != Value::Kind::table) {
             reject(draft, entry, entry.name,
-                   fmt::format("must be a table, but is {}", entry.value.kind_name()),
+                   fmt::format("must be a table, but is {}", entry.value.shown()),
                    "write section.key = { distribution = \"...\", ... }");
         } else {
             read_random_section(draft, entry);

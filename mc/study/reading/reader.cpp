@@ -76,7 +76,7 @@ void read_entries(StudyDraft& draft, const std::string& section, const std::stri
             read_entries(draft, section, entry.name + ".", entry.value.entries);
         } else {
             draft.reject(entry.position, section + "." + entry.name,
-                         fmt::format("must be a table, but is {}", entry.value.kind_name()),
+                         fmt::format("must be a table, but is {}", entry.value.shown()),
                          fmt::format("write {} = {{ key = value, ... }}", entry.name));
         }
     }
@@ -94,7 +94,7 @@ void read_title(StudyDraft& draft, const Entry& entry) {
         draft.study.title = entry.value.text;
     } else {
         draft.reject(entry.position, "title",
-                     fmt::format("must be a string, but is {}", entry.value.kind_name()), "");
+                     fmt::format("must be a string, but is {}", entry.value.shown()), "");
     }
 }
 
@@ -111,7 +111,8 @@ void reject_unknown_section(StudyDraft& draft, const Entry& entry) {
     std::vector<std::string_view> candidates(names.begin(), names.end());
     candidates.push_back("title");
     const std::string words = suggest(entry.name, candidates);
-    draft.reject(entry.position, entry.name, "unknown section", words);
+    draft.reject(entry.position, entry.name, "unknown section",
+                 words.empty() ? fmt::format("use one of {}", fmt::join(candidates, ", ")) : words);
     if (words.starts_with("did you mean")) {
         // The section that was meant is not reported as missing as well.
         draft.bad.insert(std::string(nearest(entry.name, candidates)));
@@ -132,7 +133,7 @@ void read_sections(StudyDraft& draft, const Value& document) {
         draft.sections[entry.name] = entry.value.position;
         if (entry.value.kind != Value::Kind::table) {
             draft.reject(entry.position, entry.name,
-                         fmt::format("must be a section, but is {}", entry.value.kind_name()),
+                         fmt::format("must be a section, but is {}", entry.value.shown()),
                          fmt::format("write [{}]", entry.name));
         } else if (entry.name != "random") {
             read_section(draft, entry);

@@ -86,7 +86,7 @@ void check_tones_and_bearings(StudyDraft& draft) {
         } else if (draft.usable("sensor.sampling_Hz") &&
                    s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
             draft.reject("sensor.tones",
-                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
+                         fmt::format("tone {}: {} Hz must be below {} Hz, half of sampling_Hz",
                                      i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
                          "lower its frequency or raise sampling_Hz");
         }
@@ -368,7 +368,7 @@ void check_sampling(StudyDraft& draft) {
         draft.reject(
             "sensor.low_pass_Hz",
             fmt::format(
-                "{} Hz is not below half of sampling_Hz, {} Hz (higher frequencies would alias)",
+                "{} Hz must be below {} Hz, half of sampling_Hz (higher frequencies would alias)",
                 s.low_pass_Hz, 0.5 * s.sampling_Hz),
             "lower low_pass_Hz or raise sampling_Hz");
     }

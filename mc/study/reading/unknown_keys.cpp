@@ -66,7 +66,9 @@ Guess guess_key(const std::string& section, const std::string& name) {
     if (const Key* key = near_without_unit(section, name)) {
         return {key, fmt::format("did you mean {}?", key->name)};
     }
-    return {nullptr, words};
+    return {nullptr, words.empty()
+                         ? fmt::format("`gearpod describe --keys {}` lists the keys", section)
+                         : words};
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ class ValueReader {
 
     void operator()(const IntegerAccess& access) {
         if (value_.kind != Value::Kind::integer) {
-            reject(fmt::format("must be an integer, but is {}", value_.kind_name()),
-                   key_.range.hint());
+            reject(fmt::format("must be an integer, but is {}", value_.shown()), key_.range.hint());
         } else if (in_range(value_.number)) {
             access.set(draft_.study, value_.integer);
         }
@@ -42,7 +41,7 @@ class ValueReader {
 
     void operator()(const BooleanAccess& access) {
         if (value_.kind != Value::Kind::boolean) {
-            reject(fmt::format("must be true or false, but is {}", value_.kind_name()), "");
+            reject(fmt::format("must be true or false, but is {}", value_.shown()), "");
         } else {
             access.set(draft_.study, value_.boolean);
         }
@@ -58,12 +57,13 @@ class ValueReader {
                 return;
             }
         }
-        const std::string choices = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
+        const std::string choices = fmt::format("use one of \"{}\"", fmt::join(names, "\", \""));
         if (value_.kind != Value::Kind::text) {
-            reject(fmt::format("must be a string, but is {}", value_.kind_name()), choices);
+            reject(fmt::format("must be a string, but is {}", value_.shown()), choices);
         } else {
-            reject(fmt::format("unknown value \"{}\" ({})", value_.text, choices),
-                   suggest(value_.text, names));
+            const std::string meant = suggest(value_.text, names);
+            reject(fmt::format("unknown value \"{}\"", value_.text),
+                   meant.starts_with("did you mean") ? meant + " Or " + choices : choices);
         }
     }
 
@@ -113,9 +113,8 @@ class ValueReader {
         }
         for (const Value& element : value_.elements) {
             if (element.kind != Value::Kind::text) {
-                reject(
-                    fmt::format("must be a list of strings, but contains {}", element.kind_name()),
-                    "");
+                reject(fmt::format("must be a list of strings, but contains {}", element.shown()),
+                       "");
             } else {
                 texts.push_back(element.text);
             }
@@ -138,8 +137,11 @@ class ValueReader {
   private:
     bool finite(const Value& value) {
         if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-            reject(fmt::format("must be a number, but is {}", value.kind_name()),
-                   key_.range.hint());
+            reject(
+                fmt::format("must be a number{}, but is {}",
+                            key_.unit.suffix.empty() ? "" : fmt::format(" in {}", key_.unit.name),
+                            value.shown()),
+                key_.range.hint());
             return false;
         }
         if (!std::isfinite(value.number)) {
@@ -160,7 +162,7 @@ class ValueReader {
         if (value_.kind == Value::Kind::array) {
             return true;
         }
-        reject(fmt::format("must be a list of {}, but is {}", of, value_.kind_name()),
+        reject(fmt::format("must be a list of {}, but is {}", of, value_.shown()),
                "write it in [brackets]");
         return false;
     }

@@ -18,7 +18,8 @@ struct WithInertialTerms {
     static GEARPOD_INLINE Real y(Real y, Real vx, Real w) {
         return w * std::fma(w, y, Real(-2) * vx);
     }
-    // Constant centrifugal acceleration r_c Omega^2 of a planet, along its radius.
+    // Part of the constant centrifugal acceleration r_c Omega^2 of a planet along an axis;
+    // `direction` is the cosine of the angle between that axis and the planet's radius.
     template <class Real>
     static GEARPOD_INLINE Real centrifugal_acceleration(Real acceleration, Real direction) {
         return acceleration * direction;

@@ -11,11 +11,11 @@
 namespace gearpod::signals {
 namespace {
 
-constexpr double kFarthest = 0.06;       // largest deviation of the ratio from 1
-constexpr int kMostHarmonics = 8;        // beyond, the search bands of neighbours overlap
-constexpr double kStandsOut = 5.0;       // amplitude over the median of its band
-constexpr double kSpread = 4.0;          // of a mesh's lines, in turn frequencies
-constexpr double kFits = 0.3;            // fraction of the amplitudes
+constexpr double kMaxRatioDeviation = 0.06;  // largest deviation of the ratio from 1
+constexpr int kMostHarmonics = 8;            // beyond, the search bands of neighbours overlap
+constexpr double kMinPeakToMedian = 5.0;     // amplitude over the median of its band
+constexpr double kLineSpread = 4.0;          // of the lines around a harmonic, in turn frequencies
+constexpr double kMinFit = 0.3;          // smallest accepted fraction of the amplitudes on the comb
 constexpr double kComparableFit = 0.85;  // fraction of the best fit
 
 struct Line {
@@ -43,8 +43,10 @@ int fast_length(int most) {
 std::vector<Line> strong_lines(const std::vector<double>& amplitude, double meshes) {
     std::vector<Line> lines;
     for (int k = 1; k <= kMostHarmonics; ++k) {
-        const auto first = static_cast<std::size_t>(std::ceil(k * (1.0 - kFarthest) * meshes));
-        const auto last = static_cast<std::size_t>(std::floor(k * (1.0 + kFarthest) * meshes));
+        const auto first =
+            static_cast<std::size_t>(std::ceil(k * (1.0 - kMaxRatioDeviation) * meshes));
+        const auto last =
+            static_cast<std::size_t>(std::floor(k * (1.0 + kMaxRatioDeviation) * meshes));
         if (last + 1 >= amplitude.size()) {
             break;
         }
@@ -57,7 +59,7 @@ std::vector<Line> strong_lines(const std::vector<double>& amplitude, double mesh
             most = std::max(most, amplitude[bin]);
         }
         // Threshold above the noise and above the skirts of stronger lines.
-        const double least = std::max(kStandsOut * *middle, 0.05 * most);
+        const double least = std::max(kMinPeakToMedian * *middle, 0.05 * most);
         for (std::size_t bin = first; bin <= last; ++bin) {
             if (amplitude[bin] > least && amplitude[bin] >= amplitude[bin - 1] &&
                 amplitude[bin] >= amplitude[bin + 1]) {
@@ -76,7 +78,7 @@ double fit_of(const std::vector<Line>& lines, double ratio, int turn_meshes, dou
     for (const Line& line : lines) {
         const double offset = (line.order / ratio - line.harmonic) * turn_meshes;
         const double from_tooth = std::abs(offset - std::round(offset)) / width;
-        const double near = std::exp(-0.5 * std::pow(offset / kSpread, 2));
+        const double near = std::exp(-0.5 * std::pow(offset / kLineSpread, 2));
         on += line.amplitude * near * std::max(0.0, 1.0 - from_tooth);
         all += line.amplitude;
     }
@@ -120,7 +122,8 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mes
     best.fit = best.stated;
     best.harmonics = static_cast<int>(harmonics.size());
     const auto scan_ratios = [&](const auto& use) {
-        for (double ratio = 1.0 - kFarthest; ratio <= 1.0 + kFarthest; ratio += step) {
+        for (double ratio = 1.0 - kMaxRatioDeviation; ratio <= 1.0 + kMaxRatioDeviation;
+             ratio += step) {
             use(ratio, fit_of(lines, ratio, turn_meshes, width));
         }
     };
@@ -130,14 +133,14 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mes
             best.fit = fit;
         }
     });
-    double next = kComparableFit * best.fit;
+    double best_other_fit = kComparableFit * best.fit;
     scan_ratios([&](double ratio, double fit) {
-        if (fit > next && std::abs(ratio - best.ratio) * turn_meshes > 0.5) {
+        if (fit > best_other_fit && std::abs(ratio - best.ratio) * turn_meshes > 0.5) {
             best.other = ratio;
-            next = fit;
+            best_other_fit = fit;
         }
     });
-    return best.fit > kFits ? std::optional(best) : std::nullopt;
+    return best.fit > kMinFit ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace gearpod::signals

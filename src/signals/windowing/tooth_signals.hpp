@@ -1,12 +1,13 @@
 // Statistics of the mapped signal of every tooth of a gear: Liang (2016), section 5.3.
 //
 // A gear with T teeth passes a point of the carrier's frame tooth by tooth, one per mesh period;
-// tooth j passes it at meshes j, j + T, j + 2 T, ... The tooth's signal consists of the samples of
-// those meshes, each under a Tukey window one mesh period wide that begins `offset` samples late
-// (chosen by windowing.hpp). For a planet T = Z_p, and Z_r turns show every tooth once on every
-// ring tooth. A sun tooth returns every T = Z_s meshes, a ring tooth every T = Z_r, and both meet
-// all planets in between. The path to the sensor is the same for all teeth of a gear if its turns
-// include each of the M_c meshes of a carrier turn equally often: turns_of_span().
+// tooth j passes it in mesh periods j, j + T, j + 2 T, ... The tooth's signal consists of the
+// samples of those mesh periods, each under a Tukey window one mesh period wide that begins
+// `offset` samples late (chosen by windowing.hpp). For a planet T = Z_p, and Z_r turns show every
+// tooth once on every ring tooth. A sun tooth returns every T = Z_s meshes, a ring tooth every T =
+// Z_r, and both meet all planets in between. The path to the sensor is the same for all teeth of a
+// gear if its turns include each of the M_c meshes of a carrier turn equally often:
+// turns_of_span().
 #pragma once
 
 #include <span>

@@ -340,8 +340,8 @@ TEST_CASE("the cost of an effect is the change of the pilot without it", "[accur
     CHECK(shear->change.sensor == direct.sensor);
     CHECK(shear->change.largest_feature() == direct.largest_feature());
     CHECK(report.matters(shear->change) == (direct.largest_feature() > kChangeOfFeature));
-    // Nothing that the study lacks is left out of it; gears with constant rotations have no bodies
-    // in a plane.
+    // Effects that the study does not contain are not left out of it. A torsional model has neither
+    // pin errors nor inertial terms.
     for (const char* absent : {"tooth errors", "pin errors", "inertial terms"}) {
         INFO(absent);
         CHECK(std::ranges::find(report.effects, absent, &MeasuredEffect::effect) ==

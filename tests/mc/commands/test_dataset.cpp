@@ -10,6 +10,7 @@
 
 #include "mc/files/text/text_table.hpp"
 #include "mc/report/row_identity.hpp"
+#include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
 namespace test_dataset {
@@ -241,12 +242,12 @@ TEST_CASE("A dataset replaces no other file, and lives have none") {
         std::filesystem::remove_all(folder.file("other"));
     }
     const std::string lives = folder.file("lives.h5");
-    const Outcome ran =
-        program("lives " + test::study("planet-life.toml") +
-                " --instances 2 --set ensemble.threshold_instances=2 --set "
-                "life.healthy_lives=2 --set life.records=30 --set life.depth_steps=1 "
-                "--set life.torque_scatter=0 --quiet --out " +
-                lives);
+    std::string options;
+    for (const std::string& one : test::kLife) {
+        options += " --set '" + one + "'";
+    }
+    const Outcome ran = program("lives " + test::study("planet-crack-ideal.toml") + options +
+                                " --quiet --out " + lives);
     INFO(ran.output);
     const Outcome refused = program("report " + lives + " --dataset " + folder.file("lives"));
     CHECK(refused.code == 2);

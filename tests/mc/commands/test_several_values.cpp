@@ -33,7 +33,7 @@ TEST_CASE("`pod` takes several inspectors after one --hit, before or after the t
     }
     // Responses likewise, and settings of a study.
     const Outcome responses = program("pod " + table + " --size x --response A B --threshold 1");
-    CHECK_FALSE(responses.mentions("not expected"));
+    CHECK_FALSE(responses.mentions("unexpected argument"));
     const Outcome study = program("describe " + test::study("planet-crack-ideal.toml") +
                                   " --set ensemble.seed=nan ensemble.instances=nan");
     CHECK(study.mentions("ensemble.seed: must be"));

@@ -54,9 +54,9 @@ const BadFile kBadFiles[] = {
     {"planets = 4", "planets = \"four\"", "planets =", "gearbox.planets",
      "must be an integer, but is a string"},
     {"module_mm = 3.175", "module_mm = true", "module_mm", "gearbox.module_mm",
-     "must be a number, but is true or false"},
+     "must be a number in mm, but is true"},
     {"module_mm = 3.175", "module_mm = [3.175]", "module_mm", "gearbox.module_mm",
-     "must be a number, but is a list"},
+     "must be a number in mm, but is a list"},
     {"seed = 7", "seed = 2024-01-01", "seed =", "ensemble.seed", "but is a date"},
     {"title = \"example\"", "title = 5", "title", "title", "must be a string"},
     {"title", "effects = 3\ntitle", "effects", "effects", "must be a section, but is an integer"},
@@ -108,7 +108,7 @@ const BadFile kBadFiles[] = {
     {"[operation]", "[numerics]\ngrid_tolerance = 0\n[operation]", "grid_tolerance",
      "numerics.grid_tolerance", "must be > 0 and < 1"},
     {"low_pass_Hz = 800", "low_pass_Hz = 2500", "low_pass", "sensor.low_pass_Hz",
-     "not below half of sampling_Hz"},
+     "2500 Hz must be below 2500 Hz, half of sampling_Hz"},
     // Missing.
     {"torque_N_m = 429\n", "", "[operation]", "operation.torque_N_m", "missing; add torque_N_m"},
     {"carrier_speed_rpm = 8.87\n", "", "[operation]", "operation", "no speed is given"},
@@ -140,7 +140,7 @@ const BadFile kBadFiles[] = {
      "only for fault.member = \"planet\""},
     // Impossible gears and cracks.
     {"ring_teeth = 81", "ring_teeth = 77", "ring_teeth", "gearbox.ring_teeth",
-     "cannot be assembled (the ring has 77 teeth"},
+     "cannot be assembled: the ring has 77 teeth"},
     {"planets = 4", "planets = 5", "planets", "gearbox.planets", "cannot be assembled"},
     {"side = \"ring\"", "side = \"ring\"\nplanet = 5", "planet = 5", "fault.planet",
      "is 5, but there are 4 planets"},
@@ -166,7 +166,7 @@ const BadFile kBadFiles[] = {
      "must be an integer between 2 and 100000, but is 2000000000"},
     {"\"levels\", values = [0, 1, 2, 3, 4.3]", "\"grid\", low = 0, high = 4, count = 4.0", "count",
      "random.fault.depth_mm.count",
-     "must be an integer, but is a number; give a value between 2 and 100000"},
+     "must be an integer, but is a number (4.0); give a value between 2 and 100000"},
     {"low = -0.1, high = 0.3", "low = 0.3, high = -0.1", "path_exponent",
      "random.sensor.path_exponent", "low must be below high"},
     {"low = -0.1, high = 0.3", "low = -0.1, high = inf", "path_exponent",
@@ -266,7 +266,7 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
           Whats{bearing + ".median: must be > 0, but is -1",
                 bearing + ".cv: must be a finite number, but is nan"});
     CHECK(whats_of(example_with("[0, 1, 2, 3, 4.3]", "[0, \"a\", nan]")) ==
-          Whats{depth + ".values: must be a number, but is a string",
+          Whats{depth + ".values: must be a number, but is a string (\"a\")",
                 depth + ".values: must be a finite number, but is nan"});
     CHECK(whats_of(example_with("\"levels\", values = [0, 1, 2, 3, 4.3]",
                                 "\"grid\", low = 3, high = 1, count = 1")) ==
@@ -280,13 +280,13 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
     CHECK(whats_of(
               example_with("noise_levels = [0, 0.5, 1]", "noise_levels = [-1, true, 2, inf, 1]")) ==
           Whats{"sensor.noise_levels: must be >= 0, but is -1",
-                "sensor.noise_levels: must be a number, but is true or false",
+                "sensor.noise_levels: must be a number, but is true",
                 "sensor.noise_levels: must be a finite number, but is inf",
                 "sensor.noise_levels: must ascend, but 1 is not above 2, the value before it"});
     CHECK(whats_of(example_with("[operation]",
                                 "[features]\nuse = [1, \"te_rmss\", 2.5]\n[operation]")) ==
-          Whats{"features.use: must be a list of strings, but contains an integer",
-                "features.use: must be a list of strings, but contains a number",
+          Whats{"features.use: must be a list of strings, but contains an integer (1)",
+                "features.use: must be a list of strings, but contains a number (2.5)",
                 "features.use: unknown feature \"te_rmss\""});
 }
 

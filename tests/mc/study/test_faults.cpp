@@ -164,7 +164,7 @@ TEST_CASE("Text about a fault names its kind and its size") {
         const std::string text = text_with(*kind), words(kind->words());
         const std::string path = folder.file(std::string(kind->name()) + ".toml");
         gearpod::test::write_bytes(path, text);
-        const Outcome described = program("describe " + path);
+        const Outcome described = program("describe " + path + " --seconds 0.1");
         INFO(described.output);
         CHECK(described.code == 0);
         CHECK(described.mentions(std::string(kind->title()) + " on the sun"));
