@@ -97,13 +97,13 @@ inline std::string within_memory([[maybe_unused]] int kilobytes) {
 #endif
 }
 
-// Runs the program. `describe` measures for 10 s of each thread by default, here for half a second.
+// Runs the program. `describe` measures for 10 s of each thread by default, here for 3 s.
 inline Outcome program(const std::string& arguments) {
     const bool measures = arguments.starts_with("describe ") &&
                           arguments.find("--seconds") == std::string::npos &&
                           arguments.find("--keys") == std::string::npos;
     return shell(std::string(GEARPOD_PROGRAM) + " " + arguments +
-                 (measures ? " --seconds 0.5" : ""));
+                 (measures ? " --seconds 3" : ""));
 }
 
 // Command prefix for that many ranks, allowed as root and with more ranks than processors; empty in

@@ -33,7 +33,7 @@ TEST_CASE("describe measures effects on short records where every mesh period is
                                      "ensemble.threshold_instances=20");
     INFO(description.output);
     REQUIRE(description.code == 0);
-    CHECK(description.mentions(", 3 of the "));
+    CHECK(description.mentions("s: 3 turns of "));
     CHECK(description.mentions("tooth errors"));
 }
 
