@@ -86,11 +86,6 @@ double CalibratedInput::at(double unit) const {
     return logarithmic ? low * std::pow(high / low, unit) : low + unit * (high - low);
 }
 
-double CalibratedInput::unit_of(double value) const {
-    return logarithmic ? std::log(value / low) / std::log(high / low)
-                       : (value - low) / (high - low);
-}
-
 bool CalibratedInput::independent_of_motion() const {
     constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain",
                                  "sensor.tone_level",    "sensor.background_level",

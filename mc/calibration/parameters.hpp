@@ -17,9 +17,8 @@ struct CalibratedInput {
     bool logarithmic = false;  // uniform in the logarithm
     double to_si = 1.0;
 
-    // at(): quantile of the prior, in the unit of the key; unit_of(): its inverse.
+    // Quantile of the prior, in the unit of the key.
     double at(double unit) const;
-    double unit_of(double value) const;
     // True if the motion does not depend on this input, so that another value needs no integration.
     bool independent_of_motion() const;
     // The prior as an override of the study.
