@@ -96,8 +96,7 @@ void add_accuracy(CLI::App& app, int& code) {
         "accuracy",
         "compare solver settings for a study: numerical error and computing time of each");
     add_study(*command, options->study);
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
+    add_json(*command, options->json);
     require_file_name(command->add_option("--html", options->html,
                                           "write a page with work-precision diagrams to a file"));
     require_file_name(command->add_option(

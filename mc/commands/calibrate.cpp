@@ -315,8 +315,7 @@ void add_calibrate(CLI::App& app, int& code) {
     require_file_name(command->add_option("--out", options->out,
                                           "write a study file (TOML) with the calibrated inputs in "
                                           "[random], or - for standard output"));
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
+    add_json(*command, options->json);
     command->add_flag("--quiet", options->quiet, "do not print the computing time");
     add_force(*command, options->force);
     command->callback([options, &code] { code = calibrate_command(*options); });

@@ -186,10 +186,8 @@ void add_compare(CLI::App& app, int& code) {
         ->add_option("results", options->results,
                      "results files (HDF5); all others are compared with the first")
         ->required();
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
-    require_file_name(
-        command->add_option("--html", options->html, "write a page with figures to a file"));
+    add_json(*command, options->json);
+    add_page(*command, options->html);
     add_force(*command, options->force);
     command->callback([options, &code] { code = compare_command(*options); });
 }

@@ -239,8 +239,7 @@ void add_misses(CLI::App& app, int& code) {
     add_number(*command, "--gearboxes", options->gearboxes, "number of gearboxes (default: 200)");
     add_number(*command, "--records", options->records,
                "records of each gearbox, a multiple of four (default: 64)");
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
+    add_json(*command, options->json);
     command->add_flag("--quiet", options->quiet, "show no progress");
     add_force(*command, options->force);
     command->callback([options, &code] { code = misses_command(*options); });

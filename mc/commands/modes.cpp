@@ -166,8 +166,7 @@ void add_modes(CLI::App& app, int& code) {
     auto* command =
         app.add_subcommand("modes", "print the natural frequencies at mean mesh stiffness");
     add_study(*command, options->study);
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
+    add_json(*command, options->json);
     require_file_name(
         command->add_option("--html", options->html, "write a page with the Campbell diagram"));
     require_file_name(

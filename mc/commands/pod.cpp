@@ -149,10 +149,8 @@ void add_pod(CLI::App& app, int& code) {
                "confidence level of the bounds (default: 0.95)", from_to(0.5, 0.9999));
     add_number(*command, "--target", options->target,
                "size that a90/95 must reach; print how many specimens that needs", above(0.0));
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
-    require_file_name(
-        command->add_option("--html", options->html, "write a page with figures to a file"));
+    add_json(*command, options->json);
+    add_page(*command, options->html);
     require_file_name(command->add_option(
         "--evidence", options->evidence,
         "write an evidence pack into a folder: a document (PDF) by subjects of MIL-HDBK-1823A, all "

@@ -265,8 +265,7 @@ void add_rare(CLI::App& app, int& code) {
                "one of sensor.noise_levels (default: 1, or the first above 0)");
     add_number(*command, "--gearboxes", options->gearboxes,
                "number of gearboxes of each level (default: 1000)");
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
+    add_json(*command, options->json);
     command->add_flag("--quiet", options->quiet, "show no progress");
     add_force(*command, options->force);
     command->callback([options, &code] { code = rare_command(*options); });

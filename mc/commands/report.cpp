@@ -175,10 +175,8 @@ void add_report(CLI::App& app, int& code) {
     auto* command = app.add_subcommand(
         "report", "print detection rates, POD and feature ranking from a results file");
     command->add_option("results", options->results, "results file (HDF5)")->required();
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
-    require_file_name(
-        command->add_option("--html", options->html, "write a page with figures to a file"));
+    add_json(*command, options->json);
+    add_page(*command, options->html);
     require_file_name(command->add_option("--pdf", options->pdf,
                                           "write a one-page summary with its limits to a file"));
     require_file_name(command->add_option("--csv", options->csv, "write all tables into a folder"));

@@ -11,10 +11,7 @@ void add_run(CLI::App& app, int& code) {
     const auto options = std::make_shared<RunOptions>();
     auto* command = app.add_subcommand("run", "simulate a study and report its detection rates");
     add_study(*command, options->study);
-    add_shorthand(*command, "--instances", "ensemble", "instances",
-                  "number of gearboxes over all fault sizes", options->study);
-    add_shorthand(*command, "--seed", "ensemble", "seed", "seed of all random numbers",
-                  options->study);
+    add_ensemble(*command, "number of gearboxes over all fault sizes", options->study);
     add_results(*command, *options,
                 "continue an interrupted run, or add gearboxes to a finished one",
                 "overwrite the results of another study or any other file; start even if the "

@@ -49,14 +49,6 @@ void print_te(const Scene& scene) {
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }
 
-// Members of a gear pair with its name in results, "ring and planet 1 (rp1)".
-std::string members_of(const std::string& pair) {
-    const char first = pair.front();
-    return first == 'm' ? "both gears (" + pair + ")"
-                        : fmt::format("{} and planet {} ({})", first == 'r' ? "ring" : "sun",
-                                      pair.substr(2), pair);
-}
-
 void print_summary(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         fmt::print(
@@ -71,8 +63,9 @@ void print_summary(const Scene& scene) {
         const Unit& unit = fault_size_key(scene.study()).unit;
         std::string names;
         for (const int pair : pairs) {
-            names +=
-                (names.empty() ? "" : " and of ") + members_of(scene.drivetrain().pair_name(pair));
+            names += fmt::format("{}{} ({})", names.empty() ? "" : " and of ",
+                                 scene.drivetrain().pair_members(pair),
+                                 scene.drivetrain().pair_name(pair));
         }
         fmt::print("faulty tooth in the mesh of {}; largest possible {} {:.3f}{}\n", names,
                    fault_size_key(scene.study()).stem(), scene.fault().largest_size() / unit.to_si,

@@ -311,15 +311,11 @@ void add_sweep(CLI::App& app, int& code) {
     command->add_flag("--lives", options->lives,
                       "run `lives` instead of `run`: cracks found before tooth failure, warning "
                       "times and false alarms at every combination");
-    add_shorthand(*command, "--instances", "ensemble", "instances",
-                  "number of gearboxes over all fault sizes", options->study);
-    add_shorthand(*command, "--seed", "ensemble", "seed", "seed of all random numbers",
-                  options->study);
+    add_ensemble(*command, "number of gearboxes over all fault sizes", options->study);
     require_file_name(
         command->add_option("--out", options->out,
                             "folder of the results files (default: the study's name with -sweep)"));
-    require_file_name(command->add_option("--json", options->json,
-                                          "write JSON to a file, or - for standard output"));
+    add_json(*command, options->json);
     require_file_name(
         command->add_option("--html", options->html, "write a page with curves to a file"));
     command->add_flag("--force", options->force,

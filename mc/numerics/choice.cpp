@@ -78,7 +78,7 @@ class Search {
     // Throws SceneError with the reason why the reference does not verify the tolerance.
     [[noreturn]] void refuse_tolerance(const ReferenceRequest& request) const {
         const int finest = reference_.first.numerics.steps_per_mesh;
-        if (reference_.integrations < 2) {
+        if (reference_.agreement.relative.empty()) {
             throw SceneError(
                 "numerics.tolerance",
                 fmt::format("{:g} cannot be verified: the check would double the {} steps per mesh "

@@ -172,8 +172,7 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
                              a.order(),
                              b.order(),
                              error,
-                             apart <= request.agreement,
-                             0};
+                             apart <= request.agreement};
             }
         }
     }
@@ -193,7 +192,6 @@ Reference self_converged_reference(const Study& study, const Pilot& pilot,
         const bool first = !method.has_result();
         PilotRecord before = first ? PilotRecord{} : method.finest();
         method.integrate(pilot);
-        ++reference.integrations;
         if (!first) {
             reference.agreement = pilot_error(before, method.finest());
             reference.reached = reference.agreement.largest_feature() <= request.agreement;

@@ -25,9 +25,8 @@ struct Reference {
         second;                // the two that agree best, at their finest; `record` is from `first`
     double first_order = 0.0;  // observed on the sensor signal; 0: not extrapolated
     double second_order = 0.0;
-    PilotError agreement;  // error of the second relative to the first
+    PilotError agreement;  // error of the second relative to the first; empty without a second
     bool reached = false;  // true: the requested agreement was reached
-    int integrations = 0;  // of self_converged_reference(), each with half the steps of the last
 };
 
 // Reference with signals to `agreement`. All methods are integrated with their own steps and half

@@ -104,6 +104,21 @@ std::string argument_problems(CLI::App& app) {
     return fmt::format("{}", fmt::join(problems, "\n"));
 }
 
+// Adds --NAME, which sets ensemble.NAME to a whole number.
+void add_whole_key(CLI::App& command, const std::string& name, const char* doc,
+                   StudyOptions& options) {
+    const Key& key = *find_key("ensemble", name);
+    command
+        .add_option_function<std::string>(
+            "--" + name,
+            [&options, &key](const std::string& value) {
+                options.overrides.push_back(key.path() + "=" + value);
+            },
+            doc)
+        ->type_name("INT")
+        ->check(number_check(NumberForm::whole, {key.range.low, key.range.high}));
+}
+
 }  // namespace
 
 int parse(CLI::App& app, int argc, char** argv, const int& code) {
@@ -153,18 +168,18 @@ CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
     return command.add_option("study", options.path, "study file (TOML)")->required();
 }
 
-void add_shorthand(CLI::App& command, const char* option, const char* section, const char* name,
-                   const char* doc, StudyOptions& options) {
-    const Key& key = *find_key(section, name);
-    command
-        .add_option_function<std::string>(
-            option,
-            [&options, &key](const std::string& value) {
-                options.overrides.push_back(key.path() + "=" + value);
-            },
-            doc)
-        ->type_name("INT")
-        ->check(number_check(NumberForm::whole, {key.range.low, key.range.high}));
+void add_ensemble(CLI::App& command, const char* instances, StudyOptions& options) {
+    add_whole_key(command, "instances", instances, options);
+    add_whole_key(command, "seed", "seed of all random numbers", options);
+}
+
+void add_json(CLI::App& command, std::string& file) {
+    require_file_name(
+        command.add_option("--json", file, "write JSON to a file, or - for standard output"));
+}
+
+void add_page(CLI::App& command, std::string& file) {
+    require_file_name(command.add_option("--html", file, "write a page with figures to a file"));
 }
 
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force) {

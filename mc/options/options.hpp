@@ -21,9 +21,12 @@ CLI::Option* require_file_name(CLI::Option* option);
 void add_study_keys(CLI::App& command, StudyOptions& options);
 CLI::Option* add_study(CLI::App& command, StudyOptions& options);
 
-// Adds an option that sets a key of the study with a whole number, for example --seed S.
-void add_shorthand(CLI::App& command, const char* option, const char* section, const char* name,
-                   const char* doc, StudyOptions& options);
+// Adds --instances and --seed, which set keys of the study. `instances`: help text of the first.
+void add_ensemble(CLI::App& command, const char* instances, StudyOptions& options);
+
+// Adds --json, and --html for a page with figures.
+void add_json(CLI::App& command, std::string& file);
+void add_page(CLI::App& command, std::string& file);
 
 // Adds --out, --resume, --force and --time-limit. `resume` and `force` are their help texts.
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force);

@@ -149,6 +149,11 @@ std::string PlanetaryDrivetrain::pair_name(int pair) const {
     return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
 }
 
+std::string PlanetaryDrivetrain::pair_members(int pair) const {
+    const int n = train_.planets;
+    return fmt::format("{} and planet {}", pair < n ? "sun" : "ring", pair % n + 1);
+}
+
 double PlanetaryDrivetrain::pitch_phase(int pair) const {
     const int n = train_.planets;
     return pair < n ? gears::sun_mesh_phase(train_, pair, sense_)

@@ -232,7 +232,9 @@ TEST_CASE("A transferred bound names its origin") {
                Catch::Contains("this is the bound of te_fc at noise x 5, which finds no more"));
     findings.reliability = nullptr;
     const Report headline{{headline_section(findings, "", "")}};
-    CHECK_THAT(report_text(headline), Catch::Contains("+ Bound of another feature or noise level"));
+    CHECK_THAT(report_text(headline),
+               Catch::Contains("+ Bound of another feature or noise level") &&
+                   Catch::Contains(": te_fc at noise x 5."));
 }
 
 }  // namespace

@@ -242,12 +242,8 @@ TEST_CASE("A dataset replaces no other file, and lives have none") {
         std::filesystem::remove_all(folder.file("other"));
     }
     const std::string lives = folder.file("lives.h5");
-    std::string options;
-    for (const std::string& one : test::kLife) {
-        options += " --set '" + one + "'";
-    }
-    const Outcome ran = program("lives " + test::study("planet-crack-ideal.toml") + options +
-                                " --quiet --out " + lives);
+    const Outcome ran = program("lives " + test::study("planet-crack-ideal.toml") +
+                                test::life_arguments() + " --quiet --out " + lives);
     INFO(ran.output);
     const Outcome refused = program("report " + lives + " --dataset " + folder.file("lives"));
     CHECK(refused.code == 2);

@@ -23,6 +23,15 @@ inline const std::vector<std::string> kLife{
     "ensemble.instances=3",
     "ensemble.threshold_instances=4"};
 
+// The same as options of the program.
+inline std::string life_arguments() {
+    std::string arguments;
+    for (const std::string& one : kLife) {
+        arguments += " --set '" + one + "'";
+    }
+    return arguments;
+}
+
 inline mc::Study life_study(std::vector<std::string> more = {}) {
     more.insert(more.begin(), kLife.begin(), kLife.end());
     return shipped_study("planet-crack-ideal.toml", more);

@@ -172,11 +172,8 @@ TEST_CASE("A change in lives equals that of the snapshot study") {
 }
 
 std::string life_options() {
-    std::string options;
-    for (const std::string& one : kLife) {
-        options += " --set '" + one + "'";
-    }
-    return options + " --set life.torque_scatter=0.02 --set 'features.use=[\"window_ratio\",\"" +
+    return life_arguments() +
+           " --set life.torque_scatter=0.02 --set 'features.use=[\"window_ratio\",\"" +
            "change_window_ratio\"]' --quiet --json -";
 }
 

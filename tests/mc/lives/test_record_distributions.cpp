@@ -166,12 +166,8 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
 }
 
 TEST_CASE("describe shows the law of inputs per record") {
-    std::string options;
-    for (const std::string& one : kLife) {
-        options += " --set '" + one + "'";
-    }
     const Outcome description = program("describe " + test::study("planet-crack-ideal.toml") +
-                                        options + " --set '" + kTorque + "'");
+                                        life_arguments() + " --set '" + kTorque + "'");
     INFO(description.output);
     CHECK(description.code == 0);
     CHECK(description.mentions("operation.torque_N_m.distribution = \"uniform\"\n"));

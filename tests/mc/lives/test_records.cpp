@@ -173,12 +173,9 @@ TEST_CASE("A crack follows the given curve at its gearbox's rate") {
 
 TEST_CASE("Invalid records and curves are refused with the key") {
     const auto refused = [&](const std::string& more) {
-        std::string options;
-        for (const std::string& one : kLife) {
-            options += " --set '" + one + "'";
-        }
-        const Outcome outcome = program("lives " + study("planet-crack-ideal.toml") + options +
-                                        " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
+        const Outcome outcome =
+            program("lives " + study("planet-crack-ideal.toml") + life_arguments() +
+                    " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
         INFO(outcome.output);
         CHECK(outcome.code == 2);
         return outcome;
