@@ -30,10 +30,4 @@ template <int W, class Real = double>
 FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
                                     std::span<const FixedShaftInputs> inputs);
 
-#define GEARPOD_LANES(W, REAL)                                    \
-    extern template FixedShaftLanes<W, REAL> make_lanes<W, REAL>( \
-        const FixedShaftLayout&, std::span<const FixedShaftInputs>);
-GEARPOD_FOR_ALL_WIDTHS(GEARPOD_LANES)
-#undef GEARPOD_LANES
-
 }  // namespace gearpod::dynamics

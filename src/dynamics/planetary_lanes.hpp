@@ -43,10 +43,4 @@ template <int W, class Real = double>
 PlanetaryLanes<W, Real> make_lanes(const PlanetaryLayout& layout,
                                    std::span<const PlanetaryInputs> inputs);
 
-#define GEARPOD_LANES(W, REAL)                                                          \
-    extern template PlanetaryLanes<W, REAL> make_lanes<W, REAL>(const PlanetaryLayout&, \
-                                                                std::span<const PlanetaryInputs>);
-GEARPOD_FOR_ALL_WIDTHS(GEARPOD_LANES)
-#undef GEARPOD_LANES
-
 }  // namespace gearpod::dynamics

@@ -59,11 +59,4 @@ ExcitationForces<W> make_excitation_forces(const IntegrationPlan& plan,
                                            std::span<const dynamics::GearboxInputs> inputs,
                                            bool over_mass);
 
-#define GEARPOD_EXCITATION_FORCES(W, REAL)                                                   \
-    extern template ExcitationForces<W> make_excitation_forces<W>(                           \
-        const IntegrationPlan&, const Excitation&, std::span<const dynamics::GearboxInputs>, \
-        bool);
-GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_EXCITATION_FORCES)
-#undef GEARPOD_EXCITATION_FORCES
-
 }  // namespace gearpod::lockstep

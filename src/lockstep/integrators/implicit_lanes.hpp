@@ -68,10 +68,4 @@ template <int W>
 ImplicitLanes<W> make_implicit_lanes(const IntegrationPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs);
 
-#define GEARPOD_IMPLICIT_LANES(W, REAL)                      \
-    extern template ImplicitLanes<W> make_implicit_lanes<W>( \
-        const IntegrationPlan&, const ImplicitSpan&, std::span<const dynamics::GearboxInputs>);
-GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_IMPLICIT_LANES)
-#undef GEARPOD_IMPLICIT_LANES
-
 }  // namespace gearpod::lockstep

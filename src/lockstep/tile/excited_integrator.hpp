@@ -33,10 +33,4 @@ std::unique_ptr<ExcitedIntegrator<W>> make_excited_integrator(
     const IntegrationPlan& plan, const Excitation& excitation,
     std::span<const dynamics::GearboxInputs> inputs);
 
-#define GEARPOD_EXCITED_INTEGRATOR(W, REAL)                                           \
-    extern template std::unique_ptr<ExcitedIntegrator<W>> make_excited_integrator<W>( \
-        const IntegrationPlan&, const Excitation&, std::span<const dynamics::GearboxInputs>);
-GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_EXCITED_INTEGRATOR)
-#undef GEARPOD_EXCITED_INTEGRATOR
-
 }  // namespace gearpod::lockstep

@@ -28,13 +28,4 @@ template <int W>
 std::unique_ptr<const MeshIntegrator<W>> make_mesh_integrator(
     const IntegrationPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
 
-#define GEARPOD_MESH_INTEGRATOR(W)                                                    \
-    extern template std::unique_ptr<const MeshIntegrator<W>> make_mesh_integrator<W>( \
-        const IntegrationPlan&, std::span<const dynamics::GearboxInputs>);
-GEARPOD_MESH_INTEGRATOR(1)
-GEARPOD_MESH_INTEGRATOR(4)
-GEARPOD_MESH_INTEGRATOR(8)
-GEARPOD_MESH_INTEGRATOR(16)
-#undef GEARPOD_MESH_INTEGRATOR
-
 }  // namespace gearpod::lockstep

@@ -33,19 +33,6 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
                                  std::span<const dynamics::GearboxInputs> inputs,
                                  double mesh_stiffness_N_m, int contacts);
 
-extern template StaticLanes<1> make_static_lanes<1>(const dynamics::GearboxLayout&,
-                                                    dynamics::MeshLaw,
-                                                    std::span<const dynamics::GearboxInputs>,
-                                                    double, int);
-extern template StaticLanes<4> make_static_lanes<4>(const dynamics::GearboxLayout&,
-                                                    dynamics::MeshLaw,
-                                                    std::span<const dynamics::GearboxInputs>,
-                                                    double, int);
-extern template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayout&,
-                                                    dynamics::MeshLaw,
-                                                    std::span<const dynamics::GearboxInputs>,
-                                                    double, int);
-
 // Meshes at one phase, the solution, and workspace.
 template <int W>
 struct StaticState {
@@ -61,18 +48,10 @@ struct StaticState {
     machine::AlignedVector factor, inverse, right_hand;  // of the equations
 };
 
-extern template struct StaticState<1>;
-extern template struct StaticState<4>;
-extern template struct StaticState<8>;
-
 // Solves for state.q from state.k and state.e. A body without stiffness and without load stays at
 // zero. A load that meets no stiffness marks its lane `unsupported`, and its q is then invalid.
 // Lanes do not affect each other.
 template <int W>
 void solve_static(const StaticLanes<W>& lanes, StaticState<W>& state);
-
-extern template void solve_static<1>(const StaticLanes<1>&, StaticState<1>&);
-extern template void solve_static<4>(const StaticLanes<4>&, StaticState<4>&);
-extern template void solve_static<8>(const StaticLanes<8>&, StaticState<8>&);
 
 }  // namespace gearpod::lockstep

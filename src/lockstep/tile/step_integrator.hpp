@@ -34,11 +34,4 @@ std::unique_ptr<StepIntegrator<W>> make_step_integrator(
     const IntegrationPlan& plan, const std::vector<ShaftEnd>& shafts,
     std::span<const dynamics::GearboxInputs> inputs);
 
-#define GEARPOD_STEP_INTEGRATOR(W, REAL)                                        \
-    extern template std::unique_ptr<StepIntegrator<W>> make_step_integrator<W>( \
-        const IntegrationPlan&, const std::vector<ShaftEnd>&,                   \
-        std::span<const dynamics::GearboxInputs>);
-GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_STEP_INTEGRATOR)
-#undef GEARPOD_STEP_INTEGRATOR
-
 }  // namespace gearpod::lockstep
