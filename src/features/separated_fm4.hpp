@@ -1,6 +1,6 @@
-// FM4 (fm4.hpp) of the averages of the single planets, largest value, normal = 3. They are
-// assembled from windows around the planets' passages of the sensor: vibration separation of
-// McFadden (1991) and Howard (1990), signals/windowing/planet_separation.hpp; with FM4: D. G.
+// FM4 of the averages of the single planets, largest value, normal = 3. They are assembled from
+// windows around the planets' passages of the sensor: vibration separation of McFadden (1991) and
+// Howard (1990), signals/windowing/planet_separation.hpp; with FM4 (difference_moments.hpp): D. G.
 // Lewicki, K. E. LaBerge, R. T. Ehinger and J. Fetty, NASA/TM-2011-217127. The fault of one planet
 // is not averaged with its sound companions as in fm4. NaN without passages of all teeth, and if
 // the difference signals are rounding errors.

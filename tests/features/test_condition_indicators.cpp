@@ -6,21 +6,14 @@
 #include <vector>
 
 #include "features/crest_factor.hpp"
+#include "features/difference_moments.hpp"
 #include "features/energy_ratio.hpp"
-#include "features/fm4.hpp"
 #include "features/frms.hpp"
-#include "features/m6a.hpp"
-#include "features/m8a.hpp"
-#include "features/na4.hpp"
-#include "features/nb4.hpp"
+#include "features/healthy_trend.hpp"
 #include "features/nsds.hpp"
 #include "features/sideband_index.hpp"
 #include "features/statistics/standardised_moment.hpp"
-#include "features/window_crest.hpp"
-#include "features/window_kurtosis.hpp"
-#include "features/window_m8a.hpp"
-#include "features/window_ratio.hpp"
-#include "features/window_z.hpp"
+#include "features/tooth_windows.hpp"
 
 namespace test_condition_indicators {
 

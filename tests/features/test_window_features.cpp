@@ -5,8 +5,7 @@
 
 #include "features/sensor_rms.hpp"
 #include "features/statistics/median.hpp"
-#include "features/window_ratio.hpp"
-#include "features/window_z.hpp"
+#include "features/tooth_windows.hpp"
 
 namespace test_window_features {
 
