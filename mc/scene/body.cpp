@@ -16,7 +16,7 @@ dynamics::PlanetaryLayout planetary_layout(const Study& study) {
     result.pressure_angle_rad = g.pressure_angle_rad;
     result.helix_angle_rad = g.helix_angle_rad;
     result.positions_rad = g.planet_positions_rad;
-    result.fixed = fixed_member(study.operation.fixed);
+    result.fixed = central_member(study.operation.fixed);
     result.motion = study.effects.torsional() ? dynamics::Motion::torsional
                                               : dynamics::Motion::translational_torsional;
     result.inertial_terms = study.effects.inertial_terms;

@@ -70,9 +70,8 @@ std::unique_ptr<const Drivetrain> make_drivetrain(const Study& study);
 // Mesh frequency at the nominal speed of its study, with the sign of mesh_frequency_rad_s().
 double nominal_mesh_frequency_Hz(const Study& study, const Drivetrain& drivetrain);
 
-// Planetary train of a study, and conversions of its members' enumerators.
+// Planetary train of a study, and conversion of its central members' enumerators.
 gears::PlanetaryTrain planetary_train(const Study& study);
-gears::FixedMember fixed_member(Member member);
 gears::Member central_member(Member member);
 
 class PlanetaryDrivetrain : public Drivetrain {

@@ -11,22 +11,6 @@ namespace gearpod::mc {
 
 using std::numbers::pi;
 
-gears::FixedMember fixed_member(Member member) {
-    switch (member) {
-        case Member::sun:
-            return gears::FixedMember::sun;
-        case Member::carrier:
-            return gears::FixedMember::carrier;
-        case Member::ring:
-            return gears::FixedMember::ring;
-        case Member::planet:
-        case Member::pinion:
-        case Member::gear:
-            break;
-    }
-    throw std::logic_error("no central member");
-}
-
 gears::Member central_member(Member member) {
     switch (member) {
         case Member::sun:
@@ -62,7 +46,7 @@ double phase_of_teeth(const Study& study, const gears::PlanetaryTrain& train,
 
 PlanetaryDrivetrain::PlanetaryDrivetrain(const Study& study)
     : train_(planetary_train(study)),
-      flow_{fixed_member(study.operation.fixed), central_member(study.operation.input)},
+      flow_{central_member(study.operation.fixed), central_member(study.operation.input)},
       speed_of_(central_member(speed_member(study))),
       torque_on_(central_member(study.operation.torque_on)),
       sense_(gears::planet_sense(speeds(1.0))),
@@ -77,10 +61,7 @@ double PlanetaryDrivetrain::mesh_frequency_rad_s(double speed_rad_s) const {
 
 double PlanetaryDrivetrain::turns_per_mesh(gears::Member member) const {
     const gears::Speeds turning = speeds(1.0);
-    const double speed = member == gears::Member::sun    ? turning.sun
-                         : member == gears::Member::ring ? turning.ring
-                                                         : turning.carrier;
-    return std::abs(speed) / gears::mesh_frequency(train_, turning);
+    return std::abs(gears::speed_of(turning, member)) / gears::mesh_frequency(train_, turning);
 }
 
 double PlanetaryDrivetrain::input_turns_per_mesh() const {
@@ -96,17 +77,15 @@ double PlanetaryDrivetrain::frame_turns_per_mesh() const {
 }
 
 int PlanetaryDrivetrain::input_degree_of_freedom(const dynamics::GearboxLayout& layout) const {
-    const dynamics::Body body = flow_.input == gears::Member::sun    ? dynamics::sun
-                                : flow_.input == gears::Member::ring ? dynamics::ring
-                                                                     : dynamics::carrier;
-    return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(body);
+    return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(
+        dynamics::body_of(flow_.input));
 }
 
 // Along rigid_rotation the carrier's displacement is 1, or the sun's if the carrier is fixed.
 double PlanetaryDrivetrain::rotation_m_s(const InstanceInputs& instance) const {
     const gears::Speeds turning = speeds(instance.speed_rad_s);
-    return flow_.fixed == gears::FixedMember::carrier ? radius_m_.sun * turning.sun
-                                                      : radius_m_.carrier * turning.carrier;
+    return flow_.fixed == gears::Member::carrier ? radius_m_.sun * turning.sun
+                                                 : radius_m_.carrier * turning.carrier;
 }
 
 ShaftDegree PlanetaryDrivetrain::shaft_degree(const dynamics::GearboxLayout& layout,
@@ -135,7 +114,7 @@ void PlanetaryDrivetrain::set(const InstanceInputs& instance,
     out.force_N[dynamics::ring] = torque.ring / radius_m_.ring;
     out.force_N[dynamics::carrier] = torque.carrier / radius_m_.carrier;
     // The support's reaction balances the fixed member.
-    out.force_N[dynamics::fixed_body(flow_.fixed)] = 0.0;
+    out.force_N[dynamics::body_of(flow_.fixed)] = 0.0;
 }
 
 double PlanetaryDrivetrain::mesh_force_N(const InstanceInputs& instance) const {

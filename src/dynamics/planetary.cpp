@@ -69,13 +69,13 @@ double PlanetaryLayout::transverse_pressure_angle() const {
     return dynamics::transverse_pressure_angle(pressure_angle_rad, helix_angle_rad);
 }
 
-Body fixed_body(gears::FixedMember fixed) {
-    switch (fixed) {
-        case gears::FixedMember::sun:
+Body body_of(gears::Member member) {
+    switch (member) {
+        case gears::Member::sun:
             return sun;
-        case gears::FixedMember::carrier:
+        case gears::Member::carrier:
             return carrier;
-        case gears::FixedMember::ring:
+        case gears::Member::ring:
             break;
     }
     return ring;
@@ -152,7 +152,7 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                                inputs.bearing_damping_N_s_m[body]});
         }
     }
-    const Body fixed_member = fixed_body(layout.fixed);
+    const Body fixed_member = body_of(layout.fixed);
     springs.push_back({fmt::format("the {}'s support", kBodyNames[fixed_member]),
                        motion(3 * fixed_member + 2), inputs.support_stiffness_N_m,
                        inputs.support_damping_N_s_m});
@@ -223,7 +223,7 @@ Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
     // a_r.
     const double cos_s = std::cos(layout.sun_mesh_angle());
     const double cos_r = std::cos(layout.ring_mesh_angle());
-    const Body fixed_member = fixed_body(layout.fixed);
+    const Body fixed_member = body_of(layout.fixed);
     const double u_c = fixed_member == carrier ? 0.0 : 1.0;
     const double u_s = fixed_member == sun ? 0.0 : fixed_member == ring ? cos_s + cos_r : 1.0;
     const double u_n = u_c * cos_s - u_s;

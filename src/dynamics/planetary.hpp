@@ -49,7 +49,7 @@ struct PlanetaryLayout {
     double helix_angle_rad = 0.0;       // see helical_pair.hpp for its effect on the stiffness
     std::vector<double> positions_rad;  // psi_n; empty: equally spaced
     double carrier_radius_m = 0.0;      // centre distance; used only by inertial terms
-    gears::FixedMember fixed = gears::FixedMember::ring;
+    gears::Member fixed = gears::Member::ring;
     Motion motion = Motion::translational_torsional;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
@@ -126,8 +126,7 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
 // Names of the degrees of freedom: carrier_x, carrier_y, carrier_u, ...
 std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 
-// Body of the fixed member.
-Body fixed_body(gears::FixedMember fixed);
+Body body_of(gears::Member member);
 
 // Mesh damping of a pair by the layout's law.
 DampingTerms mesh_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);

@@ -249,26 +249,18 @@ PlanetSense planet_sense(const Speeds& speeds) {
     return speeds.sun > speeds.carrier ? PlanetSense::clockwise : PlanetSense::counter_clockwise;
 }
 
-Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given, double speed) {
+Speeds train_speeds(const PlanetaryTrain& train, Member fixed, Member given, double speed) {
     const double s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth;
-    const bool given_is_fixed = (fixed == FixedMember::ring && given == Member::ring) ||
-                                (fixed == FixedMember::sun && given == Member::sun) ||
-                                (fixed == FixedMember::carrier && given == Member::carrier);
-    if (given_is_fixed) {
+    if (given == fixed) {
         throw std::invalid_argument(
             "the speed of the fixed member is given (it is 0: give another one)");
     }
     // Relative to the carrier, sun and ring rotate as -Z_r : Z_s. These are their speeds for a unit
     // tooth speed.
     const double sun = 1 / s, ring = -1 / r, planet = -1 / p;
-    const double carrier = fixed == FixedMember::ring  ? -ring
-                           : fixed == FixedMember::sun ? -sun
-                                                       : 0;
+    const double carrier = fixed == Member::ring ? -ring : fixed == Member::sun ? -sun : 0;
     const Speeds unit{sun + carrier, planet + carrier, ring + carrier, carrier};
-    const double reference = given == Member::sun    ? unit.sun
-                             : given == Member::ring ? unit.ring
-                                                     : unit.carrier;
-    const double scale = speed / reference;
+    const double scale = speed / speed_of(unit, given);
     return {scale * unit.sun, scale * unit.planet, scale * unit.ring, scale * unit.carrier};
 }
 
@@ -276,13 +268,13 @@ double mesh_frequency(const PlanetaryTrain& train, const Speeds& speeds) {
     return train.sun_teeth * std::abs(speeds.sun - speeds.carrier);
 }
 
-std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, FixedMember fixed) {
+std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, Member fixed) {
     switch (fixed) {
-        case FixedMember::ring:
+        case Member::ring:
             return train.ring_teeth;
-        case FixedMember::sun:
+        case Member::sun:
             return train.sun_teeth;
-        case FixedMember::carrier:
+        case Member::carrier:
             return std::nullopt;
     }
     return std::nullopt;

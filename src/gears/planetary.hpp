@@ -31,7 +31,6 @@ PlanetPlaces planet_places(const PlanetaryTrain& train);
 // psi_n, rad.
 double planet_angle(const PlanetPlaces& places, int planet);
 
-enum class FixedMember { ring, sun, carrier };
 enum class Member { sun, ring, carrier };
 // Sense of the planets' rotation relative to the carrier. It determines the order in which the
 // planets reach a mesh phase.
@@ -84,18 +83,24 @@ struct Speeds {
     double carrier = 0;
 };
 
+inline double speed_of(const Speeds& speeds, Member member) {
+    return member == Member::sun    ? speeds.sun
+           : member == Member::ring ? speeds.ring
+                                    : speeds.carrier;
+}
+
 // Clockwise if the sun turns faster than the carrier, otherwise counter-clockwise.
 PlanetSense planet_sense(const Speeds& speeds);
 
 // All speeds from one of them (Willis). Throws std::invalid_argument if the given member is the
 // fixed one.
-Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given, double speed);
+Speeds train_speeds(const PlanetaryTrain& train, Member fixed, Member given, double speed);
 
 // Meshes per unit of time (speeds in turns) or radians of mesh phase (speeds in radians): Z_s |W_s
 // - W_c|, which equals Liang (2016), Eq. 2.3.9 for each fixed member.
 double mesh_frequency(const PlanetaryTrain& train, const Speeds& speeds);
 
 // Z_r with the ring fixed, Z_s with the sun fixed, nothing with the carrier fixed.
-std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, FixedMember fixed);
+std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, Member fixed);
 
 }  // namespace gearpod::gears

@@ -5,24 +5,6 @@
 namespace gearpod::gears {
 namespace {
 
-Member member_of(FixedMember fixed) {
-    switch (fixed) {
-        case FixedMember::sun:
-            return Member::sun;
-        case FixedMember::carrier:
-            return Member::carrier;
-        case FixedMember::ring:
-            break;
-    }
-    return Member::ring;
-}
-
-double speed_of(const Speeds& speeds, Member member) {
-    return member == Member::sun    ? speeds.sun
-           : member == Member::ring ? speeds.ring
-                                    : speeds.carrier;
-}
-
 double& value_of(CentralMembers& members, Member member) {
     return member == Member::sun    ? members.sun
            : member == Member::ring ? members.ring
@@ -33,7 +15,7 @@ double& value_of(CentralMembers& members, Member member) {
 
 Member output_member(const PowerFlow& flow) {
     for (const Member member : {Member::sun, Member::ring})
-        if (member != flow.input && member != member_of(flow.fixed))
+        if (member != flow.input && member != flow.fixed)
             return member;
     return Member::carrier;
 }

@@ -18,7 +18,7 @@ namespace gearpod::gears {
 // Park's working conditions, by (fixed, input): 1 (sun, ring), 2 (sun, carrier), 3 (ring, sun), 4
 // (ring, carrier), 5 (carrier, sun), 6 (carrier, ring).
 struct PowerFlow {
-    FixedMember fixed = FixedMember::ring;
+    Member fixed = Member::ring;
     Member input = Member::sun;
 };
 

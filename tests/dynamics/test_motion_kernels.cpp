@@ -193,8 +193,8 @@ TEST_CASE("Shifted gears balance the carrier's torque at their own working angle
 
 TEST_CASE("A free train rotates past its fixed member without deflecting a spring") {
     std::mt19937 engine(2);
-    using gearpod::gears::FixedMember;
-    for (const auto fixed : {FixedMember::ring, FixedMember::sun, FixedMember::carrier}) {
+    using gearpod::gears::Member;
+    for (const auto fixed : {Member::ring, Member::sun, Member::carrier}) {
         for (const auto motion : {Motion::translational_torsional, Motion::torsional}) {
             PlanetaryLayout layout = layout_of(5, motion, false, MeshDamping::ratio);
             layout.fixed = fixed;

@@ -17,12 +17,11 @@ TEST_CASE("The free rotation of the model gives no transmission error in any wor
     const double module = 14e-3, angle = 0.43;
     const double r_c = module * 42 / 2, r_r = module * 68 / 2 * std::cos(angle),
                  r_s = module * 16 / 2 * std::cos(angle);
-    using gears::FixedMember;
     using gears::Member;
     const gears::PowerFlow conditions[] = {
-        {FixedMember::sun, Member::ring},    {FixedMember::sun, Member::carrier},
-        {FixedMember::ring, Member::sun},    {FixedMember::ring, Member::carrier},
-        {FixedMember::carrier, Member::sun}, {FixedMember::carrier, Member::ring}};
+        {Member::sun, Member::ring},    {Member::sun, Member::carrier},
+        {Member::ring, Member::sun},    {Member::ring, Member::carrier},
+        {Member::carrier, Member::sun}, {Member::carrier, Member::ring}};
     for (const gears::PowerFlow& flow : conditions) {
         const gears::CentralMembers w = gears::transmission_error_weights(train, flow);
         for (const auto motion : {Motion::torsional, Motion::translational_torsional}) {

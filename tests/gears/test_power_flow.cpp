@@ -14,12 +14,12 @@ namespace {
 
 const PlanetaryTrain kPark{16, 26, 68, 3};
 const PowerFlow kConditions[] = {
-    {FixedMember::sun, Member::ring},      // 1
-    {FixedMember::sun, Member::carrier},   // 2
-    {FixedMember::ring, Member::sun},      // 3
-    {FixedMember::ring, Member::carrier},  // 4
-    {FixedMember::carrier, Member::sun},   // 5
-    {FixedMember::carrier, Member::ring},  // 6
+    {Member::sun, Member::ring},      // 1
+    {Member::sun, Member::carrier},   // 2
+    {Member::ring, Member::sun},      // 3
+    {Member::ring, Member::carrier},  // 4
+    {Member::carrier, Member::sun},   // 5
+    {Member::carrier, Member::ring},  // 6
 };
 
 double of(const Speeds& s, Member m) {
@@ -94,8 +94,8 @@ TEST_CASE("Rigid rotation gives no transmission error") {
 }
 
 TEST_CASE("A train driven by its carrier reverses the rotation of the planets") {
-    for (const FixedMember fixed : {FixedMember::ring, FixedMember::sun}) {
-        const Member geared = fixed == FixedMember::ring ? Member::sun : Member::ring;
+    for (const Member fixed : {Member::ring, Member::sun}) {
+        const Member geared = fixed == Member::ring ? Member::sun : Member::ring;
         const Speeds by_gear = signed_speeds(kPark, {fixed, geared}, geared, 1.0);
         const Speeds by_carrier = signed_speeds(kPark, {fixed, Member::carrier}, geared, 1.0);
         CHECK(by_carrier.sun == -by_gear.sun);
@@ -126,7 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A fixed member accepts no speed") {
-    CHECK_THROWS_AS(signed_speeds(kPark, {FixedMember::ring, Member::sun}, Member::ring, 1.0),
+    CHECK_THROWS_AS(signed_speeds(kPark, {Member::ring, Member::sun}, Member::ring, 1.0),
                     std::invalid_argument);
 }
 
