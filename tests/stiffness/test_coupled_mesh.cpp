@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "stiffness/additive_mesh.hpp"
-#include "stiffness/faults/broken.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/crack.hpp"
 #include "tests/stiffness/yang_gears.hpp"

@@ -2,9 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "stiffness/additive_mesh.hpp"
-#include "stiffness/faults/broken.hpp"
 #include "stiffness/faults/chip.hpp"
-#include "stiffness/faults/reduction.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/stiffness/gear_pairs.hpp"

@@ -6,7 +6,7 @@
 #include "gears/corner_contact.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
-#include "stiffness/faults/reduction.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"

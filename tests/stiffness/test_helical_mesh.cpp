@@ -6,8 +6,8 @@
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
-#include "stiffness/faults/broken.hpp"
 #include "stiffness/faults/chip.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/pitting.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/helical_mesh.hpp"

@@ -1,9 +1,8 @@
-// Broken tooth, of which a fraction has broken off: stiffness/faults/broken.hpp.
-#include "stiffness/faults/broken.hpp"
-
+// Broken tooth, of which a fraction has broken off: stiffness/faults/losses.hpp.
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/keys/access.hpp"
 #include "mc/study/keys/units.hpp"
+#include "stiffness/faults/losses.hpp"
 
 namespace gearpod::mc {
 namespace {

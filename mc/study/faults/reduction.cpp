@@ -1,9 +1,8 @@
-// Tooth fault given only by the loss of mesh stiffness: stiffness/faults/reduction.hpp.
-#include "stiffness/faults/reduction.hpp"
-
+// Tooth fault given only by the loss of mesh stiffness: stiffness/faults/losses.hpp.
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/keys/access.hpp"
 #include "mc/study/keys/units.hpp"
+#include "stiffness/faults/losses.hpp"
 
 namespace gearpod::mc {
 namespace {

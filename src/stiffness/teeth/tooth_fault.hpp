@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,10 @@ class ToothFault {
     virtual bool changes_sections() const { return false; }
     // Compliance of the faulty tooth as a beam (bending, shear, axial), m/N, at ascending tau.
     // Infinite where the tooth carries no load. Throws std::logic_error unless the sections change.
-    virtual void beam_compliance(std::span<const double> tau, std::span<double> compliance) const;
+    virtual void beam_compliance(std::span<const double> /*tau*/,
+                                 std::span<double> /*compliance*/) const {
+        throw std::logic_error("this fault leaves the tooth's sections as they are");
+    }
     // True if contact_width() differs from 1 anywhere.
     virtual bool changes_contact() const { return false; }
     // Fraction of the face width, 0 to 1, on which the tooth is in contact at tau.

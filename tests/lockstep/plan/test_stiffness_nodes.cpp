@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "stiffness/faults/broken.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/pitting.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"

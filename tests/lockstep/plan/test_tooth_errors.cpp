@@ -5,7 +5,7 @@
 #include "lockstep/plan/tooth_errors.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/strategies/solution.hpp"
-#include "stiffness/faults/broken.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"

@@ -5,9 +5,8 @@
 
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "stiffness/coupled_mesh.hpp"
-#include "stiffness/faults/broken.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "stiffness/faults/pitting.hpp"
-#include "stiffness/faults/reduction.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 

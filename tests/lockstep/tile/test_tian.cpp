@@ -8,7 +8,7 @@
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
-#include "stiffness/faults/broken.hpp"
+#include "stiffness/faults/losses.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
 namespace test_tian {
