@@ -10,22 +10,19 @@
 
 namespace gearpod::machine {
 
+// Polynomial in x with these coefficients, from that of the highest power to the constant one.
+template <class... Coefficients>
+GEARPOD_INLINE double horner(double x, double sum, Coefficients... next) {
+    ((sum = std::fma(sum, x, next)), ...);
+    return sum;
+}
+
 // (exp(r) - 1) / r for |r| <= ln(2)/2 from the Taylor series of exp(r), whose remainder is at most
 // 2e-16, at the ends.
 GEARPOD_INLINE double lane_exp_quotient(double r) {
-    double sum = 1.0 / 6227020800.0;
-    sum = std::fma(sum, r, 1.0 / 479001600.0);
-    sum = std::fma(sum, r, 1.0 / 39916800.0);
-    sum = std::fma(sum, r, 1.0 / 3628800.0);
-    sum = std::fma(sum, r, 1.0 / 362880.0);
-    sum = std::fma(sum, r, 1.0 / 40320.0);
-    sum = std::fma(sum, r, 1.0 / 5040.0);
-    sum = std::fma(sum, r, 1.0 / 720.0);
-    sum = std::fma(sum, r, 1.0 / 120.0);
-    sum = std::fma(sum, r, 1.0 / 24.0);
-    sum = std::fma(sum, r, 1.0 / 6.0);
-    sum = std::fma(sum, r, 0.5);
-    return std::fma(sum, r, 1.0);
+    return horner(r, 1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,
+                  1.0 / 362880.0, 1.0 / 40320.0, 1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0,
+                  1.0 / 6.0, 0.5, 1.0);
 }
 
 // exp(v), with a relative error below 4e-16 for |v| <= 700. Larger |v| give the value at +-700.
@@ -73,17 +70,8 @@ GEARPOD_INLINE double lane_minus_scaled_log(double x) {
         kScale + 1023.0 - (std::bit_cast<double>(exponent | 0x4330000000000000) - 0x1p52);
     const double s = (m - 1.0) / (m + 1.0);
     const double q = s * s;
-    double sum = 1.0 / 23.0;
-    sum = std::fma(sum, q, 1.0 / 21.0);
-    sum = std::fma(sum, q, 1.0 / 19.0);
-    sum = std::fma(sum, q, 1.0 / 17.0);
-    sum = std::fma(sum, q, 1.0 / 15.0);
-    sum = std::fma(sum, q, 1.0 / 13.0);
-    sum = std::fma(sum, q, 1.0 / 11.0);
-    sum = std::fma(sum, q, 1.0 / 9.0);
-    sum = std::fma(sum, q, 1.0 / 7.0);
-    sum = std::fma(sum, q, 1.0 / 5.0);
-    sum = std::fma(sum, q, 1.0 / 3.0);
+    const double sum = horner(q, 1.0 / 23.0, 1.0 / 21.0, 1.0 / 19.0, 1.0 / 17.0, 1.0 / 15.0,
+                              1.0 / 13.0, 1.0 / 11.0, 1.0 / 9.0, 1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0);
     const double twice = -2.0 * s;
     const double log_m = std::fma(twice * q, sum, twice);  // -ln m
     return std::fma(k, kLn2High, std::fma(k, kLn2Low, log_m));
@@ -109,30 +97,15 @@ GEARPOD_INLINE double lane_erfc(double x) {
     const double lost = std::fma(x, x, -square);  // by the rounding of the square
     const double decay = lane_exp(-square);
     const double t = (x - 3.75) / (x + 3.75);
-    double sum = 3.1114333809799251993e-10;
-    sum = std::fma(sum, t, -2.6231073471334757612e-9);
-    sum = std::fma(sum, t, -3.7442100809620186444e-9);
-    sum = std::fma(sum, t, 3.1979266716668042918e-8);
-    sum = std::fma(sum, t, 2.3263508708859123732e-8);
-    sum = std::fma(sum, t, -2.4857126248016742872e-7);
-    sum = std::fma(sum, t, -5.7218230603224087501e-8);
-    sum = std::fma(sum, t, 1.7419821586224815923e-6);
-    sum = std::fma(sum, t, -9.7355989673677493407e-7);
-    sum = std::fma(sum, t, -0.000011438048033346893551);
-    sum = std::fma(sum, t, 0.00002238423915508222982);
-    sum = std::fma(sum, t, 0.000051646529741774161256);
-    sum = std::fma(sum, t, -0.00029015408054084171105);
-    sum = std::fma(sum, t, 0.00029371437804495802994);
-    sum = std::fma(sum, t, 0.0017556258528952953569);
-    sum = std::fma(sum, t, -0.0097465796832652622308);
-    sum = std::fma(sum, t, 0.028362277418956404286);
-    sum = std::fma(sum, t, -0.058693398576649338403);
-    sum = std::fma(sum, t, 0.09230432116037747776);
-    sum = std::fma(sum, t, -0.10880393014244461271);
-    sum = std::fma(sum, t, 0.082276738490145207683);
-    sum = std::fma(sum, t, 0.0035854154854790256379);
-    sum = std::fma(sum, t, -0.14024059858554696245);
-    sum = std::fma(sum, t, 1.2375126308378275289);
+    const double sum =
+        horner(t, 3.1114333809799251993e-10, -2.6231073471334757612e-9, -3.7442100809620186444e-9,
+               3.1979266716668042918e-8, 2.3263508708859123732e-8, -2.4857126248016742872e-7,
+               -5.7218230603224087501e-8, 1.7419821586224815923e-6, -9.7355989673677493407e-7,
+               -0.000011438048033346893551, 0.00002238423915508222982, 0.000051646529741774161256,
+               -0.00029015408054084171105, 0.00029371437804495802994, 0.0017556258528952953569,
+               -0.0097465796832652622308, 0.028362277418956404286, -0.058693398576649338403,
+               0.09230432116037747776, -0.10880393014244461271, 0.082276738490145207683,
+               0.0035854154854790256379, -0.14024059858554696245, 1.2375126308378275289);
     const double scaled = sum / std::fma(2.0, x, 1.0);
     return decay * std::fma(-scaled, lost, scaled);
 }
@@ -140,27 +113,15 @@ GEARPOD_INLINE double lane_erfc(double x) {
 // sin(x) and cos(x) for |x| <= pi/4 by their Taylor series. The remainders are 5e-17 and 3e-18.
 GEARPOD_INLINE double lane_sine(double x) {
     const double q = x * x;
-    double sum = -1.0 / 1307674368000.0;
-    sum = std::fma(sum, q, 1.0 / 6227020800.0);
-    sum = std::fma(sum, q, -1.0 / 39916800.0);
-    sum = std::fma(sum, q, 1.0 / 362880.0);
-    sum = std::fma(sum, q, -1.0 / 5040.0);
-    sum = std::fma(sum, q, 1.0 / 120.0);
-    sum = std::fma(sum, q, -1.0 / 6.0);
+    const double sum = horner(q, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
+                              1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0);
     return std::fma(x * q, sum, x);
 }
 
 GEARPOD_INLINE double lane_cosine(double x) {
     const double q = x * x;
-    double sum = 1.0 / 20922789888000.0;
-    sum = std::fma(sum, q, -1.0 / 87178291200.0);
-    sum = std::fma(sum, q, 1.0 / 479001600.0);
-    sum = std::fma(sum, q, -1.0 / 3628800.0);
-    sum = std::fma(sum, q, 1.0 / 40320.0);
-    sum = std::fma(sum, q, -1.0 / 720.0);
-    sum = std::fma(sum, q, 1.0 / 24.0);
-    sum = std::fma(sum, q, -0.5);
-    return std::fma(sum, q, 1.0);
+    return horner(q, 1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0,
+                  -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0);
 }
 
 // sin(2 pi z) for |z| < 2^50. The absolute error is below 1e-15, beyond the rounding of z. The

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "machine/kernel.hpp"
+#include "machine/lane_math.hpp"
 #include "signals/noise/chi_squared_table.hpp"
 
 namespace gearpod::signals {
@@ -22,11 +23,7 @@ GEARPOD_INLINE void all_values(long values, const double* __restrict pieces,
         piece = piece < kChiPieces ? piece : kChiPieces - 1;
         const double t = std::fma(2.0, place - piece, -1.0);
         const double* c = pieces + static_cast<long>(piece) * kChiStride;
-        double sum = std::fma(c[5], t, c[4]);
-        sum = std::fma(sum, t, c[3]);
-        sum = std::fma(sum, t, c[2]);
-        sum = std::fma(sum, t, c[1]);
-        value[b] = std::fma(sum, t, c[0]);
+        value[b] = machine::horner(t, c[5], c[4], c[3], c[2], c[1], c[0]);
     }
 }
 
