@@ -8,7 +8,6 @@
 
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"
-#include "stiffness/nominal_pairs.hpp"
 #include "stiffness/teeth/position_range.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
@@ -73,8 +72,7 @@ GappedMesh::GappedMesh(std::unique_ptr<const MeshStiffness> spur, double overlap
            make_extension(gaps, force_N, mean_total(spur_))},
       spur_ratio_(gap_.extension.reach().before + spur_.contact_ratio() +
                   gap_.extension.reach().after) {
-    const HealthyPairs healthy(spur_);
-    ExtendedPairs pairs(healthy, gap_.extension);
+    ExtendedPairs pairs(NominalPairs(spur_), gap_.extension);
     gap_.joins = pairs.change(0, true);
     gap_.leaves = pairs.change(0, false);
     curve_ = fit(pairs, 0, breaks());
@@ -247,8 +245,7 @@ class FaultyGappedMesh : public FaultyMesh {
         if (healthy_.slices_ == 1 && !healthy_.helical())
             for (const double jump : spur_.jumps())
                 jumps_.push_back(begin + jump);
-        const FaultyPairs faulty(healthy_.spur_, spur_);
-        ExtendedPairs pairs(faulty, healthy_.gap_.extension);
+        ExtendedPairs pairs(NominalPairs(healthy_.spur_, &spur_), healthy_.gap_.extension);
         for (int tooth = first_tooth(); tooth < duration(); ++tooth) {
             std::vector<double> breaks = healthy_.breaks();
             for (const double at : fault_positions)

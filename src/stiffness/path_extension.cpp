@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/position_range.hpp"
 
 namespace gearpod::stiffness {
@@ -18,6 +20,32 @@ bool whole(double contact_ratio) {
 }
 
 }  // namespace
+
+bool NominalPairs::fault_passes(double inside) const {
+    return faulty_ && inside > 0 && inside < faulty_->duration();
+}
+
+void NominalPairs::total(std::span<const double> tau, double inside,
+                         std::span<double> stiffness) const {
+    if (fault_passes(inside)) {
+        faulty_->total(tau, inside, stiffness);
+    } else {
+        spur_.total(tau, inside, stiffness);
+    }
+}
+
+void NominalPairs::pair(int tooth, std::span<const double> tau, double inside,
+                        std::span<double> stiffness) const {
+    if (fault_passes(inside)) {
+        faulty_->tooth_pair(tooth, tau, inside, stiffness);
+        return;
+    }
+    std::vector<double> own(tau.begin(), tau.end());
+    for (double& at : own) {
+        at -= tooth;
+    }
+    spur_.slice_stiffness(0, own, inside - tooth, stiffness);
+}
 
 double PathExtension::weight(double tau) const {
     if (tau >= 0 && tau <= contact_ratio()) {

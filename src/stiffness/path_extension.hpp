@@ -15,16 +15,27 @@
 
 namespace gearpod::stiffness {
 
-// Gear pair on its nominal path of contact, healthy or with a faulty tooth. Positions tau count
-// mesh periods from the start of tooth pair 0's path; tooth pair i starts i periods later. Both
-// functions take ascending positions in the stretch of `inside` and write N/m.
+class FaultyMesh;
+class MeshStiffness;
+
+// Spur gear pair on its nominal path of contact, healthy or with a faulty tooth. Positions tau
+// count mesh periods from the start of tooth pair 0's path; tooth pair i starts i periods later.
+// Both functions take ascending positions in the stretch of `inside` and write N/m.
 class NominalPairs {
   public:
-    virtual ~NominalPairs() = default;
-    virtual void total(std::span<const double> tau, double inside,
-                       std::span<double> stiffness) const = 0;
-    virtual void pair(int tooth, std::span<const double> tau, double inside,
-                      std::span<double> stiffness) const = 0;
+    // `faulty`: the pair while a faulty tooth passes, or null. The arguments must outlive the
+    // object.
+    explicit NominalPairs(const MeshStiffness& spur, const FaultyMesh* faulty = nullptr)
+        : spur_(spur), faulty_(faulty) {}
+    void total(std::span<const double> tau, double inside, std::span<double> stiffness) const;
+    void pair(int tooth, std::span<const double> tau, double inside,
+              std::span<double> stiffness) const;
+
+  private:
+    bool fault_passes(double inside) const;
+
+    const MeshStiffness& spur_;
+    const FaultyMesh* faulty_;
 };
 
 // Extent of engagements outside the path, and the weight of the joint stiffness of all pairs in
@@ -57,7 +68,7 @@ class PathExtension {
 
 class ExtendedPairs {
   public:
-    // Both arguments must outlive the object.
+    // The extension must outlive the object.
     ExtendedPairs(const NominalPairs& pairs, const PathExtension& extension)
         : pairs_(pairs), extension_(extension) {}
 
@@ -82,7 +93,7 @@ class ExtendedPairs {
     void apply(int tooth, int other, bool joins, std::span<const double> tau,
                std::span<double> values);
 
-    const NominalPairs& pairs_;
+    const NominalPairs pairs_;
     const PathExtension& extension_;
     std::map<std::pair<int, bool>, Change> changes_;
 };
