@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "lockstep/plan/path_totals.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 
 namespace gearpod::lockstep {
@@ -103,14 +102,12 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
             continue;
         }
         const stiffness::MeshStiffness& healthy = faults_.pairs->curve(passage.pair);
-        const bool reversed = faults_.pairs->reversed;
-        const std::vector<double> total = faulty_total(healthy, *curves[l], reversed, steps);
-        const std::vector<double> paths =
-            healthy.has_gaps() ? faulty_path_total(healthy, *curves[l], reversed, steps) : total;
+        const PairTotals totals =
+            faulty_totals(healthy, *curves[l], faults_.pairs->reversed, steps);
         dynamics::with_mesh_damping(dynamics::mesh_damping(plan_.layout), [&](auto law) {
             for (std::size_t i = 0; i < count; ++i) {
-                o.stiffness[i * lanes + l] = total[i];
-                o.damping_shape[i * lanes + l] = law.shape(paths[i]);
+                o.stiffness[i * lanes + l] = totals.all[i];
+                o.damping_shape[i * lanes + l] = law.shape(totals.paths[i]);
             }
         });
         if (slots > 0) {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "dynamics/effects/mesh_damping.hpp"
-#include "lockstep/plan/path_totals.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
@@ -67,6 +66,22 @@ std::vector<double> in_order(const stiffness::MeshStiffness& healthy, double las
     return values;
 }
 
+// Totals of a mesh, which is `healthy` or `healthy` with a fault.
+template <class Mesh>
+PairTotals pair_totals(const stiffness::MeshStiffness& healthy, const Mesh& mesh, double last,
+                       const std::vector<double>& jumps, bool reversed,
+                       const StepPositions& steps) {
+    const auto by = [&](auto total) {
+        return in_order(healthy, last, jumps, reversed, steps,
+                        [&](auto positions, double inside, auto values) {
+                            (mesh.*total)(positions, inside, values);
+                        });
+    };
+    PairTotals totals{by(&Mesh::total), {}};
+    totals.paths = healthy.has_gaps() ? by(&Mesh::path_total) : totals.all;
+    return totals;
+}
+
 }  // namespace
 
 double PairSet::pitch_phase(int pair) const {
@@ -123,37 +138,15 @@ StepPositions overlapping_steps(const PhaseGrid& grid, double mesh, double start
     return positions;
 }
 
-std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
-                                  const StepPositions& steps) {
-    return in_order(
-        mesh, mesh.contact_ratio(), {}, reversed, steps,
-        [&](auto positions, double inside, auto values) { mesh.total(positions, inside, values); });
+PairTotals healthy_totals(const stiffness::MeshStiffness& mesh, bool reversed,
+                          const StepPositions& steps) {
+    return pair_totals(mesh, mesh, mesh.contact_ratio(), {}, reversed, steps);
 }
 
-std::vector<double> healthy_path_total(const stiffness::MeshStiffness& mesh, bool reversed,
-                                       const StepPositions& steps) {
-    return in_order(mesh, mesh.contact_ratio(), {}, reversed, steps,
-                    [&](auto positions, double inside, auto values) {
-                        mesh.path_total(positions, inside, values);
-                    });
-}
-
-std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
-                                 const stiffness::FaultyMesh& faulty, bool reversed,
-                                 const StepPositions& steps) {
-    return in_order(healthy, faulty.duration(), faulty.jumps(), reversed, steps,
-                    [&](auto positions, double inside, auto values) {
-                        faulty.total(positions, inside, values);
-                    });
-}
-
-std::vector<double> faulty_path_total(const stiffness::MeshStiffness& healthy,
-                                      const stiffness::FaultyMesh& faulty, bool reversed,
-                                      const StepPositions& steps) {
-    return in_order(healthy, faulty.duration(), faulty.jumps(), reversed, steps,
-                    [&](auto positions, double inside, auto values) {
-                        faulty.path_total(positions, inside, values);
-                    });
+PairTotals faulty_totals(const stiffness::MeshStiffness& healthy,
+                         const stiffness::FaultyMesh& faulty, bool reversed,
+                         const StepPositions& steps) {
+    return pair_totals(healthy, faulty, faulty.duration(), faulty.jumps(), reversed, steps);
 }
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
@@ -167,14 +160,11 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
     for (std::size_t pair = 0; pair < count; ++pair) {
         // Positions count from an engagement that starts before the mesh period.
         const StepPositions steps = overlapping_steps(grid, 0.0, pairs.start[pair] - 1.0, kForever);
-        const stiffness::MeshStiffness& mesh = *pairs.mesh[pair];
-        const auto total = healthy_total(mesh, pairs.reversed, steps);
-        const auto paths =
-            mesh.has_gaps() ? healthy_path_total(mesh, pairs.reversed, steps) : total;
+        const PairTotals totals = healthy_totals(*pairs.mesh[pair], pairs.reversed, steps);
         dynamics::with_mesh_damping(damping, [&](auto law) {
-            for (std::size_t i = 0; i < total.size(); ++i) {
-                nodes.stiffness[i * count + pair] = total[i];
-                nodes.damping_shape[i * count + pair] = law.shape(paths[i]);
+            for (std::size_t i = 0; i < totals.all.size(); ++i) {
+                nodes.stiffness[i * count + pair] = totals.all[i];
+                nodes.damping_shape[i * count + pair] = law.shape(totals.paths[i]);
             }
         });
     }

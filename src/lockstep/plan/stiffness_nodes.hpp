@@ -89,13 +89,19 @@ struct StepPositions {
 // (not reduced to one period) and lasts `duration`.
 StepPositions overlapping_steps(const PhaseGrid& grid, double mesh, double start, double duration);
 
-// Total stiffness of a healthy pair during these steps, [step - first_step][stage node], N/m.
-// Positions count from an engagement of its teeth.
-std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
-                                  const StepPositions& steps);
+// Total stiffness of a pair during such steps, [step - first_step][stage node], N/m.
+struct PairTotals {
+    std::vector<double> all;
+    // Sum over the tooth pairs on their nominal paths (stiffness::MeshStiffness::path_total), which
+    // mesh damping depends on.
+    std::vector<double> paths;
+};
+// Positions count from an engagement of the healthy pair's teeth.
+PairTotals healthy_totals(const stiffness::MeshStiffness& mesh, bool reversed,
+                          const StepPositions& steps);
 // Same while a fault passes. Positions count from the engagement of the first faulty tooth.
-std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
-                                 const stiffness::FaultyMesh& faulty, bool reversed,
-                                 const StepPositions& steps);
+PairTotals faulty_totals(const stiffness::MeshStiffness& healthy,
+                         const stiffness::FaultyMesh& faulty, bool reversed,
+                         const StepPositions& steps);
 
 }  // namespace gearpod::lockstep

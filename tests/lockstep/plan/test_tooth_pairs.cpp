@@ -33,7 +33,7 @@ void check_sum(const PairSet& pairs, const stiffness::FaultyMesh& faulty) {
         if (steps.middle.empty()) {
             continue;
         }
-        const auto total = faulty_total(pairs.curve(0), faulty, pairs.reversed, steps);
+        const auto total = faulty_totals(pairs.curve(0), faulty, pairs.reversed, steps).all;
         const auto each = faulty_tooth_pairs(pairs, faulty, {0, k, start}, steps, 3);
         REQUIRE(each.size() == 3 * total.size());
         for (std::size_t i = 0; i < total.size(); ++i) {
