@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "features/signals.hpp"
 
@@ -12,10 +13,7 @@ namespace gearpod::features {
 inline double crest_factor(const SensorTurn& sensor) {
     const std::span<const double> turn = sensor.turn;
     const auto count = static_cast<double>(turn.size());
-    double sum = 0.0;
-    for (const double value : turn) {
-        sum += value;
-    }
+    const double sum = std::accumulate(turn.begin(), turn.end(), 0.0);
     double squares = 0.0, peak = 0.0;
     for (const double value : turn) {
         const double d = value - sum / count;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 
 #include "features/signals.hpp"
 
@@ -9,11 +10,7 @@ namespace gearpod::features {
 
 inline double energy_ratio(const SensorTurn& sensor) {
     const auto sum_of_squares = [](std::span<const double> values) {
-        double sum = 0.0;
-        for (const double value : values) {
-            sum += value * value;
-        }
-        return sum;
+        return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     };
     return std::sqrt(sum_of_squares(sensor.difference) / sum_of_squares(sensor.regular));
 }

@@ -2,6 +2,7 @@
 // kurtosis, they keep rising when damage spreads and the variance grows.
 #pragma once
 
+#include <numeric>
 #include <span>
 
 #include "features/signals.hpp"
@@ -10,11 +11,7 @@ namespace gearpod::features {
 
 inline double trended_kurtosis(std::span<const double> values, double healthy_variance) {
     const auto count = static_cast<double>(values.size());
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    const double mean = sum / count;
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
     double fourth = 0.0;
     for (const double value : values) {
         const double square = (value - mean) * (value - mean);

@@ -2,17 +2,15 @@
 // Park et al. (2016), Table II.
 #pragma once
 
+#include <numeric>
+
 #include "features/signals.hpp"
 
 namespace gearpod::features {
 
 inline double te_kurtosis(const TeTurn& te) {
     const auto count = static_cast<double>(te.turn.size());
-    double sum = 0.0;
-    for (const double value : te.turn) {
-        sum += value;
-    }
-    const double mean = sum / count;
+    const double mean = std::accumulate(te.turn.begin(), te.turn.end(), 0.0) / count;
     double second = 0.0;
     double fourth = 0.0;
     for (const double value : te.turn) {

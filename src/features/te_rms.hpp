@@ -2,16 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 
 #include "features/signals.hpp"
 
 namespace gearpod::features {
 
 inline double te_rms(const TeTurn& te) {
-    double sum = 0.0;
-    for (const double value : te.turn) {
-        sum += value * value;
-    }
+    const double sum = std::inner_product(te.turn.begin(), te.turn.end(), te.turn.begin(), 0.0);
     return std::sqrt(sum / static_cast<double>(te.turn.size()));
 }
 

@@ -1,6 +1,7 @@
 // Distinguishes parts of a signal from the rounding errors of their separation.
 #pragma once
 
+#include <numeric>
 #include <span>
 
 namespace gearpod::features {
@@ -10,11 +11,7 @@ namespace gearpod::features {
 inline bool is_rounding(std::span<const double> part, std::span<const double> whole) {
     constexpr double kRelative = 1e-12;
     const auto sum_of_squares = [](std::span<const double> values) {
-        double sum = 0.0;
-        for (const double value : values) {
-            sum += value * value;
-        }
-        return sum;
+        return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     };
     return !(sum_of_squares(part) > kRelative * kRelative * sum_of_squares(whole));
 }

@@ -1,14 +1,12 @@
 #include "features/statistics/standardised_moment.hpp"
 
+#include <numeric>
+
 namespace gearpod::features {
 
 double standardised_moment(std::span<const double> values, int power) {
     const auto count = static_cast<double>(values.size());
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value;
-    }
-    const double mean = sum / count;
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
     double second = 0.0;
     double high = 0.0;
     for (const double value : values) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "signals/spectra/fourier_transform.hpp"
 #include "signals/spectra/smooth_length.hpp"
@@ -54,11 +55,8 @@ KurtogramBand band_of(std::size_t i, std::size_t n, std::size_t points) {
 }
 
 double mean_square(std::span<const double> samples) {
-    double sum = 0.0;
-    for (const double value : samples) {
-        sum += value * value;
-    }
-    return sum / static_cast<double>(samples.size());
+    return std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.0) /
+           static_cast<double>(samples.size());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "signals/demodulation/mesh_modulation.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "signals/spectra/fourier_transform.hpp"
 
@@ -18,10 +19,7 @@ std::size_t strongest_harmonic(std::span<const double> amplitude, std::size_t po
             strongest = k;
         }
     }
-    double sum = 0.0;
-    for (const double one : amplitude) {
-        sum += one;
-    }
+    const double sum = std::accumulate(amplitude.begin(), amplitude.end(), 0.0);
     return strongest > 0 && amplitude[strongest] > kLeastMeshLine * sum ? strongest : 0;
 }
 

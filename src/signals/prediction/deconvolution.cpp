@@ -1,6 +1,7 @@
 #include "signals/prediction/deconvolution.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "signals/prediction/periodic_signal.hpp"
 #include "signals/prediction/toeplitz.hpp"
@@ -9,10 +10,7 @@ namespace gearpod::signals {
 namespace {
 
 void scale_to_unit_rms(std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value * value;
-    }
+    const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     const double rms = std::sqrt(sum / static_cast<double>(values.size()));
     for (double& value : values) {
         value /= rms;

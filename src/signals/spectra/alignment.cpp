@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "signals/spectra/fourier_transform.hpp"
@@ -116,11 +117,8 @@ Alignment align(std::span<const double> signal, std::span<const double> other) {
 double correlation(std::span<const double> signal, std::span<const double> other) {
     check_equal_sizes(signal, other);
     const auto mean = [](std::span<const double> values) {
-        double sum = 0.0;
-        for (const double value : values) {
-            sum += value;
-        }
-        return sum / static_cast<double>(values.size());
+        return std::accumulate(values.begin(), values.end(), 0.0) /
+               static_cast<double>(values.size());
     };
     const double a = mean(signal), b = mean(other);
     double both = 0.0, own = 0.0, others = 0.0;
