@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "stiffness/teeth/crack.hpp"
@@ -17,16 +18,23 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-class CrackBySections : public ToothFault {
+class CrackFault : public ToothFault {
   public:
-    CrackBySections(const ToothCrack& family, double depth_m)
-        : family_(family), sections_(family.profile_, {depth_m, family.crack_angle_rad_}) {}
+    CrackFault(const ToothCrack& family, double depth_m)
+        : family_(family),
+          sections_(family.profile_, family.law_ == CrackLaw::sections
+                                         ? Crack{depth_m, family.crack_angle_rad_}
+                                         : Crack{}) {
+        if (family.law_ == CrackLaw::fracture_mechanics)
+            added_.emplace(CrackPath(family.profile_, family.crack_angle_rad_), family.material_,
+                           depth_m);
+    }
 
     int gear() const override { return family_.which_; }
     bool changes_sections() const override { return true; }
 
     void beam_compliance(std::span<const double> tau, std::span<double> compliance) const override {
-        if (sections_.broken()) {
+        if (sections_.broken() || (added_ && added_->broken())) {
             std::fill(compliance.begin(), compliance.end(), kInfinity);
             return;
         }
@@ -53,46 +61,15 @@ class CrackBySections : public ToothFault {
         if (sections_.unsupported(u))
             return kInfinity;
         sweep.advance(u);
-        return stiffness::compliance(sweep.moments(), family_.profile_, family_.material_,
-                                     family_.profile_.involute_angle(u));
+        const double angle = family_.profile_.involute_angle(u);
+        const double beam =
+            stiffness::compliance(sweep.moments(), family_.profile_, family_.material_, angle);
+        return added_ ? beam + added_->added(angle) : beam;
     }
 
     const ToothCrack& family_;
-    CrackedSections sections_;
-};
-
-class CrackByFractureMechanics : public ToothFault {
-  public:
-    CrackByFractureMechanics(const ToothCrack& family, double depth_m)
-        : family_(family),
-          healthy_(family.profile_, {}),
-          crack_({family.profile_, family.crack_angle_rad_}, family.material_, depth_m) {}
-
-    int gear() const override { return family_.which_; }
-    bool changes_sections() const override { return true; }
-
-    void beam_compliance(std::span<const double> tau, std::span<double> compliance) const override {
-        if (crack_.broken()) {
-            std::fill(compliance.begin(), compliance.end(), kInfinity);
-            return;
-        }
-        SectionSweep sweep(family_.profile_, healthy_);
-        const bool root_to_tip = family_.contact_rate_ < 0;
-        for (std::size_t i = 0; i < tau.size(); ++i) {
-            const std::size_t next = root_to_tip ? i : tau.size() - 1 - i;
-            const double u = family_.angle_at(tau[next]);
-            const double angle = family_.profile_.involute_angle(u);
-            sweep.advance(u);
-            compliance[next] =
-                stiffness::compliance(sweep.moments(), family_.profile_, family_.material_, angle) +
-                crack_.added(angle);
-        }
-    }
-
-  private:
-    const ToothCrack& family_;
-    CrackedSections healthy_;
-    CrackCompliance crack_;
+    CrackedSections sections_;              // without a crack under fracture mechanics
+    std::optional<CrackCompliance> added_;  // by fracture mechanics
 };
 
 ToothCrack::ToothCrack(const gears::MeshGeometry& geometry, const Material& material,
@@ -117,9 +94,7 @@ double ToothCrack::largest_size() const {
 }
 
 std::unique_ptr<const ToothFault> ToothCrack::at(double depth_m) const {
-    if (law_ == CrackLaw::fracture_mechanics)
-        return std::make_unique<CrackByFractureMechanics>(*this, depth_m);
-    return std::make_unique<CrackBySections>(*this, depth_m);
+    return std::make_unique<CrackFault>(*this, depth_m);
 }
 
 }  // namespace gearpod::stiffness

@@ -31,8 +31,7 @@ class ToothCrack : public ToothFaultFamily {
     double largest_size() const override;
 
   private:
-    friend class CrackBySections;
-    friend class CrackByFractureMechanics;
+    friend class CrackFault;
     double angle_at(double tau) const { return contact_start_ + contact_rate_ * tau; }
 
     ToothProfile profile_;
