@@ -62,9 +62,7 @@ double mean_square(std::span<const double> samples) {
 }  // namespace
 
 Kurtogram::Kurtogram(std::span<const double> samples, std::size_t most_bands)
-    : spectrum_(samples.size()) {
-    const Spectrum values(samples.begin(), samples.end());
-    Transform(static_cast<int>(samples.size())).transform(values, spectrum_);
+    : spectrum_(spectrum_of(samples)) {
     const double power = mean_square(samples);
     // 1, 2, 3, 4, 6, 8, 12, ...: twice the number before the last one, from 4 on.
     for (std::size_t n = 1, next = 2; n <= most_bands;) {
@@ -102,11 +100,8 @@ std::vector<double> Kurtogram::squared_envelope(const KurtogramBand& band) const
 }
 
 std::vector<double> envelope_spectrum(std::span<const double> squared_envelope) {
-    const Spectrum values(squared_envelope.begin(), squared_envelope.end());
-    Spectrum spectrum(values.size());
-    Transform(static_cast<int>(values.size())).transform(values, spectrum);
     std::vector<double> magnitudes;
-    for (const auto& value : spectrum) {
+    for (const auto& value : spectrum_of(squared_envelope)) {
         magnitudes.push_back(std::abs(value));
     }
     return magnitudes;

@@ -1,6 +1,5 @@
 #include "signals/demodulation/mesh_modulation.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 #include "signals/spectra/fourier_transform.hpp"
@@ -34,10 +33,8 @@ std::vector<std::complex<double>> mesh_modulation(std::span<const double> turn,
     if (carrier == 0) {
         return {};
     }
-    std::vector<std::complex<double>> band(turn.begin(), turn.end()), spectrum(n);
-    FourierTransform(static_cast<int>(n)).transform(band, spectrum);
+    std::vector<std::complex<double>> band(n), spectrum = spectrum_of(turn);
     // The carrier's order becomes order 0.
-    std::fill(band.begin(), band.end(), 0.0);
     const double scale = 2.0 / static_cast<double>(n);
     for (std::size_t k = 0; k <= half; ++k) {
         band[k] = scale * spectrum[carrier + k];

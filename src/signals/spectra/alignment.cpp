@@ -17,13 +17,6 @@ constexpr double kRounding = 1e-24;
 
 using Spectrum = std::vector<std::complex<double>>;
 
-Spectrum spectrum_of(std::span<const double> signal) {
-    const Spectrum values(signal.begin(), signal.end());
-    Spectrum spectrum(signal.size());
-    FourierTransform(static_cast<int>(signal.size())).transform(values, spectrum);
-    return spectrum;
-}
-
 void check_equal_sizes(std::span<const double> signal, std::span<const double> other) {
     if (signal.empty() || signal.size() != other.size()) {
         throw std::invalid_argument("alignment: two signals of as many samples are needed");
@@ -132,19 +125,13 @@ double correlation(std::span<const double> signal, std::span<const double> other
 
 std::vector<double> shifted(std::span<const double> periodic, const Shift& shift) {
     const std::size_t n = periodic.size();
-    Spectrum spectrum = spectrum_of(periodic), values(n);
+    Spectrum spectrum = spectrum_of(periodic);
     for (std::size_t k = 1; k < n; ++k) {
         const std::complex<double> turn = turn_of(k, n, shift);
         // The component at half the sampling rate is a cosine and stays real.
         spectrum[k] *= 2 * k == n ? turn.real() : turn;
     }
-    FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
-        .transform(spectrum, values);
-    std::vector<double> result(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        result[i] = values[i].real() / static_cast<double>(n);
-    }
-    return result;
+    return signal_of(spectrum);
 }
 
 }  // namespace gearpod::signals

@@ -111,4 +111,23 @@ void FourierTransform::transform(std::span<const Complex> in, std::span<Complex>
     }
 }
 
+std::vector<Complex> spectrum_of(std::span<const double> signal) {
+    const std::vector<Complex> values(signal.begin(), signal.end());
+    std::vector<Complex> spectrum(signal.size());
+    FourierTransform(static_cast<int>(signal.size())).transform(values, spectrum);
+    return spectrum;
+}
+
+std::vector<double> signal_of(std::span<const Complex> spectrum) {
+    const std::size_t n = spectrum.size();
+    std::vector<Complex> values(n);
+    FourierTransform(static_cast<int>(n), FourierTransform::Direction::back)
+        .transform(spectrum, values);
+    std::vector<double> signal(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        signal[i] = values[i].real() / static_cast<double>(n);
+    }
+    return signal;
+}
+
 }  // namespace gearpod::signals

@@ -43,4 +43,8 @@ class FourierTransform {
     machine::AlignedVector out_real_, out_imaginary_;
 };
 
+// Spectrum of a real signal, all n orders, and the real signal of such a spectrum.
+std::vector<std::complex<double>> spectrum_of(std::span<const double> signal);
+std::vector<double> signal_of(std::span<const std::complex<double>> spectrum);
+
 }  // namespace gearpod::signals
