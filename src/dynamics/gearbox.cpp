@@ -100,14 +100,12 @@ std::vector<std::string> motion_names(const GearboxLayout& layout) {
 }
 
 Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair) {
-    return std::visit(
-        Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
-                       const int n = pair % kind.planets;
-                       return motions_from_degrees(kind).transpose() *
-                              (pair == n ? sun_planet_row(kind, n) : ring_planet_row(kind, n));
-                   },
-                   [](const FixedShaftLayout& kind) { return mesh_row(kind); }},
-        layout);
+    return std::visit(Overloaded{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
+                                     return motions_from_degrees(kind).transpose() *
+                                            pair_row(kind, pair);
+                                 },
+                                 [](const FixedShaftLayout& kind) { return mesh_row(kind); }},
+                      layout);
 }
 
 Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis) {

@@ -81,31 +81,20 @@ Body body_of(gears::Member member) {
     return ring;
 }
 
-Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n) {
-    const double angle = pi / 2 - layout.sun_mesh_angle() + layout.planet_angle(n);
+Eigen::VectorXd pair_row(const PlanetaryLayout& layout, int pair) {
+    const bool with_sun = pair < layout.planets;
+    const int n = pair % layout.planets;
+    const double angle = pi / 2 + (with_sun ? -layout.sun_mesh_angle() : layout.ring_mesh_angle()) +
+                         layout.planet_angle(n);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(layout.motions());
-    const int s = motion_index(sun);
+    const int g = motion_index(with_sun ? sun : ring);
     const int p = motion_index(planet, n);
-    row(s) = std::cos(angle);
-    row(s + 1) = std::sin(angle);
-    row(s + 2) = 1.0;
-    row(p) = -row(s);
-    row(p + 1) = -row(s + 1);
-    row(p + 2) = 1.0;
-    return row;
-}
-
-Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n) {
-    const double angle = pi / 2 + layout.ring_mesh_angle() + layout.planet_angle(n);
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(layout.motions());
-    const int r = motion_index(ring);
-    const int p = motion_index(planet, n);
-    row(r) = std::cos(angle);
-    row(r + 1) = std::sin(angle);
-    row(r + 2) = 1.0;
-    row(p) = -row(r);
-    row(p + 1) = -row(r + 1);
-    row(p + 2) = -1.0;
+    row(g) = std::cos(angle);
+    row(g + 1) = std::sin(angle);
+    row(g + 2) = 1.0;
+    row(p) = -row(g);
+    row(p + 1) = -row(g + 1);
+    row(p + 2) = with_sun ? 1.0 : -1.0;
     return row;
 }
 
@@ -166,11 +155,10 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
                                    inputs.bearing_damping_N_s_m[planet]});
         }
         for (const int pair : {n, layout.planets + n}) {
-            const bool with_sun = pair == n;
             const double k = pair_stiffness_N_m[static_cast<std::size_t>(pair)];
             springs.push_back(
-                {fmt::format("planet {}'s mesh with the {}", n + 1, with_sun ? "sun" : "ring"),
-                 with_sun ? sun_planet_row(layout, n) : ring_planet_row(layout, n), k,
+                {fmt::format("planet {}'s mesh with the {}", n + 1, pair == n ? "sun" : "ring"),
+                 pair_row(layout, pair), k,
                  mesh_damping_N_s_m(layout.mesh_damping, mesh_damping(layout, inputs, pair), k)});
         }
     }

@@ -103,9 +103,8 @@ struct PlanetaryInputs {
     double planet_mass_kg(int n) const { return planet_deviations[n].mass * mass_kg[planet]; }
 };
 
-// Row vectors of the deflections over all 9 + 3N motions.
-Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n);
-Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n);
+// Row vectors of the deflections over all 9 + 3N motions. Pairs are sp1..spN, rp1..rpN.
+Eigen::VectorXd pair_row(const PlanetaryLayout& layout, int pair);
 Eigen::VectorXd planet_bearing_row(const PlanetaryLayout& layout, int n, int axis);
 
 // All spring-dampers over the 9 + 3N motions, for the given stiffness of the 2N pairs (sp1..spN,
