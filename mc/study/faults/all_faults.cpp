@@ -2,7 +2,7 @@
 
 namespace gearpod::mc {
 
-// Each is defined in the file of its name.
+// Each is defined in the file of its name, the last two in fraction.cpp.
 const FaultKind &crack(), &spatial_crack(), &chip(), &pitting(), &wear(), &broken(), &reduction();
 
 std::span<const FaultKind* const> all_faults() {
@@ -10,15 +10,6 @@ std::span<const FaultKind* const> all_faults() {
         &crack(), &spatial_crack(), &chip(), &pitting(), &wear(), &broken(), &reduction(),
     };
     return kinds;
-}
-
-const FaultKind* find_fault(std::string_view name) {
-    for (const FaultKind* kind : all_faults()) {
-        if (kind->name() == name) {
-            return kind;
-        }
-    }
-    return nullptr;
 }
 
 const FaultKind& size_defining_kind(const Study& study) {

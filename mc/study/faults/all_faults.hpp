@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "mc/study/faults/fault_kind.hpp"
 
@@ -10,9 +9,6 @@ namespace gearpod::mc {
 
 // All kinds, in the order in which their keys are shown.
 std::span<const FaultKind* const> all_faults();
-
-// Kind with this name, or nullptr.
-const FaultKind* find_fault(std::string_view name);
 
 // Kind of fault that defines the size key: the study's own, or the first kind (with size 0) for a
 // study without a fault.

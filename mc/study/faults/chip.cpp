@@ -37,7 +37,6 @@ class ChipKind final : public FaultKind {
     std::string_view words() const override { return "a chip"; }
     const FaultSize& size() const override { return kChipSize; }
     std::span<const FaultKey> other_keys() const override { return kChipOthers; }
-    bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {
         const std::string height_key = "fault.chip_height_mm";

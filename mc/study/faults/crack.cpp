@@ -25,7 +25,6 @@ class CrackKind final : public FaultKind {
     std::string_view title() const override { return "tooth crack"; }
     const FaultSize& size() const override { return kCrackSize; }
     std::span<const FaultKey> other_keys() const override { return kCrackOthers; }
-    bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {
         check_size(draft, {max_crack_depth_m(draft.study) * kMmPerM,

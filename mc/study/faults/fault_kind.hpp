@@ -55,15 +55,15 @@ class FaultKind {
     // Name in descriptions of a study.
     virtual std::string_view title() const { return name(); }
     virtual const FaultSize& size() const = 0;
-    virtual std::span<const FaultKey> other_keys() const = 0;
+    virtual std::span<const FaultKey> other_keys() const { return {}; }
     // True if the fault changes the tooth's sections or its contact; false if only the pair's
     // stiffness.
-    virtual bool shapes_tooth() const = 0;
+    virtual bool shapes_tooth() const { return true; }
     // True if the fault is wear of all flanks of the gear; its size is then the depth in m.
     virtual bool wears_flanks() const { return false; }
     // Rejects values that the faulty tooth cannot have. Precondition: the study's gears and face
     // width are known.
-    virtual void check(StudyDraft& draft) const = 0;
+    virtual void check(StudyDraft& /*draft*/) const {}
     // Null for wear, which changes no stiffness.
     virtual std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const = 0;

@@ -105,7 +105,6 @@ class PittingKind final : public FaultKind {
     std::string_view words() const override { return "pitting"; }
     const FaultSize& size() const override { return kPittingSize; }
     std::span<const FaultKey> other_keys() const override { return kPittingOthers; }
-    bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {
         const Pits& pits = draft.study.fault.shapes.get<Pits>();

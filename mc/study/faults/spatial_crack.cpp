@@ -129,7 +129,6 @@ class SpatialCrackKind final : public FaultKind {
     std::string_view words() const override { return "a spatial crack"; }
     const FaultSize& size() const override { return kSpatialCrackSize; }
     std::span<const FaultKey> other_keys() const override { return kSpatialCrackOthers; }
-    bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {
         const Growth& g = draft.study.fault.shapes.get<Growth>();

@@ -25,8 +25,6 @@ class WearKind final : public FaultKind {
     std::string_view words() const override { return "wear"; }
     std::string_view title() const override { return "worn flanks"; }
     const FaultSize& size() const override { return kWearSize; }
-    std::span<const FaultKey> other_keys() const override { return {}; }
-    bool shapes_tooth() const override { return true; }
     bool wears_flanks() const override { return true; }
 
     void check(StudyDraft& draft) const override {

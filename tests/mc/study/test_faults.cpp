@@ -10,6 +10,7 @@
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study/find_fault.hpp"
 #include "tests/mc/study_example.hpp"
 
 namespace test_faults {

@@ -12,6 +12,7 @@
 #include "mc/study/schema/sizes.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study/find_fault.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/shipped_studies.hpp"
 
