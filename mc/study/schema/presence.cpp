@@ -19,20 +19,33 @@ bool is(const Study& s, ToothProfile profile) {
     return s.gearbox.tooth_profile == profile;
 }
 
-// Forbidden unless the gears are known.
-Presence with_gears(const Study& s, const std::string& otherwise) {
-    return has_gears(s) ? kOptional
-                        : Presence{Need::forbidden,
-                                   otherwise,
-                                   {"gearbox.module_mm", "gearbox.sun_teeth",
-                                    "gearbox.planet_teeth", "gearbox.ring_teeth"}};
+using Governors = decltype(Presence::governors);
+
+// Forbidden unless the condition is true.
+Presence only_if(bool condition, std::string_view why, const Governors& governors = {},
+                 const Presence& otherwise = kOptional) {
+    return condition ? otherwise : Presence{Need::forbidden, std::string(why), governors};
 }
 
-// Required if that key is given, else forbidden.
-Presence with(const std::optional<double>& given, const std::string& because,
-              const std::string& only, std::string_view governor) {
-    return given ? Presence{Need::required, because, {governor}}
-                 : Presence{Need::forbidden, only, {governor}};
+// Required if the condition is true.
+Presence required_if(bool condition, std::string_view why, const Governors& governors = {},
+                     const Presence& otherwise = kOptional) {
+    return condition ? Presence{Need::required, std::string(why), governors} : otherwise;
+}
+
+// Required if the governor has the value that needs the key, else forbidden.
+Presence with(bool needed, std::string_view because, std::string_view only,
+              std::string_view governor) {
+    return {needed ? Need::required : Need::forbidden,
+            std::string(needed ? because : only),
+            {governor}};
+}
+
+// Forbidden unless the gears are known.
+Presence with_gears(const Study& s, std::string_view otherwise) {
+    return only_if(
+        has_gears(s), otherwise,
+        {"gearbox.module_mm", "gearbox.sun_teeth", "gearbox.planet_teeth", "gearbox.ring_teeth"});
 }
 
 }  // namespace
@@ -41,30 +54,22 @@ Presence with_baseline(const Study& s) {
     const bool known = std::ranges::all_of(s.features.use, [&](const std::string& name) {
         return find_feature(s, name) != nullptr;  // others are rejected
     });
-    return compares_records(s) || !known
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "only with features that use a baseline record (change_..., own_...)",
-                          {"features.use"}};
+    return only_if(compares_records(s) || !known,
+                   "only with features that use a baseline record (change_..., own_...)",
+                   {"features.use"});
 }
 Presence with_alarm_target(const Study& s) {
-    return has_alarm_target(s)
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "only with false_alarms_per_1000_h or false_alarms_per_year",
-                          {"detection.false_alarms_per_1000_h", "detection.false_alarms_per_year"}};
+    return only_if(has_alarm_target(s),
+                   "only with false_alarms_per_1000_h or false_alarms_per_year",
+                   {"detection.false_alarms_per_1000_h", "detection.false_alarms_per_year"});
 }
 Presence alarm_target_needs(const Study& s) {
-    return has_alarm_target(s) && !s.life.interval_h
-               ? Presence{Need::required,
-                          "hours between two records turn the target into a rate",
-                          {}}
-               : may(s);
+    return required_if(has_alarm_target(s) && !s.life.interval_h,
+                       "hours between two records turn the target into a rate");
 }
 Presence of_life(const Study& s, Need need) {
-    const Need there = s.life.interval_h ? need : Need::forbidden;
-    return {
-        there, there == Need::forbidden ? "only with life.interval_h" : "", {"life.interval_h"}};
+    return only_if(s.life.interval_h.has_value(), "only with life.interval_h", {"life.interval_h"},
+                   {need, "", {"life.interval_h"}});
 }
 Presence with_life(const Study& s) {
     return of_life(s, Need::optional);
@@ -73,16 +78,12 @@ Presence life_needs(const Study& s) {
     return of_life(s, Need::required);
 }
 Presence paris_needs(const Study& s) {
-    return s.life.interval_h && !s.life.curve_h.empty()
-               ? Presence{Need::forbidden,
-                          "life.curve_h gives the depth of the crack",
-                          {"life.curve_h"}}
-               : life_needs(s);
+    return only_if(!s.life.interval_h || s.life.curve_h.empty(),
+                   "life.curve_h gives the depth of the crack", {"life.curve_h"}, life_needs(s));
 }
 Presence of_curve(const Study& s, Need need) {
-    return s.life.curve_h.empty()
-               ? Presence{Need::forbidden, "only with life.curve_h", {"life.curve_h"}}
-               : of_life(s, need);
+    return only_if(!s.life.curve_h.empty(), "only with life.curve_h", {"life.curve_h"},
+                   of_life(s, need));
 }
 Presence curve_needs(const Study& s) {
     return of_curve(s, Need::required);
@@ -113,18 +114,16 @@ Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&
 }
 
 Presence tooth_numbers(const Study& s) {
-    return is(s, ToothProfile::constant)
-               ? kOptional
-               : Presence{Need::required, "gearbox.tooth_profile is not \"constant\"", {kProfile}};
+    return required_if(!is(s, ToothProfile::constant), "gearbox.tooth_profile is not \"constant\"",
+                       {kProfile});
 }
 
 Presence tooth_module(const Study& s) {
-    return s.gearbox.normal_module_m ? Presence{Need::forbidden,
-                                                "gearbox.normal_module_mm is given",
-                                                {"gearbox.normal_module_mm"}}
-           : s.gearbox.kind == GearboxKind::fixed_shaft
-               ? Presence{Need::required, "gearbox.kind is \"fixed-shaft\"", {"gearbox.kind"}}
-               : tooth_numbers(s);
+    return only_if(
+        !s.gearbox.normal_module_m, "gearbox.normal_module_mm is given",
+        {"gearbox.normal_module_mm"},
+        required_if(s.gearbox.kind == GearboxKind::fixed_shaft, "gearbox.kind is \"fixed-shaft\"",
+                    {"gearbox.kind"}, tooth_numbers(s)));
 }
 
 Presence shifted_teeth(const Study& s) {
@@ -134,95 +133,70 @@ Presence shifted_teeth(const Study& s) {
 Presence relief_shape(const Study& s) {
     const bool any = std::any_of(kAllMembers.begin(), kAllMembers.end(),
                                  [&](Member member) { return relief_of(s, member).of_profile(); });
-    return any ? kOptional : Presence{Need::forbidden, "only with tip or root relief", {}};
+    return only_if(any, "only with tip or root relief");
 }
 
 Presence flank_gaps(const Study& s) {
-    constexpr const char* kWhy = "only with relief, crowning or an extended contact_onset";
-    return has_flank_gaps(s) ? kOptional : Presence{Need::forbidden, kWhy, {}};
+    return only_if(has_flank_gaps(s), "only with relief, crowning or an extended contact_onset");
 }
 
 Presence relief_length(const Study& s, Member member, std::string_view end) {
     const MemberValues& body = s.gearbox.bodies[member];
     const auto& amount = end == "tip" ? body.tip_relief_m : body.root_relief_m;
     const std::string key = fmt::format("gearbox.{}_{}_relief_um", member_name(member), end);
-    return !amount         ? Presence{Need::forbidden, "only with " + key, {}}
-           : *amount > 0.0 ? Presence{Need::required, key + " is given", {}}
-                           : kOptional;
+    return only_if(amount.has_value(), "only with " + key, {},
+                   required_if(amount > 0.0, key + " is given"));
 }
 
 Presence tooth_body(const Study& s) {
-    return stiffness_given(s)
-               ? kOptional
-               : Presence{Need::required,
-                          "gearbox.tooth_profile is neither \"constant\" nor \"square-wave\"",
-                          {kProfile}};
+    return required_if(!stiffness_given(s),
+                       "gearbox.tooth_profile is neither \"constant\" nor \"square-wave\"",
+                       {kProfile});
 }
 
 Presence tooth_model(const Study& s) {
-    return stiffness_given(s) ? Presence{Need::forbidden,
-                                         "the stiffness is given, not computed from the teeth: "
-                                         "gearbox.tooth_profile",
-                                         {kProfile}}
-                              : kOptional;
+    return only_if(!stiffness_given(s),
+                   "the stiffness is given, not computed from the teeth: gearbox.tooth_profile",
+                   {kProfile});
 }
 
 Presence constant_stiffness(const Study& s) {
-    return is(s, ToothProfile::constant)
-               ? Presence{Need::required, "gearbox.tooth_profile is \"constant\"", {kProfile}}
-               : Presence{Need::forbidden,
-                          "only for gearbox.tooth_profile = \"constant\"; else the teeth define it",
-                          {kProfile}};
+    return with(is(s, ToothProfile::constant), "gearbox.tooth_profile is \"constant\"",
+                "only for gearbox.tooth_profile = \"constant\"; else the teeth define it",
+                kProfile);
 }
 
 Presence square_wave(const Study& s) {
-    return is(s, ToothProfile::square_wave)
-               ? Presence{Need::required, "gearbox.tooth_profile is \"square-wave\"", {kProfile}}
-               : Presence{Need::forbidden,
-                          "only for gearbox.tooth_profile = \"square-wave\"",
-                          {kProfile}};
+    return with(is(s, ToothProfile::square_wave), "gearbox.tooth_profile is \"square-wave\"",
+                "only for gearbox.tooth_profile = \"square-wave\"", kProfile);
 }
 
 Presence foundation(const Study& s) {
-    return s.effects.foundation == Foundation::none || stiffness_given(s)
-               ? kOptional
-               : Presence{
-                     Need::required, "effects.foundation is not \"none\"", {"effects.foundation"}};
+    return required_if(s.effects.foundation != Foundation::none && !stiffness_given(s),
+                       "effects.foundation is not \"none\"", {"effects.foundation"});
 }
 
 Presence ring_foundation(const Study& s) {
     // Sainsot's formula is fitted to external gears only.
-    return s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s)
-               ? Presence{Need::required,
-                          "effects.foundation is \"elastic-ring\"",
-                          {"effects.foundation"}}
-               : kOptional;
+    return required_if(s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s),
+                       "effects.foundation is \"elastic-ring\"", {"effects.foundation"});
 }
 
 Presence blank_part(const Study& s, Member member, BlankPart part) {
-    if (s.effects.foundation == Foundation::none || stiffness_given(s)) {
-        return {Need::forbidden,
-                "only for elastic gear bodies, but effects.foundation is \"none\"",
-                {"effects.foundation"}};
-    }
     const MemberValues& body = s.gearbox.bodies[member];
     const bool rim = part == BlankPart::rim;
-    return (rim ? body.web_m : body.rim_m)
-               ? Presence{Need::required,
-                          fmt::format("gearbox.{}_{}_mm is given", member_name(member),
-                                      rim ? "web" : "rim"),
-                          {}}
-               : kOptional;
+    return only_if(
+        s.effects.foundation != Foundation::none && !stiffness_given(s),
+        "only for elastic gear bodies, but effects.foundation is \"none\"", {"effects.foundation"},
+        required_if(
+            (rim ? body.web_m : body.rim_m).has_value(),
+            fmt::format("gearbox.{}_{}_mm is given", member_name(member), rim ? "web" : "rim")));
 }
 
 Presence backlash(const Study& s) {
-    return s.effects.separation == Separation::two_sided
-               ? Presence{Need::required,
-                          "effects.separation is \"two-sided\"",
-                          {"effects.separation"}}
-               : Presence{Need::forbidden,
-                          "only for effects.separation = \"two-sided\"",
-                          {"effects.separation"}};
+    return with(s.effects.separation == Separation::two_sided,
+                "effects.separation is \"two-sided\"",
+                "only for effects.separation = \"two-sided\"", "effects.separation");
 }
 
 Presence tooth_quality(const Study& s) {
@@ -230,10 +204,8 @@ Presence tooth_quality(const Study& s) {
 }
 
 Presence bearings_move(const Study& s) {
-    return s.effects.torsional() ? Presence{Need::forbidden,
-                                            "the bearings of this model are rigid: effects.motion",
-                                            {kMotion}}
-                                 : kOptional;
+    return only_if(!s.effects.torsional(), "the bearings of this model are rigid: effects.motion",
+                   {kMotion});
 }
 
 Presence bearings_damp(const Study& s) {
@@ -245,19 +217,17 @@ Presence planet_masses(const Study& s) {
 }
 
 Presence torque_sine(const Study& s) {
-    return s.fluctuations.torque ? kOptional
-                                 : Presence{Need::forbidden,
-                                            "only with operation.torque_fluctuation",
-                                            {"operation.torque_fluctuation"}};
+    return only_if(s.fluctuations.torque.has_value(), "only with operation.torque_fluctuation",
+                   {"operation.torque_fluctuation"});
 }
 
 Presence torque_noise(const Study& s) {
-    return with(s.fluctuations.torque_noise, "operation.torque_noise is given",
+    return with(s.fluctuations.torque_noise.has_value(), "operation.torque_noise is given",
                 "only with operation.torque_noise", "operation.torque_noise");
 }
 
 Presence speed_sine(const Study& s) {
-    return with(s.fluctuations.speed, "operation.speed_fluctuation is given",
+    return with(s.fluctuations.speed.has_value(), "operation.speed_fluctuation is given",
                 "only with operation.speed_fluctuation", "operation.speed_fluctuation");
 }
 
@@ -266,14 +236,12 @@ Presence speed_phase(const Study& s) {
 }
 
 Presence speed_noise(const Study& s) {
-    return with(s.fluctuations.speed_noise, "operation.speed_noise is given",
+    return with(s.fluctuations.speed_noise.has_value(), "operation.speed_noise is given",
                 "only with operation.speed_noise", "operation.speed_noise");
 }
 
 Presence gravity(const Study& s) {
-    return s.effects.gravity
-               ? kOptional
-               : Presence{Need::forbidden, "only with effects.gravity = true", {"effects.gravity"}};
+    return only_if(s.effects.gravity, "only with effects.gravity = true", {"effects.gravity"});
 }
 
 Presence mass(const Study& s) {
@@ -281,24 +249,18 @@ Presence mass(const Study& s) {
     if (s.effects.quasi_static() && s.effects.gravity) {
         return {Need::required, "effects.gravity = true", {kMotion, "effects.gravity"}};
     }
-    return s.effects.quasi_static() ? kOptional : Presence{Need::required, "", {kMotion}};
+    return required_if(!s.effects.quasi_static(), "", {kMotion});
 }
 
 Presence inertia(const Study& s) {
-    return s.gearbox.has_teeth() && s.gearbox.transverse_module_m()
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "the radius is unknown without tooth numbers and module",
-                          {kProfile}};
+    return only_if(s.gearbox.has_teeth() && s.gearbox.transverse_module_m(),
+                   "the radius is unknown without tooth numbers and module", {kProfile});
 }
 
 Presence inertia_over_r2(const Study& s) {
     const bool no_disc = is(s, ToothProfile::constant) && !s.gearbox.has_teeth();
-    return no_disc && !s.effects.quasi_static()
-               ? Presence{Need::required,
-                          "without tooth numbers no disc can be assumed",
-                          {kProfile, kMotion}}
-               : kOptional;
+    return required_if(no_disc && !s.effects.quasi_static(),
+                       "without tooth numbers no disc can be assumed", {kProfile, kMotion});
 }
 
 Presence bearing(const Study& s) {
@@ -315,24 +277,18 @@ Presence bearing(const Study& s) {
 }
 
 Presence acceleration_detail(const Study& s) {
-    return s.effects.quasi_static()
-               ? Presence{Need::forbidden,
-                          "a quasi-static gearbox has no accelerations: effects.motion",
-                          {kMotion}}
-               : kOptional;
+    return only_if(!s.effects.quasi_static(),
+                   "a quasi-static gearbox has no accelerations: effects.motion", {kMotion});
 }
 
 Presence white_records(const Study& s) {
     constexpr std::string_view kRecords = "ensemble.threshold_records";
-    if (s.ensemble.threshold_records == 1) {
-        return {Need::forbidden, "only with ensemble.threshold_records", {kRecords}};
-    }
     constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
-    return s.sensor.noise_density_m_s2_per_sqrt_Hz
-               ? Presence{Need::forbidden,
-                          "tilting needs white noise: noise_density_m_s2_per_sqrt_Hz colours it",
-                          {kDensity, kMotion}}
-               : acceleration_detail(s);
+    return only_if(s.ensemble.threshold_records != 1, "only with ensemble.threshold_records",
+                   {kRecords},
+                   only_if(!s.sensor.noise_density_m_s2_per_sqrt_Hz,
+                           "tilting needs white noise: noise_density_m_s2_per_sqrt_Hz colours it",
+                           {kDensity, kMotion}, acceleration_detail(s)));
 }
 
 Presence acceleration(const Study& s) {
@@ -341,34 +297,23 @@ Presence acceleration(const Study& s) {
 }
 
 Presence integration(const Study& s) {
-    return s.effects.quasi_static()
-               ? Presence{Need::forbidden,
-                          "a quasi-static gearbox is not integrated in time: effects.motion",
-                          {kMotion}}
-               : kOptional;
+    return only_if(!s.effects.quasi_static(),
+                   "a quasi-static gearbox is not integrated in time: effects.motion", {kMotion});
 }
 
 Presence length_edges(const Study& s) {
-    return s.fault.kind == nullptr || !s.fault.kind->size().unit.suffix.empty()
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "the fault's size is a pure number: use size_edges",
-                          {"fault.kind"}};
+    return only_if(s.fault.kind == nullptr || !s.fault.kind->size().unit.suffix.empty(),
+                   "the fault's size is a pure number: use size_edges", {"fault.kind"});
 }
 
 Presence number_edges(const Study& s) {
-    return s.fault.kind == nullptr || s.fault.kind->size().unit.suffix.empty()
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "the fault's size is a length: use size_edges_mm",
-                          {"fault.kind"}};
+    return only_if(s.fault.kind == nullptr || s.fault.kind->size().unit.suffix.empty(),
+                   "the fault's size is a length: use size_edges_mm", {"fault.kind"});
 }
 
 Presence until_part(const Study& s) {
-    constexpr std::string_view governor = "ensemble.until.half_width";
-    return s.ensemble.until.half_width
-               ? Presence{Need::required, "until.half_width is given", governor}
-               : Presence{Need::forbidden, "only with until.half_width", governor};
+    return with(s.ensemble.until.half_width.has_value(), "until.half_width is given",
+                "only with until.half_width", "ensemble.until.half_width");
 }
 Presence until_level(const Study& s) {
     return s.ensemble.until.half_width ? may(s) : until_part(s);
