@@ -20,7 +20,6 @@ Hdf5Handle open_file(const std::string& path) {
 }
 
 RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange range) {
-    const RowShape shape = row_shape(frame);
     RowBlock block;
     block.first = range.first;
     std::vector<std::int64_t> integers;
@@ -28,41 +27,13 @@ RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange
     block.group.assign(integers.begin(), integers.end());
     read_rows(root, "status", {rows}, range, integers);
     block.status.assign(integers.begin(), integers.end());
-    block.values.resize(range.count * shape.values());
-    std::vector<double> column;
-    const auto put = [&](std::size_t at, std::size_t width) {
-        for (std::size_t row = 0; row < range.count; ++row) {
-            std::copy_n(
-                column.begin() + static_cast<std::ptrdiff_t>(row * width), width,
-                block.values.begin() + static_cast<std::ptrdiff_t>(row * shape.values() + at));
-        }
-    };
-    for (std::size_t p = 0; p < shape.parameters; ++p) {
-        read_rows(root, "instances/" + frame.parameters[p].name, {rows}, range, column);
-        put(p, 1);
-    }
-    for (std::size_t f = 0; f < shape.features; ++f) {
-        read_rows(root, "features/" + frame.features[f].name, {rows, shape.levels}, range, column);
-        put(shape.value_of(f, 0), shape.levels);
-    }
-    const auto put_columns = [&](const std::string& group, const std::vector<RowColumn>& columns,
-                                 std::size_t at) {
-        for (const RowColumn& one : columns) {
-            read_rows(root, group + "/" + one.name, {rows}, range, column);
-            put(at++, 1);
-        }
-    };
-    put_columns(kContactLoss, frame.contact_loss, shape.contact_loss());
-    put_columns(kIntegration, frame.integration, shape.integration_value());
-    for (std::size_t v = 0; v < shape.variants; ++v) {
-        const Variant& variant = frame.variants[v];
-        for (std::size_t f = 0; f < shape.features; ++f) {
-            read_rows(root,
-                      std::string(kVariants) + "/" + variant.name + "/" + variant.features[f].name,
-                      {rows, shape.levels}, range, column);
-            put(shape.variant_value_of(v, f), shape.levels);
-        }
-    }
+    block.values.resize(range.count * row_shape(frame).values());
+    for_each_column(frame, [&](const auto& column) {
+        std::vector<double> values;
+        read_rows(root, column.dataset, column.by_level ? Shape{rows, column.width} : Shape{rows},
+                  range, values);
+        block.put(values.data(), column.first, column.width);
+    });
     return block;
 }
 

@@ -25,6 +25,36 @@ inline const char* columns_name(const Results& frame) {
     return frame.provenance_value("kind") == kLivesKind ? "hours" : "noise_levels";
 }
 
+// Column of Results, the dataset that holds it, and its place among the numbers of a row
+// (RowShape).
+template <class Values>
+struct StoredColumn {
+    std::string dataset;       // "features/rms"
+    std::size_t first, width;  // in a row
+    bool by_level;             // if the dataset has the shape rows x levels
+    Values& values;
+};
+
+// Calls `use` with all columns of Results, in the order of their numbers in a row.
+template <class Frame, class Use>
+void for_each_column(Frame& frame, const Use& use) {
+    std::size_t first = 0;
+    const auto use_all = [&](const std::string& group, auto& columns, bool by_level) {
+        const std::size_t width = by_level ? frame.noise_levels.size() : 1;
+        for (auto& column : columns) {
+            use(StoredColumn{group + "/" + column.name, first, width, by_level, column.values});
+            first += width;
+        }
+    };
+    use_all("instances", frame.parameters, false);
+    use_all("features", frame.features, true);
+    use_all(kContactLoss, frame.contact_loss, false);
+    use_all(kIntegration, frame.integration, false);
+    for (auto& variant : frame.variants) {
+        use_all(std::string(kVariants) + "/" + variant.name, variant.features, true);
+    }
+}
+
 // Numbers of one cell and of one level by dataset name: long and double members of each.
 struct CellCount {
     const char* name;

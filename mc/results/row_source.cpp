@@ -1,11 +1,13 @@
 #include "mc/results/row_source.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <sstream>
 
 #include "analysis/detection/clusters.hpp"
 #include "features/feature.hpp"
+#include "mc/results/layout.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -47,15 +49,6 @@ void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
     }
 }
 
-// Appends a row's values of the features at all noise levels.
-void add_levels(const std::vector<FeatureResult>& features, std::size_t row, std::size_t levels,
-                std::vector<double>& values) {
-    for (const FeatureResult& feature : features) {
-        const auto at = feature.values.begin() + static_cast<std::ptrdiff_t>(row * levels);
-        values.insert(values.end(), at, at + static_cast<std::ptrdiff_t>(levels));
-    }
-}
-
 }  // namespace
 
 void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
@@ -68,27 +61,26 @@ void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
 }
 
 void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
-    const std::size_t levels = results_.noise_levels.size();
+    const std::size_t row_values = row_shape(results_).values();
     for (std::size_t first = 0; first < rows(); first += kBlockRows) {
+        const std::size_t count = std::min(kBlockRows, rows() - first);
+        const auto at = static_cast<std::ptrdiff_t>(first);
         RowBlock block;
         block.first = first;
-        for (std::size_t row = first; row < std::min(first + kBlockRows, rows()); ++row) {
-            block.group.push_back(results_.group[row]);
-            block.status.push_back(results_.status[row]);
-            for (const ParameterResult& parameter : results_.parameters) {
-                block.values.push_back(parameter.values[row]);
-            }
-            add_levels(results_.features, row, levels, block.values);
-            for (const auto* columns : {&results_.contact_loss, &results_.integration}) {
-                for (const RowColumn& column : *columns) {
-                    block.values.push_back(column.values[row]);
-                }
-            }
-            for (const Variant& variant : results_.variants) {
-                add_levels(variant.features, row, levels, block.values);
-            }
-        }
+        std::copy_n(results_.group.begin() + at, count, std::back_inserter(block.group));
+        std::copy_n(results_.status.begin() + at, count, std::back_inserter(block.status));
+        block.values.resize(count * row_values);
+        for_each_column(results_, [&](const auto& column) {
+            block.put(column.values.data() + first * column.width, column.first, column.width);
+        });
         use(block);
+    }
+}
+
+void RowBlock::put(const double* column, std::size_t at, std::size_t width) {
+    const std::size_t row_values = values.size() / std::max<std::size_t>(1, count());
+    for (std::size_t row = 0; row < count(); ++row) {
+        std::copy_n(column + row * width, width, values.data() + row * row_values + at);
     }
 }
 
@@ -119,34 +111,16 @@ RowShape row_shape(const Results& results) {
 }
 
 void fill_columns(Results& results, const RowSource& rows) {
-    const RowShape shape = row_shape(results);
+    const std::size_t row_values = row_shape(results).values();
     rows.visit([&](const RowBlock& block) {
         results.group.insert(results.group.end(), block.group.begin(), block.group.end());
         results.status.insert(results.status.end(), block.status.begin(), block.status.end());
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const double* values = block.values.data() + row * shape.values();
-            for (std::size_t p = 0; p < shape.parameters; ++p) {
-                results.parameters[p].values.push_back(values[p]);
+        for_each_column(results, [&](const auto& column) {
+            for (std::size_t row = 0; row < block.count(); ++row) {
+                const double* values = block.values.data() + row * row_values + column.first;
+                column.values.insert(column.values.end(), values, values + column.width);
             }
-            for (std::size_t f = 0; f < shape.features; ++f) {
-                const double* feature = values + shape.value_of(f, 0);
-                results.features[f].values.insert(results.features[f].values.end(), feature,
-                                                  feature + shape.levels);
-            }
-            for (std::size_t m = 0; m < shape.meshes; ++m) {
-                results.contact_loss[m].values.push_back(values[shape.contact_loss() + m]);
-            }
-            for (std::size_t i = 0; i < shape.integration; ++i) {
-                results.integration[i].values.push_back(values[shape.integration_value() + i]);
-            }
-            for (std::size_t v = 0; v < shape.variants; ++v) {
-                for (std::size_t f = 0; f < shape.features; ++f) {
-                    const double* feature = values + shape.variant_value_of(v, f);
-                    std::vector<double>& column = results.variants[v].features[f].values;
-                    column.insert(column.end(), feature, feature + shape.levels);
-                }
-            }
-        }
+        });
     });
 }
 

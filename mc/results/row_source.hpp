@@ -16,6 +16,9 @@ struct RowBlock {
     std::vector<double> values;
 
     std::size_t count() const { return status.size(); }
+    // Copies a column's values, `width` for each row, to this place in the rows. Precondition:
+    // `values` has the size of all rows.
+    void put(const double* column, std::size_t at, std::size_t width);
 };
 
 class RowSource {
