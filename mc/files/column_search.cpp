@@ -92,6 +92,44 @@ std::optional<MatrixColumn> matrix_column(const std::string& name) {
                : std::nullopt;
 }
 
+std::string NamedColumns::find(const ColumnChoice& choice) {
+    std::vector<std::string> found = matching(choice);
+    const auto part = matrix_column(choice.name);
+    if (found.empty() && part) {
+        found = matching({part->matrix, choice.near, choice.requested});
+        for (std::string& name : found) {
+            name += fmt::format(":{}", part->column);
+        }
+    }
+    if (found.size() > 1 && choice.requested) {
+        throw SignalError(fmt::format("{}: several columns are named {}: {}; give the whole {}",
+                                      path_, printable(choice.name), printable(listed_text(found)),
+                                      full_name_));
+    }
+    if (found.size() != 1) {
+        return "";
+    }
+    const std::string problem = problem_of(found.front());
+    if (!problem.empty() && choice.requested) {
+        throw SignalError(path_ + ": " + problem);
+    }
+    if (!problem.empty()) {
+        add_note(problem + "; it is not used");
+        return "";
+    }
+    // The choice may be a path that begins with a slash, for example.
+    if (choice.near.empty() && !choice.name.ends_with(found.front())) {
+        add_note(fmt::format("column {} is {}", choice.name, found.front()));
+    }
+    return found.front();
+}
+
+void NamedColumns::add_note(const std::string& text) {
+    if (std::ranges::find(notes_, text) == notes_.end()) {
+        notes_.push_back(text);
+    }
+}
+
 std::string shape_text(const std::vector<unsigned long long>& shape) {
     return fmt::format("{}", fmt::join(shape, " x "));
 }

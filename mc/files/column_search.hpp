@@ -29,6 +29,30 @@ struct MatrixColumn {
 };
 std::optional<MatrixColumn> matrix_column(const std::string& name);
 
+// File with columns in groups, and columns of matrices.
+class NamedColumns : public SignalFile {
+  public:
+    std::string find(const ColumnChoice& choice) override;
+    std::vector<std::string> notes() override { return notes_; }
+
+  protected:
+    // `full_name`: the word for a full name in messages, "path".
+    NamedColumns(const std::string& path, const char* full_name)
+        : path_(path), full_name_(full_name) {}
+    // Columns of any kind that the choice fits (matching_columns).
+    virtual std::vector<std::string> matching(const ColumnChoice& choice) const = 0;
+    // Reason, for messages, why a column cannot be read as a signal; "" if it can.
+    virtual std::string problem_of(const std::string& name) const = 0;
+    // Adds a note unless there is an equal one.
+    void add_note(const std::string& text);
+
+    const std::string path_;
+
+  private:
+    const char* full_name_;
+    std::vector<std::string> notes_;
+};
+
 // "5120 x 2"
 std::string shape_text(const std::vector<unsigned long long>& shape);
 

@@ -22,10 +22,10 @@ constexpr std::string_view kScaleNames = "scale scalefactor scalingfactor conver
 constexpr std::string_view kUnusedNames =
     "gain multiplier sensitivity calibration calibrationfactor calfactor slope intercept bias";
 
-class SignalHdf5 : public SignalFile {
+class SignalHdf5 : public NamedColumns {
   public:
     SignalHdf5(const std::string& path, std::optional<std::size_t> row)
-        : path_(path),
+        : NamedColumns(path, "path"),
           row_(row),
           most_(std::filesystem::file_size(path)),
           index_(path, row.has_value()) {}
@@ -40,37 +40,9 @@ class SignalHdf5 : public SignalFile {
         return index_.contents();
     }
 
-    std::vector<std::string> notes() override { return notes_; }
-
     std::string find(const ColumnChoice& choice) override {
         const SilentHdf5 silent;
-        std::vector<std::string> found = index_.matching(choice);
-        const auto part = matrix_column(choice.name);
-        if (found.empty() && part) {
-            found = index_.matching({part->matrix, choice.near, choice.requested});
-            for (std::string& name : found) {
-                name += fmt::format(":{}", part->column);
-            }
-        }
-        if (found.size() != 1) {
-            if (found.size() > 1 && choice.requested) {
-                refuse(fmt::format("several columns are named {}: {}; give the whole path",
-                                   choice.name, listed_text(found)));
-            }
-            return "";
-        }
-        const std::string problem = index_.problem_of(found.front());
-        if (!problem.empty()) {
-            if (choice.requested) {
-                refuse(problem);
-            }
-            add_note(problem + "; it is not used");
-            return "";
-        }
-        if (choice.near.empty() && !choice.name.ends_with(found.front())) {
-            add_note(fmt::format("column {} is {}", choice.name, found.front()));
-        }
-        return found.front();
+        return NamedColumns::find(choice);
     }
 
     std::vector<double> read(const std::string& name) override {
@@ -138,10 +110,11 @@ class SignalHdf5 : public SignalFile {
     [[noreturn]] void refuse(const std::string& what) const {
         throw SignalError(fmt::format("{}: {}", path_, printable(what)));
     }
-    void add_note(const std::string& text) {
-        if (std::ranges::find(notes_, text) == notes_.end()) {
-            notes_.push_back(text);
-        }
+    std::vector<std::string> matching(const ColumnChoice& choice) const override {
+        return index_.matching(choice);
+    }
+    std::string problem_of(const std::string& name) const override {
+        return printable(index_.problem_of(name));
     }
 
     // Statements of the unit; if they differ, a text that is no unit and shows them.
@@ -254,11 +227,9 @@ class SignalHdf5 : public SignalFile {
         }
     }
 
-    std::string path_;
     std::optional<std::size_t> row_;
     std::size_t most_;
     Hdf5Index index_;
-    std::vector<std::string> notes_;
 };
 
 }  // namespace

@@ -73,10 +73,10 @@ std::string mat_text(const matvar_t& matrix) {
     return text;
 }
 
-class SignalMat : public SignalFile {
+class SignalMat : public NamedColumns {
   public:
     explicit SignalMat(const std::string& path)
-        : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
+        : NamedColumns(path, "name"), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
         const std::string problem = mat_file_problem(path);
         if (!file_ || !problem.empty()) {
             throw SignalError(fmt::format(
@@ -97,7 +97,6 @@ class SignalMat : public SignalFile {
     }
 
     std::vector<std::string> names() const override { return names_; }
-    std::vector<std::string> notes() override { return notes_; }
 
     std::string contents() override {
         std::vector<std::string> texts;
@@ -108,42 +107,13 @@ class SignalMat : public SignalFile {
     }
 
     std::string find(const ColumnChoice& choice) override {
-        std::vector<std::string> found = matching_columns(all_, choice, '.');
-        const auto part = matrix_column(choice.name);
-        if (found.empty() && part) {
-            found = matching_columns(all_, {part->matrix, choice.near, choice.requested}, '.');
-            for (std::string& name : found) {
-                name += fmt::format(":{}", part->column);
-            }
+        const std::string found = NamedColumns::find(choice);
+        const std::string variable = found.substr(0, found.find_first_of(".({:"));
+        if (!found.empty() && std::ranges::find(repeated_, variable) != repeated_.end()) {
+            add_note("the variable " + variable +
+                     " occurs more than once; the last one is used, as in MATLAB");
         }
-        if (found.size() != 1) {
-            if (found.size() > 1 && choice.requested) {
-                throw SignalError(
-                    fmt::format("{}: several columns are named {}: {}; give the "
-                                "whole name",
-                                path_, printable(choice.name), printable(listed_text(found))));
-            }
-            return "";
-        }
-        const std::string problem = problem_of(found.front());
-        if (!problem.empty()) {
-            if (choice.requested) {
-                throw SignalError(path_ + ": " + problem);
-            }
-            add_note(problem + "; it is not used");
-            return "";
-        }
-        if (choice.near.empty() && found.front() != choice.name) {
-            add_note(fmt::format("column {} is {}", choice.name, found.front()));
-        }
-        const std::string variable = found.front().substr(0, found.front().find_first_of(".({:"));
-        if (std::ranges::find(repeated_, variable) != repeated_.end()) {
-            add_note(
-                fmt::format("the variable {} occurs more than once; the last one is used, as "
-                            "in MATLAB",
-                            variable));
-        }
-        return found.front();
+        return found;
     }
 
     std::vector<double> read(const std::string& name) override {
@@ -235,10 +205,8 @@ class SignalMat : public SignalFile {
     }
 
   private:
-    void add_note(const std::string& text) {
-        if (std::ranges::find(notes_, text) == notes_.end()) {
-            notes_.push_back(text);
-        }
+    std::vector<std::string> matching(const ColumnChoice& choice) const override {
+        return matching_columns(all_, choice, '.');
     }
     static bool is_vector(const MatArray& array) {
         const auto form = signal_form(array.shape);
@@ -317,7 +285,7 @@ class SignalMat : public SignalFile {
                          "matrix whose longer dimension is time",
                          printable(array.name), shape_text(array.shape));
     }
-    std::string problem_of(const std::string& name) const {
+    std::string problem_of(const std::string& name) const override {
         const MatArray& array = *array_of(name);
         const std::string problem = problem_of(array);
         const auto form = signal_form(array.shape);
@@ -340,10 +308,9 @@ class SignalMat : public SignalFile {
                                  printable(array.name), most);
     }
 
-    std::string path_;
     MatHandle file_;
     std::vector<MatArray> arrays_;
-    std::vector<std::string> all_, names_, repeated_, notes_;
+    std::vector<std::string> all_, names_, repeated_;
 };
 
 }  // namespace
