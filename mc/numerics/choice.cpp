@@ -126,24 +126,12 @@ class Search {
             const PilotRecord record = pilot_.run(*last_);
             const PilotError error = pilot_error(record, reference_.record);
             result.error = error.largest_feature();
-            result.worst = worst_feature(error);
+            result.worst = error.worst_feature(reference_.record.levels);
             result.cost = cost_of(family) * record.steps * record.meshes_per_tile();
             result.was_run = true;
-            ++integrations_;
         } catch (const SceneError&) {  // invalid for this study: infinite error
         }
         return result;
-    }
-
-    int worst_feature(const PilotError& error) const {
-        int worst = 0;
-        for (int f = 1; f < reference_.record.features_used; ++f) {
-            worst = error.feature(f, reference_.record.levels) >
-                            error.feature(worst, reference_.record.levels)
-                        ? f
-                        : worst;
-        }
-        return worst;
     }
 
     // Finds the smallest number of steps that keeps the tolerance, then for it and the next one the
@@ -220,7 +208,6 @@ class Search {
             setting.numerics.convergence_tolerance = convergence_tolerances().back();
             const Scene loose = own_.with(with_setting(study_, setting).numerics);
             least_meshes_ = pilot_.run(loose).meshes_per_tile();
-            ++integrations_;
         }
         return cost_of(family) * static_cast<double>(steps) * least_meshes_ < best_.cost;
     }
@@ -231,10 +218,7 @@ class Search {
         made.error = best_.error;
         made.worst_feature = study_.features.use[static_cast<std::size_t>(best_.worst)];
         made.cost = best_.cost;
-        made.reference = reference_.first.text();
-        made.reference_change = reference_.agreement.largest_feature();
         made.gearboxes = static_cast<int>(pilot_.size());
-        made.integrations = integrations_;
         return made;
     }
 
@@ -250,7 +234,6 @@ class Search {
     Trial best_;
     SolverSetting best_setting_;
     double least_error_ = kNever, least_meshes_ = 0.0;
-    int integrations_ = 0;
 };
 
 }  // namespace

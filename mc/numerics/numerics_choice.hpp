@@ -13,11 +13,8 @@ struct NumericsChoice {
     double error = 0.0;
     bool of_scatter = false;    // true for the latter
     std::string worst_feature;  // name of that feature
-    double cost = 0.0;      // of integrating the pilot by the cost model, in rk4 steps per gearbox
-    std::string reference;  // reference solution of the pilot
-    double reference_change = 0.0;  // of its worst feature when its steps were last halved
-    int gearboxes = 0;              // number of pilot gearboxes
-    int integrations = 0;           // number of pilot integrations needed for the choice
+    double cost = 0.0;  // of integrating the pilot by the cost model, in rk4 steps per gearbox
+    int gearboxes = 0;  // number of pilot gearboxes
 
     std::string text() const;
 };

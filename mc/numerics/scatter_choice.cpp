@@ -61,9 +61,7 @@ class ScatterChoice {
         made.gearboxes = static_cast<int>(ids_.size());
         made.of_scatter = true;
         made.setting = {own_.study().numerics, {}};
-        made.reference = made.setting.text();
         const auto keeps = [&](const Scene& scene) {
-            ++made.integrations;
             const auto [error, feature] = error_of(scene);
             made.error = error;
             made.worst_feature = study_.features.use[feature];
