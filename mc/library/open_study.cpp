@@ -1,7 +1,6 @@
 #include "mc/library/open_study.hpp"
 
 #include "mc/input/bad_input.hpp"
-#include "mc/study/user_study.hpp"
 
 namespace gearpod::mc {
 
@@ -9,7 +8,8 @@ OpenStudy::OpenStudy(std::string name, const std::optional<std::string>& text,
                      const std::vector<std::string>& overrides, bool with_lines)
     : name_(std::move(name)),
       with_lines_(with_lines),
-      reading_(text ? read_user_study_text(*text, name_, overrides) : read_study(name_, overrides)),
+      reading_(text ? read_study_text(*text, name_, overrides, PythonFiles::run)
+                    : read_study(name_, overrides)),
       notices_(text_of(reading_.notices)) {
     if (!reading_.study) {
         throw BadInput(text_of(reading_.problems));

@@ -349,9 +349,15 @@ struct StudyReading {
 // `problems`, never by an exception.
 StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides = {});
 
+// Python files that a study names are run to find their features, as read_study() does, only if the
+// user has written the study. Studies stored in results name the features instead and are read with
+// files refused, so that reading results runs nobody's code.
+enum class PythonFiles { refused, run };
+
 // Reads a study from text; `name` stands for the file in messages.
 StudyReading read_study_text(const std::string& text, const std::string& name,
-                             const std::vector<std::string>& overrides = {});
+                             const std::vector<std::string>& overrides = {},
+                             PythonFiles python_files = PythonFiles::refused);
 
 // Complete study as TOML with all defaults. It reads back to the same study, bit for bit.
 std::string resolved_text(const Study& study);

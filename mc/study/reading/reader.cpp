@@ -15,7 +15,6 @@
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/unknown_keys.hpp"
 #include "mc/study/schema/schema.hpp"
-#include "mc/study/user_study.hpp"
 
 namespace gearpod::mc {
 
@@ -290,8 +289,10 @@ StudyReading read_document(const Value& document, bool runs_python, Problems pro
     return reading;
 }
 
-StudyReading read_text(const std::string& text, const std::string& name,
-                       const std::vector<std::string>& overrides, bool runs_python) {
+}  // namespace
+
+StudyReading read_study_text(const std::string& text, const std::string& name,
+                             const std::vector<std::string>& overrides, PythonFiles python_files) {
     Problems problems;
     Value document = parse_document(text, name, problems);
     if (!problems.empty()) {
@@ -304,19 +305,8 @@ StudyReading read_text(const std::string& text, const std::string& name,
     for (const std::string& key : drop_overridden_random(document)) {
         notices.push_back(lost_scatter(key));
     }
-    return read_document(document, runs_python, std::move(problems), std::move(notices));
-}
-
-}  // namespace
-
-StudyReading read_study_text(const std::string& text, const std::string& name,
-                             const std::vector<std::string>& overrides) {
-    return read_text(text, name, overrides, false);
-}
-
-StudyReading read_user_study_text(const std::string& text, const std::string& name,
-                                  const std::vector<std::string>& overrides) {
-    return read_text(text, name, overrides, true);
+    return read_document(document, python_files == PythonFiles::run, std::move(problems),
+                         std::move(notices));
 }
 
 StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides) {
@@ -325,7 +315,7 @@ StudyReading read_study(const std::string& path, const std::vector<std::string>&
     if (!problems.empty()) {
         return {std::nullopt, std::move(problems)};
     }
-    return read_user_study_text(text, path, overrides);
+    return read_study_text(text, path, overrides, PythonFiles::run);
 }
 
 }  // namespace gearpod::mc
