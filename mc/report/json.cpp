@@ -55,7 +55,7 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
                                   {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
         if (s.correction) {
             Json& correction = json["shares"].back()["correction"];
-            for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
+            for (const auto& number : kPairedCorrectionNumbers) {
                 correction[number.name] = finite_json((*s.correction).*number.member);
             }
             correction["pd_change"] = finite_json(s.corrected->pd_change);
@@ -88,10 +88,10 @@ Json step_error_json(const Results& frame) {
         return nullptr;
     }
     Json json;
-    for (const StepErrorNumber& one : kStepErrorNumbers) {
+    for (const auto& one : kStepErrorNumbers) {
         json[one.name] = finite_json((*frame.step_error).*one.member);
     }
-    for (const StepErrorCount& one : kStepErrorCounts) {
+    for (const auto& one : kStepErrorCounts) {
         json[one.name] = (*frame.step_error).*one.member;
     }
     return json;

@@ -56,33 +56,19 @@ void for_each_column(Frame& frame, const Use& use) {
 }
 
 // Numbers of one cell and of one level by dataset name: long and double members of each.
-struct CellCount {
-    const char* name;
-    long analysis::DetectionCell::*member;
-};
-struct CellNumber {
-    const char* name;
-    double analysis::DetectionCell::*member;
-};
-inline constexpr CellCount kCellCounts[] = {{"detected", &analysis::DetectionCell::detected},
-                                            {"tested", &analysis::DetectionCell::tested},
-                                            {"failed", &analysis::DetectionCell::failed}};
-inline constexpr CellNumber kCellNumbers[] = {{"pd", &analysis::DetectionCell::pd},
-                                              {"lower", &analysis::DetectionCell::lower},
-                                              {"upper", &analysis::DetectionCell::upper}};
+inline constexpr NamedMember<analysis::DetectionCell, long> kCellCounts[] = {
+    {"detected", &analysis::DetectionCell::detected},
+    {"tested", &analysis::DetectionCell::tested},
+    {"failed", &analysis::DetectionCell::failed}};
+inline constexpr NamedMember<analysis::DetectionCell, double> kCellNumbers[] = {
+    {"pd", &analysis::DetectionCell::pd},
+    {"lower", &analysis::DetectionCell::lower},
+    {"upper", &analysis::DetectionCell::upper}};
 
-struct LevelCount {
-    const char* name;
-    long analysis::LevelDetection::*member;
-};
-struct LevelNumber {
-    const char* name;
-    double analysis::LevelDetection::*member;
-};
-inline constexpr LevelCount kLevelCounts[] = {
+inline constexpr NamedMember<analysis::LevelDetection, long> kLevelCounts[] = {
     {"threshold_sample", &analysis::LevelDetection::threshold_sample},
     {"threshold_alarms", &analysis::LevelDetection::threshold_alarms}};
-inline constexpr LevelNumber kLevelNumbers[] = {
+inline constexpr NamedMember<analysis::LevelDetection, double> kLevelNumbers[] = {
     {"noise_level", &analysis::LevelDetection::noise_level},
     {"threshold", &analysis::LevelDetection::threshold}};
 

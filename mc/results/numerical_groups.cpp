@@ -29,7 +29,7 @@ void write_numerical(hid_t root, const NumericalError& error, const Results& fra
         write("rms", error.rms, std::identity());
         write("largest", error.largest, std::identity());
         if (!error.corrections.empty()) {
-            for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
+            for (const auto& number : kPairedCorrectionNumbers) {
                 write(number.name, error.corrections, number.member);
             }
         }
@@ -60,7 +60,7 @@ NumericalError read_numerical(hid_t root, std::size_t most, const Results& resul
         std::ranges::copy(read("largest"), std::back_inserter(error.largest));
         if (std::ranges::count(link_names(feature.get()), kPairedCorrectionNumbers[0].name) > 0) {
             std::vector<PairedCorrection> own(levels);
-            for (const PairedCorrectionNumber& number : kPairedCorrectionNumbers) {
+            for (const auto& number : kPairedCorrectionNumbers) {
                 const std::vector<double> values = read(number.name);
                 for (std::size_t level = 0; level < levels; ++level) {
                     own[level].*number.member = values[level];
@@ -88,10 +88,10 @@ void write_numerical_groups(hid_t root, const Results& frame) {
     }
     if (frame.step_error) {
         const Hdf5Handle group = create_group(root, "step_error");
-        for (const StepErrorNumber& number : kStepErrorNumbers) {
+        for (const auto& number : kStepErrorNumbers) {
             write_number(group.get(), ".", number.name, (*frame.step_error).*number.member);
         }
-        for (const StepErrorCount& count : kStepErrorCounts) {
+        for (const auto& count : kStepErrorCounts) {
             write_number(group.get(), ".", count.name, (*frame.step_error).*count.member);
         }
     }
@@ -105,10 +105,10 @@ void read_numerical_groups(hid_t root, std::size_t most, Results& results) {
     if (std::ranges::count(groups, "step_error") > 0) {
         const Hdf5Handle group = open_group(root, "step_error");
         StepError& error = results.step_error.emplace();
-        for (const StepErrorNumber& number : kStepErrorNumbers) {
+        for (const auto& number : kStepErrorNumbers) {
             error.*number.member = read_number(group.get(), ".", number.name);
         }
-        for (const StepErrorCount& count : kStepErrorCounts) {
+        for (const auto& count : kStepErrorCounts) {
             error.*count.member = static_cast<int>(read_number(group.get(), ".", count.name));
         }
     }

@@ -7,20 +7,13 @@
 namespace gearpod::mc {
 
 // Attributes of /step_error: first the double members, then the int members.
-struct StepErrorNumber {
-    const char* name;
-    double StepError::*member;
-};
-struct StepErrorCount {
-    const char* name;
-    int StepError::*member;
-};
-inline constexpr StepErrorNumber kStepErrorNumbers[] = {{"sensor", &StepError::sensor},
-                                                        {"te", &StepError::te}};
-inline constexpr StepErrorCount kStepErrorCounts[] = {{"steps", &StepError::steps},
-                                                      {"finer_steps", &StepError::finer_steps},
-                                                      {"gearboxes", &StepError::gearboxes},
-                                                      {"meshes", &StepError::meshes}};
+inline constexpr NamedMember<StepError, double> kStepErrorNumbers[] = {
+    {"sensor", &StepError::sensor}, {"te", &StepError::te}};
+inline constexpr NamedMember<StepError, int> kStepErrorCounts[] = {
+    {"steps", &StepError::steps},
+    {"finer_steps", &StepError::finer_steps},
+    {"gearboxes", &StepError::gearboxes},
+    {"meshes", &StepError::meshes}};
 
 // Writes the groups that the frame has.
 void write_numerical_groups(hid_t root, const Results& frame);

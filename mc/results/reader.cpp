@@ -212,10 +212,10 @@ class ResultsReader {
                 detection.levels[i].*member = values[i];
             }
         };
-        for (const LevelNumber& number : kLevelNumbers) {
+        for (const auto& number : kLevelNumbers) {
             fill(numbers(group, number.name), number.name, number.member);
         }
-        for (const LevelCount& count : kLevelCounts) {
+        for (const auto& count : kLevelCounts) {
             fill(read_integers(group, count.name, most_), count.name, count.member);
         }
     }
@@ -234,10 +234,10 @@ class ResultsReader {
                 detection.levels[i / groups.size()].cells[i % groups.size()].*member = values[i];
             }
         };
-        for (const CellNumber& number : kCellNumbers) {
+        for (const auto& number : kCellNumbers) {
             fill(numbers(group, number.name), number.name, number.member);
         }
-        for (const CellCount& count : kCellCounts) {
+        for (const auto& count : kCellCounts) {
             fill(read_integers(group, count.name, most_), count.name, count.member);
         }
     }

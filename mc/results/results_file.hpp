@@ -135,11 +135,14 @@ struct PairedCorrection {
     double faulty_bias = 0.0, faulty_error = 0.0;
     double scatter_ratio = 0.0;  // standard deviation of healthy gearboxes, own over fine
 };
-struct PairedCorrectionNumber {
+
+// Member of a struct, and the name of its dataset or attribute.
+template <class Of, class Value>
+struct NamedMember {
     const char* name;
-    double PairedCorrection::*member;
+    Value Of::*member;
 };
-inline constexpr PairedCorrectionNumber kPairedCorrectionNumbers[] = {
+inline constexpr NamedMember<PairedCorrection, double> kPairedCorrectionNumbers[] = {
     {"offset", &PairedCorrection::offset},
     {"by_value", &PairedCorrection::by_value},
     {"by_size", &PairedCorrection::by_size},

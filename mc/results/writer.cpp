@@ -175,20 +175,20 @@ void write_feature_detection(hid_t parent, const analysis::FeatureDetection& det
     write_text(group.get(), ".", "alarm", analysis::alarm_name(detection.alarm));
     write_text(group.get(), ".", "warnings", joined_lines(detection.warnings));
     write_sizes(group.get(), sizes);
-    for (const LevelNumber& number : kLevelNumbers) {
+    for (const auto& number : kLevelNumbers) {
         write_numbers(group.get(), number.name, {levels},
                       level_values<double>(detection, number.member));
     }
-    for (const LevelCount& count : kLevelCounts) {
+    for (const auto& count : kLevelCounts) {
         write_integers(group.get(), count.name, {levels},
                        level_values<std::int64_t>(detection, count.member));
     }
     const Shape shape{levels, sizes.size()};
-    for (const CellNumber& number : kCellNumbers) {
+    for (const auto& number : kCellNumbers) {
         write_numbers(group.get(), number.name, shape,
                       cell_values<double>(detection, number.member));
     }
-    for (const CellCount& count : kCellCounts) {
+    for (const auto& count : kCellCounts) {
         write_integers(group.get(), count.name, shape,
                        cell_values<std::int64_t>(detection, count.member));
     }
