@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "features/feature.hpp"
-#include "mc/study/distributions/parameters.hpp"
+#include "mc/study/distributions/distribution.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -16,7 +15,7 @@
 
 namespace gearpod::mc {
 
-struct Beta {
+struct Beta : LawDefaults {
     static constexpr std::string_view kName = "beta";
     double low = 0.0;
     double high = 0.0;
@@ -32,7 +31,6 @@ struct Beta {
     std::string problem() const { return low >= high ? "low must be below high" : ""; }
     double median() const { return quantile(0.5); }
     Support support() const { return {low, high, false, false}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         return quantile(boost::random::uniform_01<double>()(engine));
     }

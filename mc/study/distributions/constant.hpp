@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -13,12 +12,11 @@
 
 namespace gearpod::mc {
 
-struct Constant {
+struct Constant : LawDefaults {
     static constexpr std::string_view kName = "constant";
     double value = 0.0;
 
     static constexpr auto fields() { return std::tuple{Field{"value", &Constant::value}}; }
-    std::string problem() const { return ""; }
     double median() const { return value; }
     Support support() const { return {value, value, false, false}; }
     std::vector<double> levels() const { return {value}; }

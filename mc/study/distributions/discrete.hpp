@@ -18,7 +18,7 @@
 
 namespace gearpod::mc {
 
-struct Discrete {
+struct Discrete : LawDefaults {
     static constexpr std::string_view kName = "discrete";
     std::vector<double> values;
     std::vector<double> weights;
@@ -38,7 +38,6 @@ struct Discrete {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         return {*low, *high, false, false};
     }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         double left = boost::random::uniform_01<double>()(engine) * total();
         for (std::size_t i = 0; i + 1 < values.size(); ++i) {

@@ -20,7 +20,6 @@
 #include "mc/study/distributions/lognormal.hpp"
 #include "mc/study/distributions/magnitude.hpp"
 #include "mc/study/distributions/normal.hpp"
-#include "mc/study/distributions/parameters.hpp"
 #include "mc/study/distributions/triangular.hpp"
 #include "mc/study/distributions/truncated_normal.hpp"
 #include "mc/study/distributions/uniform.hpp"

@@ -64,4 +64,11 @@ class Distribution {
 // Names of all distributions, for help texts and spelling suggestions.
 std::vector<std::string_view> distribution_names();
 
+// Parameters of all distributions in their order, as text for help.
+struct DistributionHelp {
+    std::string name;
+    std::string parameters;  // "low (number), count (integer >= 1), values (list of numbers)"
+};
+std::vector<DistributionHelp> distribution_help();
+
 }  // namespace gearpod::mc

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/random/uniform_01.hpp>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -17,7 +16,7 @@
 
 namespace gearpod::mc {
 
-struct Empirical {
+struct Empirical : LawDefaults {
     static constexpr std::string_view kName = "empirical";
     static constexpr std::string_view kOtherwise =
         "or, instead of values and rows: file (path of a CSV file) and column (its name); columns "
@@ -30,13 +29,11 @@ struct Empirical {
         return std::tuple{Field{"values", &Empirical::values},
                           Field{"rows", &Empirical::rows, kGroup, true}};
     }
-    std::string problem() const { return ""; }
     double median() const { return quantile(0.5); }
     Support support() const {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         return {*low, *high, false, false};
     }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         const double place = boost::random::uniform_01<double>()(engine);
         return values[static_cast<std::size_t>(place * static_cast<double>(values.size()))];

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -15,12 +14,11 @@
 
 namespace gearpod::mc {
 
-struct Levels {
+struct Levels : LawDefaults {
     static constexpr std::string_view kName = "levels";
     std::vector<double> values;
 
     static constexpr auto fields() { return std::tuple{Field{"values", &Levels::values}}; }
-    std::string problem() const { return ""; }
     // Lower median: the smaller of the two middle values when the count is even, so that it is one
     // of the levels.
     double median() const {

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -19,7 +17,7 @@
 namespace gearpod::mc {
 
 // The member cannot be called `median` as in the study file, because median() is a function.
-struct Lognormal {
+struct Lognormal : LawDefaults {
     static constexpr std::string_view kName = "lognormal";
     double middle = 0.0;
     double cv = 0.0;
@@ -28,10 +26,8 @@ struct Lognormal {
         return std::tuple{Field{"median", &Lognormal::middle, kPositiveField},
                           Field{"cv", &Lognormal::cv, kPositiveField}};
     }
-    std::string problem() const { return ""; }
     double median() const { return middle; }
     Support support() const { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         const double sigma = std::sqrt(std::log1p(cv * cv));
         return boost::random::lognormal_distribution<double>(std::log(middle), sigma)(engine);

@@ -6,10 +6,8 @@
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -17,7 +15,7 @@
 
 namespace gearpod::mc {
 
-struct Normal {
+struct Normal : LawDefaults {
     static constexpr std::string_view kName = "normal";
     double mean = 0.0;
     double sd = 0.0;
@@ -25,11 +23,9 @@ struct Normal {
     static constexpr auto fields() {
         return std::tuple{Field{"mean", &Normal::mean}, Field{"sd", &Normal::sd, kPositiveField}};
     }
-    std::string problem() const { return ""; }
     double median() const { return mean; }
     static constexpr double kReach = 8.3;  // standard deviations
     Support support() const { return {mean - kReach * sd, mean + kReach * sd}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         boost::random::normal_distribution<double> normal;
         double z = normal(engine);

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -15,7 +14,7 @@
 
 namespace gearpod::mc {
 
-struct Triangular {
+struct Triangular : LawDefaults {
     static constexpr std::string_view kName = "triangular";
     double low = 0.0;
     double mode = 0.0;
@@ -36,7 +35,6 @@ struct Triangular {
                                         : high - std::sqrt(0.5 * width * (high - mode));
     }
     Support support() const { return {low, high, false, false}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         return boost::random::triangle_distribution<double>(low, mode, high)(engine);
     }

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -19,7 +18,7 @@
 
 namespace gearpod::mc {
 
-struct TruncatedNormal {
+struct TruncatedNormal : LawDefaults {
     static constexpr std::string_view kName = "truncated-normal";
     double mean = 0.0;
     double sd = 0.0;
@@ -41,7 +40,6 @@ struct TruncatedNormal {
     }
     double median() const { return quantile(0.5); }
     Support support() const { return {low, high, false, false}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         return quantile(boost::random::uniform_01<double>()(engine));
     }

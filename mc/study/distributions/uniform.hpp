@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -14,7 +13,7 @@
 
 namespace gearpod::mc {
 
-struct Uniform {
+struct Uniform : LawDefaults {
     static constexpr std::string_view kName = "uniform";
     double low = 0.0;
     double high = 0.0;
@@ -25,7 +24,6 @@ struct Uniform {
     std::string problem() const { return low >= high ? "low must be below high" : ""; }
     double median() const { return 0.5 * low + 0.5 * high; }
     Support support() const { return {low, high, false, false}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         return boost::random::uniform_real_distribution<double>(low, high)(engine);
     }

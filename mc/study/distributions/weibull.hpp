@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
@@ -17,7 +15,7 @@
 
 namespace gearpod::mc {
 
-struct Weibull {
+struct Weibull : LawDefaults {
     static constexpr std::string_view kName = "weibull";
     double scale = 0.0;
     double shape = 0.0;
@@ -28,10 +26,8 @@ struct Weibull {
         return std::tuple{Field{"scale", &Weibull::scale, kPositiveField},
                           Field{"shape", &Weibull::shape, Range{0.2, 1e4}}};
     }
-    std::string problem() const { return ""; }
     double median() const { return quantile(0.5); }
     Support support() const { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
-    std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
         constexpr double kLeast = 0x1p-54;  // replaces 0, which occurs once in 2^53 times
         return quantile(std::max(kLeast, boost::random::uniform_01<double>()(engine)));

@@ -7,7 +7,7 @@
 #include <cctype>
 
 #include "mc/input/wrapped_text.hpp"
-#include "mc/study/distributions/parameters.hpp"
+#include "mc/study/distributions/distribution.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {
