@@ -10,6 +10,8 @@
 #include <map>
 #include <string_view>
 
+#include "mc/files/formats/byte_numbers.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -63,10 +65,10 @@ bool is_cut(const std::string& path) {
     constexpr std::uint64_t kHeader = 128, kTag = 8;
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, file.tellg()));
-    std::array<unsigned char, kHeader> header{};
-    const auto read = [&](std::uint64_t at, unsigned char* to, std::streamsize count) {
+    std::array<char, kHeader> header{};
+    const auto read = [&](std::uint64_t at, char* to, std::streamsize count) {
         file.seekg(static_cast<std::streamoff>(at));
-        return static_cast<bool>(file.read(reinterpret_cast<char*>(to), count));
+        return static_cast<bool>(file.read(to, count));
     };
     if (size < kHeader || !read(0, header.data(), kHeader)) {
         return false;
@@ -76,13 +78,10 @@ bool is_cut(const std::string& path) {
     if ((!little && !big) || header[little ? 125 : 124] != 1) {
         return false;  // another version
     }
-    std::array<unsigned char, kTag> tag{};
+    std::array<char, kTag> tag{};
     std::uint64_t at = kHeader;
     while (size - at >= kTag && read(at, tag.data(), kTag)) {
-        std::uint64_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            length = 256 * length + tag[little ? 7 - i : 4 + i];
-        }
+        const std::uint64_t length = unsigned_at({tag.data(), kTag}, 4, 4, big);
         if (length > size - at - kTag) {
             return true;
         }
