@@ -108,30 +108,29 @@ class RowCheck {
     RowCheck(const RowShape& shape, std::optional<std::size_t> healthy, bool nan_parameters_allowed)
         : shape_(shape), healthy_(healthy), nan_allowed_(nan_parameters_allowed) {}
 
-    void check_rows(const RowBlock& block) {
-        for (std::size_t i = 0; i < block.count() && why_.empty(); ++i) {
-            const std::size_t row = block.first + i;
-            const int group = block.group[i];
-            if (block.status[i] < 0 || block.status[i] >= kStatuses) {
-                why_ =
-                    fmt::format("/status of row {} has the invalid value {}", row, block.status[i]);
-            } else if (group != 0 && group != 1 && (healthy_ || group != kUngraded)) {
-                why_ =
-                    fmt::format("/instances/group of row {} has the invalid value {}", row, group);
-            } else if (healthy_ && (row < *healthy_) != (group == 0)) {
-                why_ = fmt::format("/instances/group of row {} differs from the study's", row);
-            }
-            const double* values = block.values.data() + i * shape_.values();
-            if (!std::all_of(values, values + shape_.parameters, [&](double value) {
-                    return std::isfinite(value) || (nan_allowed_ && std::isnan(value));
-                })) {
-                why_ =
-                    fmt::format("/instances of row {} contains a number that is not finite", row);
-            }
-            if (std::any_of(values + shape_.parameters, values + shape_.values(),
-                            [](double value) { return std::isinf(value); })) {
-                why_ = fmt::format("/features of row {} contains an infinite number", row);
-            }
+    // Finds the reason in the first invalid row.
+    void check_row(const ResultRow& row) {
+        if (!why_.empty()) {
+            return;
+        }
+        if (row.status < 0 || row.status >= kStatuses) {
+            why_ = fmt::format("/status of row {} has the invalid value {}", row.index, row.status);
+        } else if (row.group != 0 && row.group != 1 && (healthy_ || row.group != kUngraded)) {
+            why_ = fmt::format("/instances/group of row {} has the invalid value {}", row.index,
+                               row.group);
+        } else if (healthy_ && (row.index < *healthy_) != (row.group == 0)) {
+            why_ = fmt::format("/instances/group of row {} differs from the study's", row.index);
+        }
+        const double* const parameters_end = row.values + shape_.parameters;
+        if (!std::all_of(row.values, parameters_end, [&](double value) {
+                return std::isfinite(value) || (nan_allowed_ && std::isnan(value));
+            })) {
+            why_ =
+                fmt::format("/instances of row {} contains a number that is not finite", row.index);
+        }
+        if (std::any_of(parameters_end, row.values + shape_.values(),
+                        [](double value) { return std::isinf(value); })) {
+            why_ = fmt::format("/features of row {} contains an infinite number", row.index);
         }
     }
     const std::string& why() const { return why_; }
@@ -165,7 +164,7 @@ void check_against(const std::string& path, const Results& frame, const RowSourc
     }
     if (why.empty()) {
         RowCheck check(row_shape(frame), healthy, expected && expected->nan_parameters_allowed);
-        rows.visit([&](const RowBlock& block) { check.check_rows(block); });
+        for_each_row(rows, [&](const ResultRow& row) { check.check_row(row); });
         why = check.why();
     }
     if (!why.empty()) {

@@ -64,7 +64,7 @@ namespace {
 // Rows of one group of a block, renumbered for a plan with `shift` more rows before them.
 RowBlock of_group(const RowBlock& block, Group group, std::size_t shift) {
     RowBlock out;
-    const std::size_t width = block.count() == 0 ? 0 : block.values.size() / block.count();
+    const std::size_t width = block.row_values();
     for (std::size_t row = 0; row < block.count(); ++row) {
         if (block.group[row] == static_cast<int>(group)) {
             out.first = out.status.empty() ? block.first + row + shift : out.first;

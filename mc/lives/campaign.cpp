@@ -87,16 +87,14 @@ void store_run_costs(const Scene& scene, double interpolation_error, const Ensem
 Campaign campaign_of(const Study& study, const Results& frame, const RowSource& rows) {
     Campaign campaign;
     const auto threshold_lives = static_cast<std::size_t>(study.ensemble.threshold_instances);
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            LifeRow read = life_of_row(study, frame, block, row);
-            campaign.interpolation.take(read.interpolation);
-            campaign.failed += read.life.status == Status::ok ? 0 : 1;
-            auto& lives = block.group[row] == static_cast<int>(Group::graded) ? campaign.cracked
-                          : block.first + row < threshold_lives ? campaign.threshold_lives
-                                                                : campaign.healthy;
-            lives.push_back(std::move(read.life));
-        }
+    for_each_row(rows, [&](const ResultRow& row) {
+        LifeRow read = life_of_row(study, frame, row);
+        campaign.interpolation.take(read.interpolation);
+        campaign.failed += read.life.status == Status::ok ? 0 : 1;
+        auto& lives = row.group == static_cast<int>(Group::graded) ? campaign.cracked
+                      : row.index < threshold_lives                ? campaign.threshold_lives
+                                                                   : campaign.healthy;
+        lives.push_back(std::move(read.life));
     });
     for (const Timing& timing : frame.timing) {
         campaign.costs.gearboxes += timing.name == kGearboxTime ? timing.seconds : 0.0;

@@ -101,10 +101,9 @@ void add_life(const Study& study, const Realization& gearbox, const GearboxLife&
     }
 }
 
-LifeRow life_of_row(const Study& study, const Results& frame, const RowBlock& block,
-                    std::size_t row) {
+LifeRow life_of_row(const Study& study, const Results& frame, const ResultRow& row) {
     const RowShape shape = row_shape(frame);
-    const double* values = block.values.data() + row * shape.values();
+    const double* values = row.values;
     const double* own = values + shape.parameters - kOwnColumns.size();
     if (!(own[1] >= 0.0 && own[1] <= static_cast<double>(shape.levels))) {
         throw std::runtime_error("/instances/records contains an invalid number");
@@ -112,7 +111,7 @@ LifeRow life_of_row(const Study& study, const Results& frame, const RowBlock& bl
     LifeRow result;
     result.interpolation = {own[2], own[3], own[4]};
     GearboxLife& life = result.life;
-    life.status = static_cast<Status>(block.status[row]);
+    life.status = static_cast<Status>(row.status);
     LifeHistory& history = life.history;
     if (!std::isnan(own[0])) {
         history.end_hours = own[0];
@@ -125,7 +124,7 @@ LifeRow life_of_row(const Study& study, const Results& frame, const RowBlock& bl
             history.records[r].*kRecordColumns[c].member = values[shape.value_of(features + c, r)];
         }
     }
-    history.first_cracked = block.group[row] == static_cast<int>(Group::graded)
+    history.first_cracked = row.group == static_cast<int>(Group::graded)
                                 ? static_cast<std::size_t>(study.monitoring.baseline_records)
                                 : history.records.size();
     for (std::size_t f = 0; life.status == Status::ok && f < features; ++f) {

@@ -29,7 +29,6 @@ struct LifeRow {
     GearboxLife life;
     InterpolationErrors interpolation;
 };
-LifeRow life_of_row(const Study& study, const Results& frame, const RowBlock& block,
-                    std::size_t row);
+LifeRow life_of_row(const Study& study, const Results& frame, const ResultRow& row);
 
 }  // namespace gearpod::mc

@@ -127,25 +127,22 @@ std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
     for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
         size_at = frame.parameters[p].name == frame.request.size.name ? p : size_at;
     }
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const double* values = block.values.data() + row * shape.values();
-            const bool graded = block.group[row] == static_cast<int>(Group::graded);
-            const auto group = analysis::group_of(values[size_at], groups);
-            for (std::size_t at = 0; at < all.size(); ++at) {
-                const double value = values[shape.parameters + at];
-                if (!std::isfinite(value)) {
-                    continue;
-                }
-                if (!graded) {
-                    all[at].healthy.push_back(value);
-                } else if (group) {
-                    const double threshold =
-                        frame.detection[at / shape.levels].levels[at % shape.levels].threshold;
-                    const double error = 2.0 * frame.numerical->largest[at];
-                    ++all[at].tested[*group];
-                    all[at].near[*group] += std::abs(value - threshold) <= error ? 1 : 0;
-                }
+    for_each_row(rows, [&](const ResultRow& row) {
+        const bool graded = row.group == static_cast<int>(Group::graded);
+        const auto group = analysis::group_of(row.values[size_at], groups);
+        for (std::size_t at = 0; at < all.size(); ++at) {
+            const double value = row.values[shape.parameters + at];
+            if (!std::isfinite(value)) {
+                continue;
+            }
+            if (!graded) {
+                all[at].healthy.push_back(value);
+            } else if (group) {
+                const double threshold =
+                    frame.detection[at / shape.levels].levels[at % shape.levels].threshold;
+                const double error = 2.0 * frame.numerical->largest[at];
+                ++all[at].tested[*group];
+                all[at].near[*group] += std::abs(value - threshold) <= error ? 1 : 0;
             }
         }
     });

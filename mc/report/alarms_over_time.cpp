@@ -60,13 +60,10 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
     const RowShape shape = row_shape(frame);
     std::vector<double> times;
     std::vector<std::vector<double>> values(shape.features);
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const double* of_row = block.values.data() + row * shape.values();
-            times.push_back(of_row[*time]);
-            for (std::size_t f = 0; f < shape.features; ++f) {
-                values[f].push_back(of_row[shape.value_of(f, 0)]);
-            }
+    for_each_row(rows, [&](const ResultRow& row) {
+        times.push_back(row.values[*time]);
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            values[f].push_back(row.values[shape.value_of(f, 0)]);
         }
     });
     std::vector<TimeGroup> groups;

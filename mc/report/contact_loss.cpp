@@ -27,14 +27,11 @@ std::vector<ContactLossSummary> summarise_contact_loss(const Results& frame,
     const RowShape shape = row_shape(frame);
     std::vector<std::vector<double>> values(shape.meshes);
     if (shape.meshes > 0) {
-        rows.visit([&](const RowBlock& block) {
-            for (std::size_t row = 0; row < block.count(); ++row) {
-                const double* own =
-                    block.values.data() + row * shape.values() + shape.contact_loss();
-                for (std::size_t m = 0; m < shape.meshes; ++m) {
-                    if (std::isfinite(own[m])) {
-                        values[m].push_back(own[m]);
-                    }
+        for_each_row(rows, [&](const ResultRow& row) {
+            const double* own = row.values + shape.contact_loss();
+            for (std::size_t m = 0; m < shape.meshes; ++m) {
+                if (std::isfinite(own[m])) {
+                    values[m].push_back(own[m]);
                 }
             }
         });

@@ -80,25 +80,22 @@ class Dataset {
         }
     }
 
-    void add_rows(const RowBlock& block) {
-        for (std::size_t i = 0; i < block.count(); ++i) {
-            const RowIdentity identity = identities_.of(block.first + i);
-            const double* values = block.values.data() + i * shape_.values();
-            if (block.status[i] != static_cast<int>(Status::ok)) {
-                ++failed_;
-                continue;
-            }
-            count(identity, is_faulty(block.group[i], values));
-            add_signal(identity, block.group[i], values, "first", false,
-                       values + shape_.value_of(0, 0));
-            for (std::size_t v = 0; v < shape_.variants; ++v) {
-                const std::string& name = frame_.variants[v].name;
-                const bool bearing = name == kOtherFault;
-                if (!bearing || block.group[i] == static_cast<int>(Group::threshold)) {
-                    add_signal(identity, block.group[i], values,
-                               bearing ? "first" : name.substr(kSensorVariant.size()), bearing,
-                               values + shape_.variant_value_of(v, 0));
-                }
+    void add_row(const ResultRow& row) {
+        const RowIdentity identity = identities_.of(row.index);
+        if (row.status != static_cast<int>(Status::ok)) {
+            ++failed_;
+            return;
+        }
+        count(identity, is_faulty(row.group, row.values));
+        add_signal(identity, row.group, row.values, "first", false,
+                   row.values + shape_.value_of(0, 0));
+        for (std::size_t v = 0; v < shape_.variants; ++v) {
+            const std::string& name = frame_.variants[v].name;
+            const bool bearing = name == kOtherFault;
+            if (!bearing || row.group == static_cast<int>(Group::threshold)) {
+                add_signal(identity, row.group, row.values,
+                           bearing ? "first" : name.substr(kSensorVariant.size()), bearing,
+                           row.values + shape_.variant_value_of(v, 0));
             }
         }
     }
@@ -322,7 +319,7 @@ std::string Dataset::card(const std::vector<NamedFile>& signals) const {
 std::vector<NamedFile> dataset_files(const Results& frame, const RowSource& rows,
                                      const std::string& file) {
     Dataset dataset(frame, file);
-    rows.visit([&](const RowBlock& block) { dataset.add_rows(block); });
+    for_each_row(rows, [&](const ResultRow& row) { dataset.add_row(row); });
     return dataset.files();
 }
 

@@ -47,17 +47,14 @@ ExampleRows choose_rows(const Results& frame, const RowSource& rows) {
                      [&](const auto& p) { return p.name == frame.request.size.name; }) -
         frame.parameters.begin());
     ExampleRows chosen;
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            if (block.status[row] != static_cast<int>(Status::ok)) {
-                continue;
-            }
-            const double* first = block.values.data() + row * shape.values();
-            const double size = size_column < shape.parameters ? first[size_column] : 0.0;
-            auto& place = size > 0.0 ? chosen.faulty : chosen.healthy;
-            if (!place || size > place->size) {
-                place = {block.first + row, size, {first, first + shape.values()}};
-            }
+    for_each_row(rows, [&](const ResultRow& row) {
+        if (row.status != static_cast<int>(Status::ok)) {
+            return;
+        }
+        const double size = size_column < shape.parameters ? row.values[size_column] : 0.0;
+        auto& place = size > 0.0 ? chosen.faulty : chosen.healthy;
+        if (!place || size > place->size) {
+            place = {row.index, size, {row.values, row.values + shape.values()}};
         }
     });
     return chosen;

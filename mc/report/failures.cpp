@@ -49,17 +49,15 @@ std::string rows_text(const Failures& failures) {
 
 RowCounts count_rows(const RowSource& rows, std::size_t records) {
     RowCounts counts;
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const bool threshold = block.group[row] == static_cast<int>(Group::threshold);
-            if (threshold && (block.first + row) % records != 0) {
-                continue;  // a further record of the gearbox before
-            }
-            ++counts.all;
-            const int status = block.status[row];
-            if (status >= 0 && status < kStatuses) {
-                ++counts.with_status[static_cast<std::size_t>(status)];
-            }
+    for_each_row(rows, [&](const ResultRow& row) {
+        const bool threshold = row.group == static_cast<int>(Group::threshold);
+        if (threshold && row.index % records != 0) {
+            return;  // a further record of the gearbox before
+        }
+        ++counts.all;
+        const int status = row.status;
+        if (status >= 0 && status < kStatuses) {
+            ++counts.with_status[static_cast<std::size_t>(status)];
         }
     });
     counts.not_converged = counts.with_status[static_cast<std::size_t>(Status::not_converged)];
@@ -73,19 +71,17 @@ Failures failures_of(const Results& frame, const RowSource& rows) {
     Failures failures;
     failures.counts = count_rows(rows, frame.request.threshold_records);
     failures.no_value.assign(shape.features, std::vector<long>(shape.levels, 0));
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            if (block.status[row] != static_cast<int>(Status::ok)) {
-                if (failures.first.size() < kMostNamedRows) {
-                    failures.first.emplace_back(block.first + row, block.status[row]);
-                }
-                continue;
+    for_each_row(rows, [&](const ResultRow& row) {
+        if (row.status != static_cast<int>(Status::ok)) {
+            if (failures.first.size() < kMostNamedRows) {
+                failures.first.emplace_back(row.index, row.status);
             }
-            const double* values = block.values.data() + row * shape.values() + shape.parameters;
-            for (std::size_t v = 0; v < shape.features * shape.levels; ++v) {
-                failures.no_value[v / shape.levels][v % shape.levels] +=
-                    std::isfinite(values[v]) ? 0 : 1;
-            }
+            return;
+        }
+        const double* values = row.values + shape.parameters;
+        for (std::size_t v = 0; v < shape.features * shape.levels; ++v) {
+            failures.no_value[v / shape.levels][v % shape.levels] +=
+                std::isfinite(values[v]) ? 0 : 1;
         }
     });
     return failures;

@@ -32,14 +32,9 @@ bool any_threshold(const Results& frame) {
 std::vector<ReadRow> graded_rows(const RowShape& shape, const RowSource& rows) {
     std::vector<ReadRow> graded;
     std::size_t seen = 0;
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t i = 0; i < block.count(); ++i) {
-            if (block.group[i] == static_cast<int>(Group::graded) && ++seen <= kMostRead) {
-                const auto first =
-                    block.values.begin() + static_cast<std::ptrdiff_t>(i * shape.values());
-                graded.push_back({block.first + i,
-                                  {first, first + static_cast<std::ptrdiff_t>(shape.values())}});
-            }
+    for_each_row(rows, [&](const ResultRow& row) {
+        if (row.group == static_cast<int>(Group::graded) && ++seen <= kMostRead) {
+            graded.push_back({row.index, {row.values, row.values + shape.values()}});
         }
     });
     if (seen > kMostRead) {

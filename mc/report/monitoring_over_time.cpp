@@ -54,17 +54,14 @@ RecordColumns columns_of(const Results& frame, const RowSource& rows, std::size_
     const RowShape shape = row_shape(frame);
     RecordColumns columns;
     columns.values.resize(shape.features);
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const double* of_row = block.values.data() + row * shape.values();
-            columns.group.push_back(block.group[row]);
-            columns.time.push_back(of_row[time]);
-            if (torque) {
-                columns.torque.push_back(of_row[*torque]);
-            }
-            for (std::size_t f = 0; f < shape.features; ++f) {
-                columns.values[f].push_back(of_row[shape.value_of(f, 0)]);
-            }
+    for_each_row(rows, [&](const ResultRow& row) {
+        columns.group.push_back(row.group);
+        columns.time.push_back(row.values[time]);
+        if (torque) {
+            columns.torque.push_back(row.values[*torque]);
+        }
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            columns.values[f].push_back(row.values[shape.value_of(f, 0)]);
         }
     });
     return columns;

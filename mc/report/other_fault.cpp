@@ -55,21 +55,17 @@ std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const Row
             }
         }
     }
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const double* values = block.values.data() + row * shape.values();
-            for (OtherFaultAlarms& one : all) {
-                const double with =
-                                 values[shape.variant_value_of(variant, one.feature) + one.level],
-                             without = values[shape.value_of(one.feature, one.level)];
-                if (std::isfinite(with) && std::isfinite(without)) {
-                    const double threshold =
-                        frame.detection[one.feature].levels[one.level].threshold;
-                    const analysis::Alarm alarm = frame.features[one.feature].alarm;
-                    ++one.tested;
-                    one.alarms += analysis::is_alarm(with, threshold, alarm);
-                    one.without += analysis::is_alarm(without, threshold, alarm);
-                }
+    for_each_row(rows, [&](const ResultRow& row) {
+        for (OtherFaultAlarms& one : all) {
+            const double with =
+                             row.values[shape.variant_value_of(variant, one.feature) + one.level],
+                         without = row.values[shape.value_of(one.feature, one.level)];
+            if (std::isfinite(with) && std::isfinite(without)) {
+                const double threshold = frame.detection[one.feature].levels[one.level].threshold;
+                const analysis::Alarm alarm = frame.features[one.feature].alarm;
+                ++one.tested;
+                one.alarms += analysis::is_alarm(with, threshold, alarm);
+                one.without += analysis::is_alarm(without, threshold, alarm);
             }
         }
     });

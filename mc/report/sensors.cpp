@@ -67,20 +67,17 @@ std::vector<OneSensor> sensors_of(const Results& frame, const RowSource& rows, s
         }
     }
     const auto size_at = static_cast<std::size_t>(size - frame.parameters.begin());
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const double* values = block.values.data() + row * shape.values();
-            for (std::size_t s = 0; s < all.size(); ++s) {
-                Results& own = all[s].results;
-                own.group.push_back(block.group[row]);
-                own.status.push_back(block.status[row]);
-                own.parameters[0].values.push_back(values[size_at]);
-                for (std::size_t f = 0; f < features.size(); ++f) {
-                    const std::size_t at =
-                        s == 0 ? shape.value_of(features[f], level)
-                               : shape.variant_value_of(variants[s - 1], features[f]) + level;
-                    own.features[f].values.push_back(values[at]);
-                }
+    for_each_row(rows, [&](const ResultRow& row) {
+        for (std::size_t s = 0; s < all.size(); ++s) {
+            Results& own = all[s].results;
+            own.group.push_back(row.group);
+            own.status.push_back(row.status);
+            own.parameters[0].values.push_back(row.values[size_at]);
+            for (std::size_t f = 0; f < features.size(); ++f) {
+                const std::size_t at =
+                    s == 0 ? shape.value_of(features[f], level)
+                           : shape.variant_value_of(variants[s - 1], features[f]) + level;
+                own.features[f].values.push_back(row.values[at]);
             }
         }
     });

@@ -50,22 +50,19 @@ std::optional<AssessedColumns> assessed_columns(const Results& frame, const RowS
     AssessedColumns columns{
         ResultColumns(shape), ResultColumns(shape), ResultColumns(shape), {}, {}};
     std::vector<std::size_t> repeated_rows, healthy_rows;
-    rows.visit([&](const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
-            const double* values = block.values.data() + row * shape.values();
-            if (block.group[row] == kUngraded) {
-                continue;
-            }
-            if (sets_threshold && repeated) {
-                columns.repeats.add(values, shape);
-                repeated_rows.push_back(block.first + row);
-            }
-            if (!sets_threshold || (block.first + row) % records == 0) {
-                (sets_threshold ? columns.healthy : columns.graded).add(values, shape);
-                if (sets_threshold) {
-                    healthy_rows.push_back(block.first + row);
-                }
+    for_each_row(rows, [&](const ResultRow& row) {
+        const bool sets_threshold = row.group == static_cast<int>(Group::threshold);
+        if (row.group == kUngraded) {
+            return;
+        }
+        if (sets_threshold && repeated) {
+            columns.repeats.add(row.values, shape);
+            repeated_rows.push_back(row.index);
+        }
+        if (!sets_threshold || row.index % records == 0) {
+            (sets_threshold ? columns.healthy : columns.graded).add(row.values, shape);
+            if (sets_threshold) {
+                healthy_rows.push_back(row.index);
             }
         }
     });

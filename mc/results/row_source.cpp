@@ -29,26 +29,6 @@ std::size_t column_of(const Results& frame, const std::string& name) {
     return static_cast<std::size_t>(found - frame.parameters.begin());
 }
 
-void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
-              std::size_t weight_at, std::size_t first, Sample& healthy, Sample& graded) {
-    for (std::size_t row = 0; row < block.count(); ++row) {
-        if (block.group[row] == kUngraded) {
-            continue;
-        }
-        const double* values = block.values.data() + row * shape.values();
-        Sample& sample = block.group[row] == static_cast<int>(Group::threshold) ? healthy : graded;
-        sample.row.push_back(block.first + row);
-        sample.size.push_back(size_at < shape.parameters ? values[size_at] : 0.0);
-        if (weight_at < shape.parameters) {
-            sample.weight.push_back(values[weight_at]);
-        }
-        for (std::size_t f = 0; f < sample.values.size(); ++f) {
-            const double* feature = values + shape.value_of(first + f, 0);
-            sample.values[f].insert(sample.values[f].end(), feature, feature + shape.levels);
-        }
-    }
-}
-
 }  // namespace
 
 void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
@@ -78,9 +58,9 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
 }
 
 void RowBlock::put(const double* column, std::size_t at, std::size_t width) {
-    const std::size_t row_values = values.size() / std::max<std::size_t>(1, count());
+    const std::size_t all = row_values();
     for (std::size_t row = 0; row < count(); ++row) {
-        std::copy_n(column + row * width, width, values.data() + row * row_values + at);
+        std::copy_n(column + row * width, width, values.data() + row * all + at);
     }
 }
 
@@ -111,10 +91,10 @@ RowShape row_shape(const Results& results) {
 }
 
 void fill_columns(Results& results, const RowSource& rows) {
-    const std::size_t row_values = row_shape(results).values();
     rows.visit([&](const RowBlock& block) {
         results.group.insert(results.group.end(), block.group.begin(), block.group.end());
         results.status.insert(results.status.end(), block.status.begin(), block.status.end());
+        const std::size_t row_values = block.row_values();
         for_each_column(results, [&](const auto& column) {
             for (std::size_t row = 0; row < block.count(); ++row) {
                 const double* values = block.values.data() + row * row_values + column.first;
@@ -137,8 +117,20 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
         Sample healthy, graded;
         healthy.values.resize(count);
         graded.values.resize(count);
-        rows.visit([&](const RowBlock& block) {
-            add_rows(block, shape, size_at, weight_at, first, healthy, graded);
+        for_each_row(rows, [&](const ResultRow& row) {
+            if (row.group == kUngraded) {
+                return;
+            }
+            Sample& sample = row.group == static_cast<int>(Group::threshold) ? healthy : graded;
+            sample.row.push_back(row.index);
+            sample.size.push_back(size_at < shape.parameters ? row.values[size_at] : 0.0);
+            if (weight_at < shape.parameters) {
+                sample.weight.push_back(row.values[weight_at]);
+            }
+            for (std::size_t f = 0; f < count; ++f) {
+                const double* feature = row.values + shape.value_of(first + f, 0);
+                sample.values[f].insert(sample.values[f].end(), feature, feature + shape.levels);
+            }
         });
         const std::vector<std::size_t> numbers = gearboxes_of(frame, healthy.row);
         for (std::size_t f = 0; f < count; ++f) {

@@ -16,6 +16,8 @@ struct RowBlock {
     std::vector<double> values;
 
     std::size_t count() const { return status.size(); }
+    // Number of values in a row.
+    std::size_t row_values() const { return count() == 0 ? 0 : values.size() / count(); }
     // Copies a column's values, `width` for each row, to this place in the rows. Precondition:
     // `values` has the size of all rows.
     void put(const double* column, std::size_t at, std::size_t width);
@@ -28,6 +30,25 @@ class RowSource {
     // Calls `use` with all rows in order, in blocks.
     virtual void visit(const std::function<void(const RowBlock&)>& use) const = 0;
 };
+
+// One row.
+struct ResultRow {
+    std::size_t index;
+    int group, status;     // Group and Status
+    const double* values;  // as in RowShape
+};
+
+// Calls `use` with all rows in order.
+template <class Use>
+void for_each_row(const RowSource& rows, const Use& use) {
+    rows.visit([&](const RowBlock& block) {
+        const std::size_t row_values = block.row_values();
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            use(ResultRow{block.first + row, block.group[row], block.status[row],
+                          block.values.data() + row * row_values});
+        }
+    });
+}
 
 // First batches of a plan, in a store that has them.
 class StoredRows final : public RowSource {
