@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,13 +12,13 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <span>
 #include <utility>
 
 #include "mc/files/file_descriptor.hpp"
 #include "mc/files/framed_bytes.hpp"
+#include "mc/files/isolated_trial.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -112,28 +110,10 @@ std::string reply_to(Request request, const std::string& name, SignalFile& file)
     return bytes_of_texts(file.notes());
 }
 
-// Limits the memory to the present use plus `more` bytes, and disables core files.
-void limit_memory(std::size_t more) {
-    std::ifstream statm("/proc/self/statm");
-    std::size_t pages = 0;
-    rlimit limit{};
-    if (statm >> pages && ::getrlimit(RLIMIT_AS, &limit) == 0) {
-        const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + more;
-        limit.rlim_cur = std::min(limit.rlim_cur, most);
-        ::setrlimit(RLIMIT_AS, &limit);
-    }
-    const rlimit none{0, 0};
-    ::setrlimit(RLIMIT_CORE, &none);
-}
-
 // Main loop of the child process, until the parent closes the connection.
 [[noreturn]] void serve(int fd, const std::string& path, std::size_t memory,
                         const std::function<std::unique_ptr<SignalFile>()>& open) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM}) {
-        ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
-    }
-    limit_memory(memory);
+    confine_child(memory);
     std::unique_ptr<SignalFile> file;
     Request request = Request::notes;  // the first reply reports whether the file can be opened
     std::string name;

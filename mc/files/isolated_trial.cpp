@@ -20,38 +20,36 @@ namespace {
 constexpr std::uintmax_t kTrialMemory = std::uintmax_t{256} << 20, kTrialMemoryPerByte = 8;
 constexpr std::uintmax_t kTrial_s = 8, kTrialBytes_s = 10000000, kLongestTrial_s = 3600;
 
-// Limits of the child process: memory beyond the present use, and time.
-void limit_trial(std::uintmax_t file_size) {
+}  // namespace
+
+void confine_child(std::uintmax_t more_memory) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGINT, SIGTERM}) {
+        ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
+    }
     std::ifstream statm("/proc/self/statm");
     std::uintmax_t pages = 0;
     rlimit limit{};
     if (statm >> pages && ::getrlimit(RLIMIT_AS, &limit) == 0) {
         const auto page = static_cast<std::uintmax_t>(::sysconf(_SC_PAGESIZE));
-        limit.rlim_cur = std::min<rlim_t>(
-            limit.rlim_cur, pages * page + kTrialMemory + kTrialMemoryPerByte * file_size);
+        limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, pages * page + more_memory);
         ::setrlimit(RLIMIT_AS, &limit);
     }
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_CORE, &none);
-    ::alarm(static_cast<unsigned>(std::min(kTrial_s + file_size / kTrialBytes_s, kLongestTrial_s)));
 }
-
-}  // namespace
 
 bool survives_reading(const std::string& path, const std::function<void()>& read) {
     std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    const std::uintmax_t found = std::filesystem::file_size(path, error);
+    const std::uintmax_t size = error ? 0 : found;
     const pid_t child = ::fork();
     if (child < 0) {
         return true;
     }
     if (child == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-        for (const int signal :
-             {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGINT, SIGTERM}) {
-            ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
-        }
-        limit_trial(error ? 0 : size);
+        confine_child(kTrialMemory + kTrialMemoryPerByte * size);
+        ::alarm(static_cast<unsigned>(std::min(kTrial_s + size / kTrialBytes_s, kLongestTrial_s)));
         try {
             read();
         } catch (const std::bad_alloc&) {

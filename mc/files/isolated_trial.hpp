@@ -1,10 +1,16 @@
 // Trial of a function in a child process, for a library that may crash or hang on a damaged file.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
 namespace gearpod::mc {
+
+// Limits of a child process that calls such a library: the memory is the present use plus
+// `more_memory` bytes, core files are disabled, signals have their default actions, and the process
+// ends with its parent.
+void confine_child(std::uintmax_t more_memory);
 
 // Calls `read`, which reads the file at `path`, in a forked child process. Returns true if it ends,
 // with or without an exception. Returns false if the library crashes, takes more than 256 MB plus
