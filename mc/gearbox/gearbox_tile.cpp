@@ -15,7 +15,6 @@
 #include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_random_inputs.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
-#include "mc/gearbox/tile_solution.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/housing.hpp"
 #include "mc/study/other_sources.hpp"
@@ -54,12 +53,7 @@ void add_status(const Scene& scene, GearboxTile& tile) {
 }
 
 void keep_solution(TileSolution solved, GearboxTile& tile) {
-    tile.integration = std::move(solved.integration);
-    tile.coupled = std::move(solved.coupled);
-    tile.stiffness_s = solved.stiffness_s;
-    tile.integration_s = solved.integration_s;
-    tile.integration_cpu_s = solved.integration_cpu_s;
-    tile.meshes = solved.meshes;
+    static_cast<TileSolution&>(tile) = std::move(solved);
     if (const std::vector<char>& superposed = tile.integration.superposed; !superposed.empty()) {
         tile.superposed = std::ranges::count(std::span(superposed).first(tile.gearboxes), true);
         tile.superposition_fallbacks =

@@ -9,8 +9,7 @@
 #include "lockstep/tile/tile_inputs.hpp"
 #include "lockstep/tile/tile_records.hpp"
 #include "mc/gearbox/sensor_paths.hpp"
-#include "mc/results/results_file.hpp"
-#include "mc/scene/sampling.hpp"
+#include "mc/gearbox/tile_solution.hpp"
 #include "mc/scene/scene.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/tones.hpp"
@@ -44,19 +43,16 @@ struct LaneSignals {
 
 // Results of a tile. `integration.records` owns the data that `views` refers to. If
 // `sensor_recorders` recorded the sensor signals, `integration.records` holds only the healthy mesh
-// period.
-struct GearboxTile {
+// period. `meshes` is 0 if `integration` came from the cache.
+struct GearboxTile : TileSolution {
     std::vector<Realization> realizations;  // one entry per lane
     std::size_t gearboxes = 0;              // requested; further lanes repeat the last one
     // Mesh periods of the signals that were integrated; empty: all (integrates_records_only).
     std::vector<lockstep::SpanPart> parts;
-    lockstep::TileResult integration;
     std::vector<Status> status;  // one entry per requested gearbox
     signals::TileSignals views;
     SensorRecorders sensor_recorders;  // empty if the records were kept
     signals::Tones tones;              // interfering tones; may be empty
-    // LaneSignals::coupled by coupled stage and requested gearbox.
-    std::vector<std::vector<std::vector<double>>> coupled;
     // By sensor: [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox. Each is empty where the
     // sensor has a response (has_response).
     std::vector<machine::AlignedVector> folded;
@@ -65,13 +61,10 @@ struct GearboxTile {
     // feature compares with baseline records.
     std::vector<LaneSignals> baseline;
 
-    double sampling_s = 0.0, stiffness_s = 0.0, integration_s = 0.0, signals_s = 0.0;
+    double sampling_s = 0.0, signals_s = 0.0;
     // Number of records (baselines included) computed by superposition, and number that fell back
     // to full integration.
     std::ptrdiff_t superposed = 0, superposition_fallbacks = 0;
-    int meshes =
-        0;  // mesh periods integrated for this tile; 0 if `integration` came from the cache
-    double integration_cpu_s = 0.0;  // processor time of this thread for the time integration
 };
 
 // Optional outputs of a tile.

@@ -1,5 +1,6 @@
 #include "mc/scene/body.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "mc/scene/drivetrain.hpp"
@@ -54,11 +55,7 @@ dynamics::PlanetaryInputs planetary_inputs(const InstanceInputs& in) {
         out.bearing_stiffness_N_m[body] = b.bearing_stiffness_N_m;
         out.bearing_damping_N_s_m[body] = b.bearing_damping_N_s_m;
     }
-    for (std::size_t n = 0; n < in.planets.size(); ++n) {
-        const PlanetInstance& own = in.planets[n];
-        out.planet_deviations[n] = {own.bearing_stiffness, own.bearing_damping, own.mass,
-                                    own.pin_x_m, own.pin_y_m};
-    }
+    std::ranges::copy(in.planets, out.planet_deviations);
     out.support_stiffness_N_m = in.support_stiffness_N_m;
     out.support_damping_N_s_m = in.support_damping_N_s_m;
     return out;

@@ -15,7 +15,8 @@ double angle_of(const Gearbox& gearbox, std::size_t planet) {
                : gearbox.planet_positions_rad[planet];
 }
 
-void move_pin(double angle, double tangential_m, double radial_m, PlanetInstance& planet) {
+void move_pin(double angle, double tangential_m, double radial_m,
+              dynamics::PlanetDeviations& planet) {
     const double c = std::cos(angle), s = std::sin(angle);
     planet.pin_x_m += radial_m * c - tangential_m * s;
     planet.pin_y_m += radial_m * s + tangential_m * c;

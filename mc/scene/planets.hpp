@@ -10,12 +10,7 @@
 
 namespace gearpod::mc {
 
-// Deviations of one planet; see dynamics::PlanetDeviations.
-struct PlanetInstance {
-    double bearing_stiffness, bearing_damping, mass;
-    double pin_x_m, pin_y_m;
-};
-using Planets = std::array<PlanetInstance, dynamics::kMaxPlanets>;
+using Planets = std::array<dynamics::PlanetDeviations, dynamics::kMaxPlanets>;
 
 // Planets as given in the study; identical if nothing is given.
 Planets given_planets(const Study& study);
