@@ -9,6 +9,7 @@
 
 #include "mc/files/signal_units.hpp"
 #include "mc/files/text/text_table.hpp"
+#include "mc/input/find_in.hpp"
 #include "mc/input/spelling.hpp"
 
 namespace gearpod::mc {
@@ -33,8 +34,7 @@ std::vector<std::string_view> usable_names() {
 
 const Feature* record_feature(std::string_view name) {
     const auto all = features::record_features();
-    const auto found = std::ranges::find(all, name, &Feature::name);
-    return found == all.end() ? nullptr : &*found;
+    return find_in(all, name, &Feature::name);
 }
 
 // Index of a feature in features::record_features().

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mc/input/find_in.hpp"
 #include "mc/input/input_file.hpp"
 #include "mc/input/nesting.hpp"
 #include "mc/input/printable.hpp"
@@ -155,9 +156,7 @@ std::string trimmed(std::string_view text) {
 }
 
 Entry* find_entry(Value& table, std::string_view name) {
-    const auto found = std::find_if(table.entries.begin(), table.entries.end(),
-                                    [&](const Entry& entry) { return entry.name == name; });
-    return found == table.entries.end() ? nullptr : &*found;
+    return find_in(table.entries, name, &Entry::name);
 }
 
 // Entry of that name in a table, created if absent. A parent that is no table is replaced by one.
@@ -227,9 +226,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 const Entry* Value::find(std::string_view name) const {
-    const auto found = std::find_if(entries.begin(), entries.end(),
-                                    [&](const Entry& entry) { return entry.name == name; });
-    return found == entries.end() ? nullptr : &*found;
+    return find_in(entries, name, &Entry::name);
 }
 
 std::string Value::shown() const {

@@ -20,15 +20,6 @@ namespace {
 
 constexpr std::size_t kMostGroups = 40;
 
-std::optional<std::size_t> time_column(const Results& frame) {
-    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
-        if (frame.parameters[p].name == "time") {
-            return p;
-        }
-    }
-    return std::nullopt;
-}
-
 // Returns the last time of each group.
 std::vector<double> ends_of(const std::vector<double>& times) {
     const std::set<double> distinct(times.begin(), times.end());
@@ -53,7 +44,7 @@ double threshold_of(const Results& frame, std::size_t feature) {
 }  // namespace
 
 std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows) {
-    const auto time = time_column(frame);
+    const auto time = frame.parameter_index("time");
     if (!time || frame.provenance_value("kind") != kRecordingsKind) {
         return {};
     }
@@ -107,7 +98,7 @@ analysis::Section alarms_section(const Results& frame, const std::vector<TimeGro
     if (groups.empty() || frame.features.empty()) {
         return {};
     }
-    const std::string unit = frame.parameters[*time_column(frame)].unit;
+    const std::string unit = frame.parameters[*frame.parameter_index("time")].unit;
     analysis::Table table{"over_time",
                           "Recordings with an alarm, and the feature's median",
                           {"time", "recordings"},

@@ -163,9 +163,8 @@ class Dataset {
     }
 
     double size_of(const double* values) const {
-        const auto found =
-            std::ranges::find(frame_.parameters, frame_.request.size.name, &ParameterResult::name);
-        return found == frame_.parameters.end() ? 0.0 : values[found - frame_.parameters.begin()];
+        const auto size_at = frame_.parameter_index(frame_.request.size.name);
+        return size_at ? values[*size_at] : 0.0;
     }
     bool is_faulty(int group, const double* values) const {
         return group == static_cast<int>(Group::graded) && (recorded_ || size_of(values) > 0.0);

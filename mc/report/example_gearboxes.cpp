@@ -42,16 +42,13 @@ struct ExampleRows {
 
 ExampleRows choose_rows(const Results& frame, const RowSource& rows) {
     const RowShape shape = row_shape(frame);
-    const auto size_column = static_cast<std::size_t>(
-        std::find_if(frame.parameters.begin(), frame.parameters.end(),
-                     [&](const auto& p) { return p.name == frame.request.size.name; }) -
-        frame.parameters.begin());
+    const auto size_at = frame.parameter_index(frame.request.size.name);
     ExampleRows chosen;
     for_each_row(rows, [&](const ResultRow& row) {
         if (row.status != static_cast<int>(Status::ok)) {
             return;
         }
-        const double size = size_column < shape.parameters ? row.values[size_column] : 0.0;
+        const double size = size_at ? row.values[*size_at] : 0.0;
         auto& place = size > 0.0 ? chosen.faulty : chosen.healthy;
         if (!place || size > place->size) {
             place = {row.index, size, {row.values, row.values + shape.values()}};

@@ -180,15 +180,6 @@ GearboxAlarms monitor_gearbox(const GearboxRecords& gearbox, const GearboxSeries
     return watched;
 }
 
-std::optional<std::size_t> parameter_place(const Results& frame, const std::string& name) {
-    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
-        if (frame.parameters[p].name == name) {
-            return p;
-        }
-    }
-    return std::nullopt;
-}
-
 std::vector<double> numbers_of(const std::string& line) {
     std::istringstream stream(line);
     std::vector<double> numbers;
@@ -343,14 +334,14 @@ std::string refusal_of(const std::vector<GearboxRecords>& gearboxes, int baselin
 
 std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
                                                        const RowSource& rows) {
-    const auto time = parameter_place(frame, "time");
+    const auto time = frame.parameter_index("time");
     const auto study = read_study_text(frame.provenance_value("measured_by_study"), "").study;
     if (!time || !study || frame.provenance_value("kind") != kRecordingsKind) {
         return std::nullopt;
     }
     const Monitoring& requested = study->monitoring;
     const auto torque =
-        requested.torque_regression ? parameter_place(frame, "torque") : std::nullopt;
+        requested.torque_regression ? frame.parameter_index("torque") : std::nullopt;
     MonitoringOverTime monitoring;
     monitoring.baseline_records = requested.baseline_records;
     monitoring.false_alarm_rate = frame.request.false_alarm_rate;

@@ -196,6 +196,8 @@ struct Results {
 
     // Value of a provenance entry, "" if absent.
     std::string provenance_value(const std::string& name) const;
+    // Index of a parameter, if there is one of this name.
+    std::optional<std::size_t> parameter_index(const std::string& name) const;
 };
 
 class RowSource;  // row_source.hpp

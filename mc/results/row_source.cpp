@@ -22,13 +22,6 @@ struct Sample {
     std::vector<double> weight;  // importance weights; empty without tilted records
 };
 
-// Index of a parameter; the number of parameters if there is none of this name.
-std::size_t column_of(const Results& frame, const std::string& name) {
-    const auto found = std::find_if(frame.parameters.begin(), frame.parameters.end(),
-                                    [&](const auto& p) { return p.name == name; });
-    return static_cast<std::size_t>(found - frame.parameters.begin());
-}
-
 }  // namespace
 
 void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
@@ -109,8 +102,8 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
     const RowShape shape = row_shape(frame);
     const std::size_t each = 8 * std::max<std::size_t>(1, rows.rows() * shape.levels);
     const std::size_t at_once = std::max<std::size_t>(1, kBytes / each);
-    const std::size_t size_at = column_of(frame, frame.request.size.name);
-    const std::size_t weight_at = column_of(frame, kNoiseWeight);
+    const auto size_at = frame.parameter_index(frame.request.size.name);
+    const auto weight_at = frame.parameter_index(kNoiseWeight);
     std::vector<analysis::FeatureDetection> all;
     for (std::size_t first = 0; first < shape.features; first += at_once) {
         const std::size_t count = std::min(at_once, shape.features - first);
@@ -123,9 +116,9 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
             }
             Sample& sample = row.group == static_cast<int>(Group::threshold) ? healthy : graded;
             sample.row.push_back(row.index);
-            sample.size.push_back(size_at < shape.parameters ? row.values[size_at] : 0.0);
-            if (weight_at < shape.parameters) {
-                sample.weight.push_back(row.values[weight_at]);
+            sample.size.push_back(size_at ? row.values[*size_at] : 0.0);
+            if (weight_at) {
+                sample.weight.push_back(row.values[*weight_at]);
             }
             for (std::size_t f = 0; f < count; ++f) {
                 const double* feature = row.values + shape.value_of(first + f, 0);

@@ -335,6 +335,12 @@ std::string Results::provenance_value(const std::string& name) const {
     return found == provenance.end() ? "" : found->second;
 }
 
+std::optional<std::size_t> Results::parameter_index(const std::string& name) const {
+    const auto found = std::ranges::find(parameters, name, &ParameterResult::name);
+    return found == parameters.end() ? std::nullopt
+                                     : std::optional<std::size_t>(found - parameters.begin());
+}
+
 void write_results(const std::string& path, const Results& frame, const RowSource& rows) {
     const SilentHdf5 silent;
     PendingFile file(path);

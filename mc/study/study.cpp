@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "features/feature.hpp"
+#include "mc/input/find_in.hpp"
 
 namespace gearpod::mc {
 
 const RandomInput* Study::find_random(const std::string& key) const {
-    const auto found = std::find_if(random.begin(), random.end(),
-                                    [&](const RandomInput& input) { return input.key == key; });
-    return found == random.end() ? nullptr : &*found;
+    return find_in(random, key, &RandomInput::key);
 }
 
 double crack_begin_m(const Life& life) {

@@ -7,6 +7,7 @@
 
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
+#include "mc/input/find_in.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/results/file_rows.hpp"
@@ -16,9 +17,7 @@ namespace gearpod::mc {
 namespace {
 
 const ParameterResult* find_parameter(const Results& frame, const std::string& name) {
-    const auto at = std::find_if(frame.parameters.begin(), frame.parameters.end(),
-                                 [&](const ParameterResult& p) { return p.name == name; });
-    return at == frame.parameters.end() ? nullptr : &*at;
+    return find_in(frame.parameters, name, &ParameterResult::name);
 }
 
 double compared_size(const Results& frame, std::size_t row) {
@@ -109,9 +108,7 @@ std::vector<double> size_column(const Results& frame, const std::vector<std::siz
 }
 
 const FeatureResult* find_result(const Results& frame, const std::string& name) {
-    const auto at = std::find_if(frame.features.begin(), frame.features.end(),
-                                 [&](const FeatureResult& f) { return f.name == name; });
-    return at == frame.features.end() ? nullptr : &*at;
+    return find_in(frame.features, name, &FeatureResult::name);
 }
 
 // Compares values; NaN equals NaN, because a gearbox may fail in both files.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "analysis/report/wording.hpp"
+#include "mc/input/find_in.hpp"
 #include "mc/sweep/summary.hpp"
 
 namespace gearpod::mc {
@@ -22,8 +23,7 @@ std::string studies_text(std::size_t count) {
 }
 
 const LevelSummary* find_level(const PointSummary& point, double noise_level) {
-    const auto at = std::ranges::find(point.levels, noise_level, &LevelSummary::noise_level);
-    return at == point.levels.end() ? nullptr : &*at;
+    return find_in(point.levels, noise_level, &LevelSummary::noise_level);
 }
 
 const LevelSummary* shown_level(const PointSummary& point) {
