@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <stdexcept>
 
 #include "mc/accuracy/report.hpp"
 #include "mc/input/input_file.hpp"
+#include "mc/input/parsed_number.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -29,13 +29,12 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 double number_in(const std::string& cell, const std::string& where, const std::string& column) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size() || !(value >= 0.0)) {
+    const auto value = parsed_number<double>(cell);
+    if (!value || !(*value >= 0.0)) {
         throw std::runtime_error(
             fmt::format("{}: {}: \"{}\" is not a number >= 0", where, column, cell));
     }
-    return value;
+    return *value;
 }
 
 }  // namespace

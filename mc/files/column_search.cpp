@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "mc/files/unit_expression.hpp"
+#include "mc/input/parsed_number.hpp"
 #include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
@@ -84,12 +84,8 @@ std::optional<MatrixColumn> matrix_column(const std::string& name) {
     if (colon == std::string::npos || colon == 0) {
         return std::nullopt;
     }
-    std::size_t column = 0;
-    const char* const end = name.data() + name.size();
-    const auto result = std::from_chars(name.data() + colon + 1, end, column);
-    return result.ec == std::errc{} && result.ptr == end
-               ? std::optional(MatrixColumn{name.substr(0, colon), column})
-               : std::nullopt;
+    const auto column = parsed_number<std::size_t>(std::string_view(name).substr(colon + 1));
+    return column ? std::optional(MatrixColumn{name.substr(0, colon), *column}) : std::nullopt;
 }
 
 std::string NamedColumns::find(const ColumnChoice& choice) {

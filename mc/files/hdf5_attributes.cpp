@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
 #include "mc/files/formats/byte_numbers.hpp"
+#include "mc/input/parsed_number.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -95,14 +95,7 @@ std::optional<double> Hdf5Attribute::number() const {
     if (numbers.size() == 1) {
         return numbers.front();
     }
-    if (texts.size() != 1) {
-        return std::nullopt;
-    }
-    double value = 0.0;
-    const std::string& text = texts.front();
-    const char* const end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, value);
-    return result.ec == std::errc{} && result.ptr == end ? std::optional(value) : std::nullopt;
+    return texts.size() == 1 ? parsed_number<double>(texts.front()) : std::nullopt;
 }
 
 std::vector<Hdf5Attribute> attributes_of(hid_t object) {

@@ -3,22 +3,21 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
+
+#include "mc/input/parsed_number.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// Number that takes the whole text.
+// Finite number that takes the whole text.
 std::optional<double> parsed(std::string_view text) {
-    double value = 0;
     if (text.starts_with('+')) {
         text.remove_prefix(1);
     }
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = result.ec == std::errc{} && result.ptr == text.data() + text.size();
-    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+    const auto value = parsed_number<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // Attributes that place a component in space or describe it to a user.

@@ -1,12 +1,11 @@
 #include "mc/files/formats/uff_numbers.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
-#include <system_error>
 
 #include "mc/files/formats/byte_numbers.hpp"
+#include "mc/input/parsed_number.hpp"
 
 namespace gearpod::mc {
 
@@ -19,11 +18,7 @@ std::optional<double> fortran_number(std::string_view text) {
         std::string_view("0123456789.").find(plain[sign - 1]) != std::string_view::npos) {
         plain.insert(sign, "E");
     }
-    const std::string_view digits = std::string_view(plain).substr(plain.starts_with('+') ? 1 : 0);
-    double value = 0.0;
-    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool whole = result.ec == std::errc{} && result.ptr == digits.data() + digits.size();
-    return !digits.empty() && whole ? std::optional(value) : std::nullopt;
+    return parsed_number<double>(std::string_view(plain).substr(plain.starts_with('+') ? 1 : 0));
 }
 
 double rounding_of(std::string_view number) {

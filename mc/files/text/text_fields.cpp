@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "mc/input/outer_blanks.hpp"
+#include "mc/input/parsed_number.hpp"
 #include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
@@ -125,12 +125,7 @@ std::optional<double> number_of(std::string_view field, bool decimal_comma) {
     if (field.starts_with('+')) {
         field.remove_prefix(1);
     }
-    double value = 0.0;
-    const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (field.empty() || result.ec != std::errc{} || result.ptr != field.data() + field.size()) {
-        return std::nullopt;
-    }
-    return value;
+    return parsed_number<double>(field);
 }
 
 std::string not_a_number(std::string_view field, std::string_view should_be) {
