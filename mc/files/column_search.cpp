@@ -8,6 +8,7 @@
 #include "mc/files/unit_expression.hpp"
 #include "mc/input/parsed_number.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -12,6 +12,7 @@
 #include "mc/files/signal_units.hpp"
 #include "mc/files/unit_expression.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -11,6 +11,7 @@
 #include "mc/files/mat_index.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -59,15 +60,10 @@ std::string mat_text(const matvar_t& matrix) {
     const auto width = static_cast<std::size_t>(std::max(1, matrix.data_size));
     for (std::size_t at = 0; at + width <= bytes; at += width) {
         const unsigned code = width == 1 ? data[at] : data[at] | data[at + 1] << 8U;
-        if (width == 1 || code < 0x80) {
+        if (width == 1) {
             text += static_cast<char>(code);
-        } else if (code < 0x800) {
-            text += static_cast<char>(0xc0U | code >> 6U);
-            text += static_cast<char>(0x80U | (code & 0x3fU));
         } else {
-            text += static_cast<char>(0xe0U | code >> 12U);
-            text += static_cast<char>(0x80U | (code >> 6U & 0x3fU));
-            text += static_cast<char>(0x80U | (code & 0x3fU));
+            append_utf8(text, code);
         }
     }
     return text;

@@ -212,14 +212,6 @@ class UnitParser {
 
 }  // namespace
 
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return lower;
-}
-
 bool is_among(std::string_view word, std::string_view words) {
     while (!words.empty()) {
         const std::size_t end = std::min(words.find(' '), words.size());

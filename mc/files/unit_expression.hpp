@@ -54,7 +54,6 @@ std::optional<ParsedUnit> parse_unit(std::string_view unit);
 std::size_t opening_of_last(std::string_view text);
 
 std::string_view without_blanks(std::string_view text);
-std::string lower_case(std::string_view text);
 // True if `word` is one of the words, which are separated by blanks.
 bool is_among(std::string_view word, std::string_view words);
 

@@ -25,6 +25,27 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
     return length;
 }
 
+void append_utf8(std::string& text, std::uint32_t code) {
+    const auto more = [&](int shift) {
+        text += static_cast<char>(0x80 | ((code >> shift) & 0x3f));
+    };
+    if (code < 0x80) {
+        text += static_cast<char>(code);
+    } else if (code < 0x800) {
+        text += static_cast<char>(0xc0 | (code >> 6));
+        more(0);
+    } else if (code < 0x10000) {
+        text += static_cast<char>(0xe0 | (code >> 12));
+        more(6);
+        more(0);
+    } else {
+        text += static_cast<char>(0xf0 | (code >> 18));
+        more(12);
+        more(6);
+        more(0);
+    }
+}
+
 std::string utf8_text(std::string_view bytes) {
     std::string text;
     for (std::size_t at = 0; at < bytes.size();) {
@@ -34,11 +55,17 @@ std::string utf8_text(std::string_view bytes) {
             at += length;
             continue;
         }
-        const auto value = static_cast<unsigned char>(bytes[at++]);
-        text += static_cast<char>(0xc0U | value >> 6U);
-        text += static_cast<char>(0x80U | (value & 0x3fU));
+        append_utf8(text, static_cast<unsigned char>(bytes[at++]));
     }
     return text;
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return lower;
 }
 
 }  // namespace gearpod::mc

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "mc/files/file_descriptor.hpp"
+#include "mc/input/outer_blanks.hpp"
 #include "mc/rexs/rexs_model.hpp"
 
 namespace gearpod::mc {
@@ -42,14 +43,6 @@ class Lines {
   private:
     std::vector<std::ptrdiff_t> ends_;
 };
-
-std::string trimmed(std::string_view text) {
-    const std::string_view blanks = " \t\r\n";
-    const std::size_t first = text.find_first_not_of(blanks);
-    return first == std::string_view::npos
-               ? ""
-               : std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
-}
 
 // Reason why a text is not XML but another format; empty if it may be XML.
 std::string other_format(std::string_view text) {
@@ -104,11 +97,13 @@ class Converter {
     }
 
     RexsAttribute attribute(const pugi::xml_node& node) const {
-        RexsAttribute result{node.attribute("id").value(), trimmed(node.attribute("unit").value()),
-                             trimmed(node.child_value()), true, line(node)};
+        RexsAttribute result{node.attribute("id").value(),
+                             std::string(without_outer_blanks(node.attribute("unit").value())),
+                             std::string(without_outer_blanks(node.child_value())), true,
+                             line(node)};
         if (const pugi::xml_node array = node.child("array")) {
             result.scalar = false;
-            result.text = trimmed(array.child_value("c"));
+            result.text = without_outer_blanks(array.child_value("c"));
         } else if (node.child("matrix")) {
             result.scalar = false;
             result.text = "matrix";

@@ -9,6 +9,7 @@
 
 #include "mc/files/formats/byte_numbers.hpp"
 #include "mc/files/formats/signal_error.hpp"
+#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -187,11 +188,7 @@ void check_gzip(const std::string& path, const std::string& extension) {
 }  // namespace
 
 std::string lower_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return extension;
+    return lower_case(path.extension().string());
 }
 
 void check_file_content(const std::string& path) {

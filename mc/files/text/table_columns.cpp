@@ -104,20 +104,13 @@ std::optional<std::size_t> find_column(const std::vector<TableColumn>& columns,
 }
 
 std::string column_names(const std::vector<TableColumn>& columns) {
-    constexpr std::size_t kShown = 20;
-    std::string text;
-    std::size_t shown = 0, more = 0;
+    std::vector<std::string> names;
     for (const TableColumn& column : columns) {
-        if (column.name.empty()) {
-            continue;
-        }
-        if (shown < kShown) {
-            text += (shown++ == 0 ? "" : ", ") + column.name;
-        } else {
-            ++more;
+        if (!column.name.empty()) {
+            names.push_back(column.name);
         }
     }
-    return more > 0 ? fmt::format("{} and {} more", text, more) : text;
+    return names.empty() ? "" : listed_text(names);
 }
 
 }  // namespace gearpod::mc

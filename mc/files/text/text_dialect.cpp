@@ -7,6 +7,7 @@
 
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text/text_fields.hpp"
+#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -119,10 +120,7 @@ std::vector<std::string> unused_remarks(const TextDialect& dialect, const std::s
     constexpr std::size_t kShown = 5, kShownBytes = 80;
     std::vector<std::string> notes;
     for (const TableRemark& remark : dialect.remarks) {
-        std::string lower = remark.text;
-        std::ranges::transform(lower, lower.begin(), [](unsigned char c) {
-            return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-        });
+        const std::string lower = lower_case(remark.text);
         const bool statement = std::ranges::any_of(
             kStatements, [&](auto word) { return lower.find(word) != std::string::npos; });
         if (statement && notes.size() < kShown) {

@@ -7,6 +7,7 @@
 
 #include "mc/files/formats/file_content.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/input/utf8.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -14,27 +15,6 @@ namespace {
 constexpr std::size_t kTextChunk = std::size_t{1} << 20, kLongestLine = std::size_t{1} << 20;
 // Bounds of the text in a compressed file: recordings shrink to a third or a twentieth.
 constexpr std::uintmax_t kFreeText = std::uintmax_t{64} << 20, kTextPerByte = 200;
-
-void append_utf8(std::string& text, std::uint32_t code) {
-    const auto more = [&](int shift) {
-        text += static_cast<char>(0x80 | ((code >> shift) & 0x3f));
-    };
-    if (code < 0x80) {
-        text += static_cast<char>(code);
-    } else if (code < 0x800) {
-        text += static_cast<char>(0xc0 | (code >> 6));
-        more(0);
-    } else if (code < 0x10000) {
-        text += static_cast<char>(0xe0 | (code >> 12));
-        more(6);
-        more(0);
-    } else {
-        text += static_cast<char>(0xf0 | (code >> 18));
-        more(12);
-        more(6);
-        more(0);
-    }
-}
 
 }  // namespace
 
