@@ -16,12 +16,6 @@
 namespace gearpod::mc {
 namespace {
 
-const Key* key_named(std::string_view path) {
-    const std::size_t dot = path.find('.');
-    return dot == std::string_view::npos ? nullptr
-                                         : find_key(path.substr(0, dot), path.substr(dot + 1));
-}
-
 std::vector<std::string> random_keys() {
     std::vector<std::string> names;
     for (const Key& key : schema()) {
@@ -45,7 +39,7 @@ class ParameterReader {
         if (equals == std::string::npos) {
             return reject("no range", "write KEY=LOW:HIGH or KEY=LOW:HIGH:log");
         }
-        const Key* key = key_named(name);
+        const Key* key = find_key(name);
         if (key == nullptr || !key->may_be_random() || key->section == "fault") {
             const std::vector<std::string> known = random_keys();
             return reject(key == nullptr            ? "unknown key"
@@ -127,7 +121,7 @@ std::vector<CalibratedInput> default_inputs(const Study& study, double rms) {
     usual.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
     usual.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});  // only for studies with tones
     std::erase_if(usual, [&](const CalibratedInput& input) {
-        const bool forbidden = key_named(input.key)->presence(study).need == Need::forbidden;
+        const bool forbidden = find_key(input.key)->presence(study).need == Need::forbidden;
         const bool no_path = input.key == "sensor.path_exponent" && study.effects.path == nullptr;
         return forbidden || no_path;
     });

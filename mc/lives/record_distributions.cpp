@@ -15,9 +15,7 @@ namespace {
 constexpr double kReach = 1.5;  // standard deviations
 
 double nominal_of(const Study& study, const RandomInput& input) {
-    const std::size_t dot = input.key.find('.');
-    const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
-    return std::get<NumberAccess>(key.access).get(study).value() / input.to_si;
+    return std::get<NumberAccess>(find_key(input.key)->access).get(study).value() / input.to_si;
 }
 
 double normal_density(double z) {

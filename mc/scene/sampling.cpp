@@ -21,14 +21,9 @@ bool is_fault_size(const RandomInput& input) {
     return input.key.starts_with("fault.");
 }
 
-const Key& key_of(const std::string& path) {
-    const std::size_t dot = path.find('.');
-    return *find_key(path.substr(0, dot), path.substr(dot + 1));
-}
-
 // Address at which the study stores the number with this key.
 const void* place_of(const Study& study, const std::string& path) {
-    return std::get<NumberAccess>(key_of(path).access).place(study);
+    return std::get<NumberAccess>(find_key(path)->access).place(study);
 }
 
 // Purpose of the draws from a distribution. Inputs from the columns of one table share it.
@@ -194,7 +189,7 @@ std::vector<ParameterColumn> input_columns(const Study& study) {
     std::vector<ParameterColumn> columns;
     for (const RandomInput& input : study.random) {
         if (!is_fault_size(input)) {
-            const Key& key = key_of(input.key);
+            const Key& key = *find_key(input.key);
             columns.push_back({key.column(), std::string(key.unit.si_name)});
         }
     }

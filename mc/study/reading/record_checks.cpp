@@ -36,8 +36,7 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
     const auto reject = [&](const std::string& what, const std::string& remedy) {
         draft.reject(draft.given_random[input.key], "random." + input.key + ".per", what, remedy);
     };
-    const std::size_t dot = input.key.find('.');
-    const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
+    const Key& key = *find_key(input.key);
     if (!quantity && study.life.interval_h) {
         reject(fmt::format("{} is the same in all records of a life", key.name),
                "remove per; only operation.torque_N_m, a speed, sensor.gain and sensor.noise_m_s2 "

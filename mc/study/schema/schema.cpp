@@ -39,6 +39,12 @@ const Key* find_key(std::string_view section, std::string_view name) {
     return found == keys.end() ? nullptr : &*found;
 }
 
+const Key* find_key(std::string_view path) {
+    const std::size_t dot = path.find('.');
+    return dot == std::string_view::npos ? nullptr
+                                         : find_key(path.substr(0, dot), path.substr(dot + 1));
+}
+
 std::string_view choice_text(const Study& study, std::string_view section, std::string_view name) {
     const auto& access = std::get<ChoiceAccess>(find_key(section, name)->access);
     const auto value = access.get(study);

@@ -20,6 +20,8 @@ std::span<const std::string_view> section_names();
 
 // Key of that section and name, or nullptr.
 const Key* find_key(std::string_view section, std::string_view name);
+// Key of that path, "section.key", or nullptr.
+const Key* find_key(std::string_view path);
 
 // Name of the value of a choice key, as a study file spells it.
 std::string_view choice_text(const Study& study, std::string_view section, std::string_view name);

@@ -94,8 +94,7 @@ analysis::DetectionRequest detection_request(const Study& study) {
         size_groups(study),
         {fault_size_column(study), std::string(fault_size_key(study).unit.si_name)}};
     for (const std::string& path : study.detection.uncertain_inputs) {
-        const std::size_t dot = path.find('.');
-        request.uncertain.push_back(find_key(path.substr(0, dot), path.substr(dot + 1))->column());
+        request.uncertain.push_back(find_key(path)->column());
     }
     request.threshold_records = static_cast<std::size_t>(study.ensemble.threshold_records);
     request.importance_sampling = study.ensemble.uses_importance_sampling();
