@@ -113,6 +113,13 @@ GearboxTile complete_tile(const Scene& scene, const SensorPaths& path,
 // `meshes` is the number of meshes; 0 gives an empty result.
 std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes);
 
+// Transmission error of a lane over mesh periods of a tile with all records, as `samples` values in
+// each.
+std::vector<double> recorded_te(const Scene& scene, const GearboxTile& tile, int lane, int first,
+                                int meshes, int samples);
+// Subtracts the mean of the values from each of them.
+void remove_mean(std::vector<double>& values);
+
 // Signals of one lane. `meshes` is the number of mesh periods of sensor signal, 0 for none.
 LaneSignals lane_signals(const Scene& scene, const SensorPaths& path, const GearboxTile& tile,
                          int lane, int meshes);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mc/gearbox/solution_choice.hpp"
 #include "mc/gearbox/tile_sensor_recorder.hpp"
@@ -11,14 +10,6 @@
 namespace gearpod::mc {
 
 namespace {
-
-void remove_mean(std::vector<double>& values) {
-    const double mean =
-        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    for (double& value : values) {
-        value -= mean;
-    }
-}
 
 // Mesh periods of the span that were integrated again, and the record of each of them.
 struct ChangedMeshes {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <numeric>
 
 #include "machine/cancellation.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
@@ -31,6 +32,29 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
         views.te.push_back(record.te.data());
     }
     return views;
+}
+
+std::vector<double> recorded_te(const Scene& scene, const GearboxTile& tile, int lane, int first,
+                                int meshes, int samples) {
+    const auto& content = tile.integration.content;
+    const int stride = scene.samples_per_mesh() / samples * tile.views.lanes;
+    std::vector<double> te;
+    for (int k = first; k < first + meshes; ++k) {
+        const int record = content[static_cast<std::size_t>(k) % content.size()];
+        const double* mesh = tile.views.te[static_cast<std::size_t>(record)];
+        for (int p = 0; p < samples; ++p) {
+            te.push_back(mesh[p * stride + lane]);
+        }
+    }
+    return te;
+}
+
+void remove_mean(std::vector<double>& values) {
+    const double mean =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    for (double& value : values) {
+        value -= mean;
+    }
 }
 
 namespace {
@@ -76,18 +100,7 @@ std::vector<double> te_signal(const Scene& scene, const GearboxTile& tile, int l
     if (!tile.sensor_recorders.empty()) {
         return tile.sensor_recorders.front().front()->te_signal(lane, meshes);
     }
-    const auto& content = tile.integration.content;
-    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
-    const auto samples = static_cast<std::size_t>(scene.te_samples_per_mesh());
-    const std::size_t stride = static_cast<std::size_t>(scene.samples_per_mesh()) / samples * lanes;
-    std::vector<double> te;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(meshes); ++k) {
-        const double* mesh = tile.views.te[static_cast<std::size_t>(content[k % content.size()])];
-        for (std::size_t p = 0; p < samples; ++p) {
-            te.push_back(mesh[p * stride + static_cast<std::size_t>(lane)]);
-        }
-    }
-    return te;
+    return recorded_te(scene, tile, lane, 0, meshes, scene.te_samples_per_mesh());
 }
 
 // The first sensor's signals for number 0, else those of an additional one.

@@ -129,11 +129,7 @@ LaneSignals cut_record(const Scene& scene, const LaneSignals& signals, const Rec
     const auto phases = static_cast<std::size_t>(scene.te_samples_per_mesh());
     const std::vector<double> te = part(signals.te, first * phases, meshes * phases);
     record.te_turn = signals::synchronous_average(te, teeth * phases);
-    const double mean = std::accumulate(record.te_turn.begin(), record.te_turn.end(), 0.0) /
-                        static_cast<double>(record.te_turn.size());
-    for (double& value : record.te_turn) {
-        value -= mean;
-    }
+    remove_mean(record.te_turn);
     return record;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 
 #include "lockstep/kernels/built_kernels.hpp"
@@ -18,24 +17,6 @@ namespace gearpod::mc {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
-std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
-                                    int first, int meshes) {
-    const auto& content = tile.integration.content;
-    std::vector<double> te;
-    for (int k = first; k < first + meshes; ++k) {
-        const int id = content[static_cast<std::size_t>(k) % content.size()];
-        const auto& all = tile.integration.records[static_cast<std::size_t>(id)].te;
-        for (int p = 0; p < scene.samples_per_mesh(); ++p) {
-            te.push_back(all[static_cast<std::size_t>(p * tile.views.lanes + lane)]);
-        }
-    }
-    const double mean = std::accumulate(te.begin(), te.end(), 0.0) / static_cast<double>(te.size());
-    for (double& value : te) {
-        value -= mean;
-    }
-    return te;
-}
 
 // Sums over all gearboxes of the squared differences and of the squared reference.
 struct Sums {
@@ -180,7 +161,9 @@ PilotRecord Pilot::record(const Scene& scene, int lanes, const Tile& tile_of) co
             record.sensor.back() = signals::synthesize(
                 tile.views, lane, tile.integration.content, scene.span(), path_[0][0],
                 realization.inputs.path_exponent, part.first, count);
-            record.te.back() = te_without_mean(scene, tile, lane, part.first, count);
+            record.te.back() =
+                recorded_te(scene, tile, lane, part.first, count, scene.samples_per_mesh());
+            remove_mean(record.te.back());
         }
     }
     record.integration_s /= lanes_run;
