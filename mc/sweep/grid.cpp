@@ -167,8 +167,7 @@ std::string within_scatter_text(const std::string& begin, const char* beyond, st
 }
 
 analysis::Section files_section(const std::vector<VariedKey>& keys,
-                                const std::vector<SweepPoint>& points,
-                                const std::vector<std::string>& results) {
+                                const std::vector<PointResults>& points) {
     constexpr std::size_t kMostNamed = 50;
     analysis::Section section{"files", "", {}};
     section.state("common",
@@ -189,9 +188,9 @@ analysis::Section files_section(const std::vector<VariedKey>& keys,
     section.state("varied", fmt::format("Varied: {}.", fmt::join(varied, "; ")), true);
     analysis::Table table{"files", "Results files", key_columns(keys), {}, true};
     table.columns.emplace_back("file");
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        table.rows.push_back(points[p].labels);
-        table.rows.back().push_back(results[p]);
+    for (const auto& [point, results] : points) {
+        table.rows.push_back(point.labels);
+        table.rows.back().push_back(results);
     }
     section.add(std::move(table));
     return section;

@@ -25,6 +25,12 @@ struct SweepPoint {
     std::string name;                    // file name without extension: "noise_m_s2=2_gain=1"
 };
 
+// Point and its results file.
+struct PointResults {
+    SweepPoint point;
+    std::string results;
+};
+
 // Limit of the number of points, which keeps the table readable.
 inline constexpr std::size_t kMostPoints = 10000;
 
@@ -47,7 +53,6 @@ std::string within_scatter_text(const std::string& begin, const char* beyond, st
                                 const std::vector<std::string>& within);
 // Section with what all points have in common, and their results files.
 analysis::Section files_section(const std::vector<VariedKey>& keys,
-                                const std::vector<SweepPoint>& points,
-                                const std::vector<std::string>& results);
+                                const std::vector<PointResults>& points);
 
 }  // namespace gearpod::mc

@@ -321,18 +321,12 @@ analysis::Report lives_sweep_report(const LivesSweep& sweep) {
     analysis::Section headline{"headline", "", {}};
     headline.state("headline", lives_headline_text(sweep));
     headline.state("differences", lives_differences_text(sweep));
-    std::vector<SweepPoint> points;
-    std::vector<std::string> files;
-    for (const LivesPoint& point : sweep.points) {
-        points.push_back(point.point);
-        files.push_back(point.results);
-    }
     if (!sweep.order.empty()) {
         headline.add(best_table(sweep));
     }
     report.add(std::move(headline));
     report.add({"details", "", {all_features_table(sweep), records_table(sweep)}});
-    report.add(files_section(sweep.keys, points, files));
+    report.add(files_section(sweep.keys, {sweep.points.begin(), sweep.points.end()}));
     return report;
 }
 

@@ -11,9 +11,7 @@
 
 namespace gearpod::mc {
 
-struct LivesPoint {
-    SweepPoint point;
-    std::string results;  // file
+struct LivesPoint : PointResults {
     Study study;
     std::size_t cracked = 0;
     // One entry for each gearbox with a crack: 1 if the tooth fails within the records, 0 if not,
@@ -25,9 +23,6 @@ struct LivesPoint {
     std::vector<MonitoredFeature> monitored;
     std::vector<std::size_t> ranking;  // result of LifeMonitor::ranking(); empty if withheld
 };
-
-// Summarises a results file of `lives`. Throws std::runtime_error if it is not one, or damaged.
-LivesPoint summarise_lives(const SweepPoint& point, const std::string& results);
 
 struct LivesSweep {
     std::string title;  // of the study

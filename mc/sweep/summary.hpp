@@ -31,9 +31,7 @@ struct LevelSummary {
     std::optional<analysis::SmallestFault> smallest;
 };
 
-struct PointSummary {
-    SweepPoint point;
-    std::string results;  // file
+struct PointSummary : PointResults {
     std::size_t gearboxes = 0, failed = 0;
     analysis::SizeUnit size;
     double false_alarm_rate = 0.0, confidence = 0.0;

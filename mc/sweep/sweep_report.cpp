@@ -261,13 +261,7 @@ analysis::Report sweep_report(const RunSweep& sweep) {
     if (!sweep.points.empty()) {
         report.add(headline(sweep));
         report.add(features_section(sweep));
-        std::vector<SweepPoint> points;
-        std::vector<std::string> files;
-        for (const PointSummary& point : sweep.points) {
-            points.push_back(point.point);
-            files.push_back(point.results);
-        }
-        report.add(files_section(sweep.keys, points, files));
+        report.add(files_section(sweep.keys, {sweep.points.begin(), sweep.points.end()}));
     }
     return report;
 }
