@@ -44,17 +44,17 @@ inline void send(const Ranks& ranks, int to, MessageKind what, const std::string
 
 using gearpod::serialize;
 
-template <class Archive>
-void serialize(Archive& archive, BatchRows& rows) {
-    auto& [status, values] = rows;
-    archive(status, values);
-}
+// Sends and receives a structure by its members. The structured binding names all of them, so a new
+// one does not compile until it is sent too.
+#define GEARPOD_SEND(TYPE, ...)                         \
+    template <class Archive>                            \
+    void serialize(Archive& archive, TYPE& structure) { \
+        auto& [__VA_ARGS__] = structure;                \
+        archive(__VA_ARGS__);                           \
+    }
 
-template <class Archive>
-void serialize(Archive& archive, FinishedBatch& finished) {
-    auto& [batch, rows, seconds, failure, stopped] = finished;
-    archive(batch, rows, seconds, failure, stopped);
-}
+GEARPOD_SEND(BatchRows, status, values)
+GEARPOD_SEND(FinishedBatch, batch, rows, seconds, failure, stopped)
 
 template <class... Values>
 std::string bytes_of(const Values&... values) {

@@ -24,11 +24,7 @@ struct Evaluated {
     bool failed = false;
 };
 
-template <class Archive>
-void serialize(Archive& archive, Evaluated& evaluated) {
-    auto& [machine, levels, failed] = evaluated;
-    archive(machine, levels, failed);
-}
+GEARPOD_SEND(Evaluated, machine, levels, failed)
 
 // Evaluates the pairs of rank 0, and receives those of the other machines.
 class AllMachines {
