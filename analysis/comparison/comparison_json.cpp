@@ -3,7 +3,6 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/report_json.hpp"
 
 namespace gearpod::analysis {
 namespace {

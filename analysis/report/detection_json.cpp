@@ -21,10 +21,6 @@ nlohmann::json to_json(const DetectionCell& cell) {
             {"exact", to_json(cell.exact)}};
 }
 
-}  // namespace
-
-namespace {
-
 nlohmann::json to_json(const TailThreshold& tail) {
     nlohmann::json choices = nlohmann::json::array();
     for (const TailChoice& choice : tail.choices) {

@@ -4,7 +4,6 @@
 
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/pod_json.hpp"
-#include "analysis/report/report_json.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -28,7 +28,14 @@ namespace gearpod::analysis {
 // Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},
 // with one-sided bounds. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size
 // or its natural logarithm.
-// robustness, a90_maps: robustness_json.hpp; combined, sensitivity: detector_json.hpp.
+// combined: {"weights": [{"feature", "weight"}], "intercept", "trained_healthy",
+//   "trained_faulty", "detector", "single" (each {"name", "auc", "detection", "hit_miss"} on the
+//   held-out gearboxes), "gain" (of the area), "p_value", "left_out", "warnings", "refusal"}
+// sensitivity: {"feature", "size_low", "size_high", "misses", "values": each {"gearboxes",
+//   "explained", "resolution", "terms", "inputs": [{"name", "unit", "first", "first_lower",
+//   "first_upper", "total", "total_lower", "total_upper"}], "left_out", "refusal"}}; null without a
+//   best feature
+// robustness, a90_maps: robustness_json.hpp.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
 
 // Smallest fault found by noise level, each as above or null. Without `reliability` it is from the

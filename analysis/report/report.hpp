@@ -2,6 +2,7 @@
 // it once; the terminal, the JSON, the page and the PDF render it and word nothing themselves.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -52,5 +53,9 @@ std::string statement_text(const Report& report, const std::string& key);
 // Text for the terminal, at most `width` columns wide. Tables that are wider continue in further
 // blocks. Ends with a newline.
 std::string report_text(const Report& report, std::size_t width = text_width());
+
+// JSON form:
+// [{"key", "title", "blocks": [{"key", "text"} or {"key", "title", "columns", "rows"}]}]
+nlohmann::json findings_json(const Report& report);
 
 }  // namespace gearpod::analysis

@@ -7,7 +7,6 @@
 
 #include "lockstep/integrators/facts.hpp"
 #include "machine/upper_median.hpp"
-#include "mc/accuracy/effect_costs.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/measure_detection.hpp"
 #include "mc/accuracy/report.hpp"

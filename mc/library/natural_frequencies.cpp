@@ -43,10 +43,6 @@ bool has_masses(const Study& study) {
                                                   f.motor_inertia_kg_m2 && f.load_inertia_kg_m2;
 }
 
-}  // namespace
-
-namespace {
-
 void check_masses(const Study& study) {
     if (!has_masses(study)) {
         throw SceneError("gearbox", "masses or inertias are missing, but modes need them",

@@ -28,10 +28,6 @@ void fit_terminal() {
     }
 }
 
-}  // namespace
-
-namespace {
-
 // Refuses arguments with control characters: messages show arguments, and a terminal would obey
 // escape sequences in them.
 bool check_arguments(int argc, char** argv) {

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "analysis/report/report_json.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/sha256.hpp"
 #include "mc/input/printable.hpp"

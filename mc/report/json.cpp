@@ -5,7 +5,6 @@
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/reliability_json.hpp"
-#include "analysis/report/report_json.hpp"
 #include "features/feature.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/numerics/numerical_error.hpp"

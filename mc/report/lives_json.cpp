@@ -3,7 +3,6 @@
 
 #include "analysis/monitoring/monitor_ranking.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/report_json.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/report/lives_report.hpp"
 

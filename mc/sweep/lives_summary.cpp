@@ -9,7 +9,6 @@
 
 #include "analysis/monitoring/monitor_ranking.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/report_json.hpp"
 #include "analysis/report/wording.hpp"
 #include "analysis/statistics/difference_interval.hpp"
 #include "mc/input/printable.hpp"

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/false_alarm_text.hpp"
-#include "analysis/report/report_json.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/report/failures.hpp"
 #include "mc/results/file_rows.hpp"
