@@ -9,10 +9,6 @@
 namespace gearpod::analysis {
 namespace {
 
-nlohmann::json to_json(const Interval& bounds) {
-    return nlohmann::json::array({number(bounds.lower), number(bounds.upper)});
-}
-
 nlohmann::json to_json(const DetectionCell& cell) {
     return {{"size_low", cell.size.low},   {"size_high", cell.size.high},
             {"tested", cell.tested},       {"detected", cell.detected},

@@ -59,10 +59,6 @@ std::string undetermined_rate_text(std::span<const FeatureDetection> features,
         request.false_alarm_rate, open, all, upper);
 }
 
-Json pair_json(const Interval& bounds) {
-    return Json::array({number(bounds.lower), number(bounds.upper)});
-}
-
 // Numbers of thresholds by method, for a study with importance-sampled records.
 struct ImportanceSampledCounts {
     long all = 0, importance_sampled = 0, gearboxes = 0;
@@ -298,7 +294,7 @@ nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
              {"threshold", number(point.threshold)},
              {"extrapolation", point.extrapolation > 0.0 ? Json(point.extrapolation) : nullptr},
              {"tilted", point.importance_sampled},
-             {"threshold_bounds", pair_json(point.threshold_bounds)},
+             {"threshold_bounds", to_json(point.threshold_bounds)},
              {"a90", to_json(point.a90)}});
     }
     return {
@@ -310,11 +306,11 @@ nlohmann::json least_cost_json(const LeastCost& least) {
             {"extrapolation", least.extrapolation > 0.0 ? Json(least.extrapolation) : nullptr},
             {"tilted", least.importance_sampled},
             {"false_alarm_rate", least.false_alarm_rate},
-            {"rate_bounds", pair_json(least.rate_bounds)},
+            {"rate_bounds", to_json(least.rate_bounds)},
             {"pd", least.pd},
-            {"pd_bounds", pair_json(least.pd_bounds)},
+            {"pd_bounds", to_json(least.pd_bounds)},
             {"cost", least.cost},
-            {"bounds", pair_json(least.bounds)},
+            {"bounds", to_json(least.bounds)},
             {"without", least.without},
             {"rarest", least.rarest}};
 }

@@ -1,11 +1,13 @@
-// Conversion of numbers, reasons and sizes to JSON; null where there is no value.
+// Conversion of numbers, intervals, reasons and sizes to JSON; null where there is no value.
 #pragma once
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "analysis/pod/size_estimate.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 
@@ -13,6 +15,19 @@ using Json = nlohmann::json;
 
 inline Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+inline Json numbers(std::span<const double> values) {
+    Json all = Json::array();
+    for (const double value : values) {
+        all.push_back(number(value));
+    }
+    return all;
+}
+
+// JSON form: [lower, upper]
+inline Json to_json(const Interval& bounds) {
+    return Json::array({number(bounds.lower), number(bounds.upper)});
 }
 
 inline Json text_or_null(const std::string& text) {

@@ -92,15 +92,11 @@ Json to_json(const std::optional<SmallestFault>& smallest) {
 Json to_json(const FeatureRanking& ranking) {
     Json ranks = Json::array();
     for (const FeatureRank& rank : ranking.ranks) {
-        Json p_values = Json::array();
-        for (const double p : rank.p_values) {
-            p_values.push_back(number(p));
-        }
         ranks.push_back({{"name", rank.name},
                          {"auc", number(rank.auc.auc)},
                          {"lower", number(rank.auc.bounds.lower)},
                          {"upper", number(rank.auc.bounds.upper)},
-                         {"p_values", p_values}});
+                         {"p_values", numbers(rank.p_values)}});
     }
     return {{"healthy", ranking.healthy},
             {"faulty", ranking.faulty},

@@ -1,7 +1,7 @@
 // accuracy_json(): writes an accuracy report as JSON.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/json_values.hpp"
 #include "lockstep/steps/step_limit.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/files/json_text.hpp"
@@ -12,21 +12,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Number, or null if it is not finite, which JSON cannot represent.
-Json number_json(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json errors(const AccuracyReport& report, const PilotError& error) {
-    Json all{{"sensor", number_json(error.sensor)},
-             {"te", number_json(error.te)},
-             {"worst_feature", number_json(error.largest_feature())},
-             {"worst_of_scatter", number_json(report.largest_share_of_scatter(error))}};
+    Json all{{"sensor", analysis::number(error.sensor)},
+             {"te", analysis::number(error.te)},
+             {"worst_feature", analysis::number(error.largest_feature())},
+             {"worst_of_scatter", analysis::number(report.largest_share_of_scatter(error))}};
     for (std::size_t f = 0; f < report.features.size(); ++f) {
         all["features"][report.features[f]] =
-            number_json(error.feature(static_cast<int>(f), report.levels()));
+            analysis::number(error.feature(static_cast<int>(f), report.levels()));
         all["of_scatter"][report.features[f]] =
-            number_json(report.share_of_scatter(error, static_cast<int>(f)));
+            analysis::number(report.share_of_scatter(error, static_cast<int>(f)));
     }
     return all;
 }
@@ -59,7 +54,7 @@ Json setting_json(const AccuracyReport& report, const SettingResult& r) {
                             {"pd_change", d.pd},
                             {"pd_half_width", d.pd_half_width},
                             {"a90_change", d.a90 < 0.0 ? Json(nullptr) : Json(d.a90)},
-                            {"a90_interval", number_json(d.a90_interval)}};
+                            {"a90_interval", analysis::number(d.a90_interval)}};
     }
     return row;
 }
@@ -95,10 +90,10 @@ Json peer_json(const PeerResult& p) {
              {"mesh_s", p.mesh_s}, {"sensor", p.sensor},   {"te", p.te}};
     double worst = 0.0;
     for (const auto& [feature, error] : p.features) {
-        row["features"][feature] = number_json(error);
+        row["features"][feature] = analysis::number(error);
         worst = std::max(worst, error);
     }
-    row["worst_feature"] = p.features.empty() ? Json(nullptr) : number_json(worst);
+    row["worst_feature"] = p.features.empty() ? Json(nullptr) : analysis::number(worst);
     return row;
 }
 

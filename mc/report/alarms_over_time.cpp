@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "analysis/detection/threshold.hpp"
+#include "analysis/report/json_values.hpp"
 #include "analysis/report/wording.hpp"
 #include "features/statistics/median.hpp"
 
@@ -135,9 +136,7 @@ nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& g
             values[frame.features[f].name] = group.values[f];
             alarms[frame.features[f].name] =
                 group.alarms[f] < 0 ? nlohmann::json(nullptr) : nlohmann::json(group.alarms[f]);
-            medians[frame.features[f].name] = std::isfinite(group.medians[f])
-                                                  ? nlohmann::json(group.medians[f])
-                                                  : nlohmann::json(nullptr);
+            medians[frame.features[f].name] = analysis::number(group.medians[f]);
         }
         json.push_back({{"first", group.first},
                         {"last", group.last},

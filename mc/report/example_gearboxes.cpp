@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analysis/report/json_values.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/realization_features.hpp"
 #include "mc/gearbox/record_window.hpp"
@@ -150,8 +151,8 @@ class Examples {
         }
         for (std::size_t f = 0; f < shape.features; ++f) {
             const double value = values[f * shape.levels + level_];
-            json["features"].push_back({{"name", frame_.features[f].name},
-                                        {"value", std::isfinite(value) ? Json(value) : Json()}});
+            json["features"].push_back(
+                {{"name", frame_.features[f].name}, {"value", analysis::number(value)}});
         }
         if (!gearbox_signals.folded.empty()) {
             const Signals signals = record_of(tile.realizations[0], features_, whole_signals(tile));

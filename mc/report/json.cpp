@@ -1,9 +1,9 @@
 #include "mc/report/json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/detection_json.hpp"
+#include "analysis/report/json_values.hpp"
 #include "analysis/report/reliability_json.hpp"
 #include "features/feature.hpp"
 #include "mc/gearbox/record_window.hpp"
@@ -27,10 +27,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json finite_json(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 // Numerical error compared with the statistical one; null if it was not verified.
 Json numerical_json(const Results& frame, const std::vector<NumericalContribution>& contributions) {
     if (!frame.numerical) {
@@ -45,22 +41,22 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
     for (const NumericalContribution& s : contributions) {
         json["shares"].push_back({{"feature", s.feature},
                                   {"noise_level", s.noise_level},
-                                  {"rms", finite_json(s.rms)},
-                                  {"healthy_spread", finite_json(s.spread)},
-                                  {"pd", finite_json(s.pd)},
-                                  {"pd_half_width", finite_json(s.pd_half_width)},
-                                  {"a90", finite_json(s.a90)},
-                                  {"a90_interval", finite_json(s.a90_interval)},
+                                  {"rms", analysis::number(s.rms)},
+                                  {"healthy_spread", analysis::number(s.spread)},
+                                  {"pd", analysis::number(s.pd)},
+                                  {"pd_half_width", analysis::number(s.pd_half_width)},
+                                  {"a90", analysis::number(s.a90)},
+                                  {"a90_interval", analysis::number(s.a90_interval)},
                                   {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
         if (s.correction) {
             Json& correction = json["shares"].back()["correction"];
             for (const auto& number : kPairedCorrectionNumbers) {
-                correction[number.name] = finite_json((*s.correction).*number.member);
+                correction[number.name] = analysis::number((*s.correction).*number.member);
             }
-            correction["pd_change"] = finite_json(s.corrected->pd_change);
-            correction["a90"] = finite_json(s.corrected->a90);
-            correction["a90_lower"] = finite_json(s.corrected->a90_lower);
-            correction["a90_upper"] = finite_json(s.corrected->a90_upper);
+            correction["pd_change"] = analysis::number(s.corrected->pd_change);
+            correction["a90"] = analysis::number(s.corrected->a90);
+            correction["a90_lower"] = analysis::number(s.corrected->a90_lower);
+            correction["a90_upper"] = analysis::number(s.corrected->a90_upper);
         }
     }
     return json;
@@ -88,7 +84,7 @@ Json step_error_json(const Results& frame) {
     }
     Json json;
     for (const auto& one : kStepErrorNumbers) {
-        json[one.name] = finite_json((*frame.step_error).*one.member);
+        json[one.name] = analysis::number((*frame.step_error).*one.member);
     }
     for (const auto& one : kStepErrorCounts) {
         json[one.name] = (*frame.step_error).*one.member;
@@ -97,9 +93,9 @@ Json step_error_json(const Results& frame) {
 }
 
 Json change_json(const analysis::NumberDifference& change) {
-    return change.refusal.empty() ? Json{{"difference", finite_json(change.difference())},
-                                         {"lower", finite_json(change.bounds.lower)},
-                                         {"upper", finite_json(change.bounds.upper)}}
+    return change.refusal.empty() ? Json{{"difference", analysis::number(change.difference())},
+                                         {"lower", analysis::number(change.bounds.lower)},
+                                         {"upper", analysis::number(change.bounds.upper)}}
                                   : Json(nullptr);
 }
 

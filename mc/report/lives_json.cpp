@@ -1,4 +1,3 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/monitoring/monitor_ranking.hpp"
@@ -10,14 +9,6 @@ namespace gearpod::mc {
 namespace {
 
 using LifeJson = nlohmann::json;
-
-LifeJson numbers_json(const std::vector<double>& values) {
-    LifeJson all = LifeJson::array();
-    for (const double value : values) {
-        all.push_back(analysis::number(value));
-    }
-    return all;
-}
 
 LifeJson trade_offs_json(const LifeMonitor& monitor) {
     LifeJson all = LifeJson::array();
@@ -41,19 +32,15 @@ LifeJson fans_json(const LifeMonitor& monitor) {
     for (const FeatureQuantiles& fan : monitor.feature_quantiles()) {
         LifeJson lives = LifeJson::array();
         for (const std::vector<double>& life : fan.lives) {
-            lives.push_back(numbers_json(life));
+            lives.push_back(analysis::numbers(life));
         }
         all.push_back({{"feature", fan.feature},
-                       {"healthy_05", numbers_json(fan.low)},
-                       {"healthy_50", numbers_json(fan.median)},
-                       {"healthy_95", numbers_json(fan.high)},
+                       {"healthy_05", analysis::numbers(fan.low)},
+                       {"healthy_50", analysis::numbers(fan.median)},
+                       {"healthy_95", analysis::numbers(fan.high)},
                        {"lives", lives}});
     }
     return all;
-}
-
-LifeJson interval_json(const analysis::Interval& interval) {
-    return {analysis::number(interval.lower), analysis::number(interval.upper)};
 }
 
 }  // namespace
@@ -68,13 +55,13 @@ nlohmann::json life_result_json(const MonitoredFeature& one) {
              {{"count", a.false_alarms.alarms},
               {"hours", a.false_alarms.hours},
               {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
-              {"bounds", interval_json(a.false_alarms.bounds)},
+              {"bounds", analysis::to_json(a.false_alarms.bounds)},
               {"dispersion", a.false_alarms.dispersion},
-              {"expected", interval_json(a.expected_per_1000_h)}}},
+              {"expected", analysis::to_json(a.expected_per_1000_h)}}},
             {"ended", a.ended},
             {"found", a.found},
             {"share", analysis::number(a.share)},
-            {"share_bounds", interval_json(a.share_bounds)},
+            {"share_bounds", analysis::to_json(a.share_bounds)},
             {"share_by_chance", analysis::number(a.share_by_chance)},
             {"share_at_stated_rate", analysis::number(a.share_at_stated_rate)},
             {"net_share", analysis::number(analysis::net_share(a))},
@@ -98,7 +85,7 @@ nlohmann::json lives_json(const LifeMonitor& monitor, bool shows_withheld) {
     const InterpolationErrors& off = campaign.interpolation;
     for (const MonitoredFeature& one : monitor.results()) {
         watched.push_back(life_result_json(one));
-        watched.back()["alarm_h"] = numbers_json(one.performance.alarm_hours);
+        watched.back()["alarm_h"] = analysis::numbers(one.performance.alarm_hours);
     }
     for (const GearboxLife& life : campaign.cracked) {
         LifeJson hours = LifeJson::array(), depths = LifeJson::array();

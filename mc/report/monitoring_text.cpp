@@ -124,31 +124,24 @@ nlohmann::json gearbox_json(const MonitoringOverTime& monitoring, const GearboxA
 }
 
 nlohmann::json series_json(const MonitoringOverTime& monitoring, const GearboxSeries& series) {
-    const auto numbers = [](const std::vector<double>& values) {
-        nlohmann::json json = nlohmann::json::array();
-        for (const double value : values) {
-            json.push_back(analysis::number(value));
-        }
-        return json;
-    };
     nlohmann::json deviations = nlohmann::json::object(), teeth = nlohmann::json::array(),
                    healthy = nlohmann::json::array();
     for (std::size_t f = 0; f < series.deviations.size(); ++f) {
-        deviations[monitoring.shown[f]] = numbers(series.deviations[f]);
+        deviations[monitoring.shown[f]] = analysis::numbers(series.deviations[f]);
     }
     for (const auto& one : series.teeth) {
-        teeth.push_back(numbers(one));
+        teeth.push_back(analysis::numbers(one));
     }
     for (const char one : series.healthy) {
         healthy.push_back(one != 0);
     }
     return {{"name", series.name},
             {"rows", series.rows},
-            {"time", numbers(series.time)},
+            {"time", analysis::numbers(series.time)},
             {"healthy", healthy},
-            {"alignment", numbers(series.alignment)},
+            {"alignment", analysis::numbers(series.alignment)},
             {"tooth_rms", teeth},
-            {"first_tooth", numbers(series.first_tooth)},
+            {"first_tooth", analysis::numbers(series.first_tooth)},
             {"deviations", deviations},
             {"level",
              {{"change", analysis::number(series.level.change)},
