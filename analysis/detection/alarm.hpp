@@ -1,9 +1,16 @@
 // Side of the threshold that raises the alarm.
 #pragma once
 
+#include "features/feature.hpp"
+
 namespace gearpod::analysis {
 
-enum class Alarm { high, low };
+using Alarm = features::AlarmSide;
+
+// Side on which a fault is missed.
+constexpr Alarm opposite(Alarm alarm) {
+    return alarm == Alarm::high ? Alarm::low : Alarm::high;
+}
 
 // Sign that makes the larger value the one nearer to the alarm.
 constexpr double alarm_sign(Alarm alarm) {

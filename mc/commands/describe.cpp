@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "analysis/detection/false_alarm_rate.hpp"
-#include "analysis/detection/feature_alarm.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
@@ -108,11 +107,10 @@ void print_python_features(const Study& study) {
     print_heading("features in Python");
     for (const PythonFeature& one : study.features.python) {
         const features::Feature& feature = *one.feature;
-        print_entry(
-            std::string(feature.name),
-            fmt::format("{}unit {}, {} values alarm; {}",
-                        feature.title.empty() ? "" : std::string(feature.title) + "; ",
-                        feature.unit, analysis::alarm_name(analysis::alarm_of(feature)), one.file));
+        print_entry(std::string(feature.name),
+                    fmt::format("{}unit {}, {} values alarm; {}",
+                                feature.title.empty() ? "" : std::string(feature.title) + "; ",
+                                feature.unit, analysis::alarm_name(feature.alarm), one.file));
     }
 }
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/json_text.hpp"
@@ -93,7 +92,7 @@ RequestedSize read_requested_size(const Study& study, double size, Problems& pro
 }
 
 const char* alarm_symbol_of(const std::string& feature) {
-    return analysis::alarm_symbol(analysis::alarm_of(*features::find_feature(feature)));
+    return analysis::alarm_symbol(features::find_feature(feature)->alarm);
 }
 
 std::string miss_probability_text(const RequestedSize& size, const std::string& feature,

@@ -6,7 +6,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "machine/cancellation.hpp"
 #include "mc/ensemble/batch_exchange.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -26,10 +25,8 @@ Results results_frame(const Study& study) {
     results.noise_levels = study.sensor.noise_levels;
     results.request = detection_request(study);
     for (const features::Feature* feature : used_features(study)) {
-        results.features.push_back({std::string(feature->name),
-                                    std::string(feature->unit),
-                                    analysis::alarm_of(*feature),
-                                    {}});
+        results.features.push_back(
+            {std::string(feature->name), std::string(feature->unit), feature->alarm, {}});
     }
     for (const AdditionalSensor& sensor : study.sensor.additional) {
         results.variants.push_back({kSensorVariant + sensor.name,

@@ -4,7 +4,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/study/schema/sizes.hpp"
 
@@ -105,7 +104,7 @@ MissRateResult estimate_miss_rate(const Scene& scene, const MissRateRequest& req
     }
     const analysis::ImportanceSample sample(
         all.values, all.weights, all.gearbox,
-        analysis::miss_of(*features::find_feature(request.feature)));
+        analysis::opposite(features::find_feature(request.feature)->alarm));
     result.misses = sample.at(request.threshold, scene.study().detection.confidence);
     result.gearboxes = all.gearboxes;
     result.failed = all.failed;

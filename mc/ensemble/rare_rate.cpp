@@ -4,7 +4,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/messages.hpp"
 #include "mc/ensemble/miss_rate.hpp"
@@ -142,8 +141,8 @@ analysis::SplitTail::Settings settings_of(const RareRateRequest& request) {
 }  // namespace
 
 analysis::Alarm RareRateRequest::towards() const {
-    const features::Feature& requested = *features::find_feature(feature);
-    return rate ? analysis::alarm_of(requested) : analysis::miss_of(requested);
+    const analysis::Alarm alarm = features::find_feature(feature)->alarm;
+    return rate ? alarm : analysis::opposite(alarm);
 }
 
 Study study_for_rare_rate(const Study& study, const RareRateRequest& request) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/wilson.hpp"
@@ -37,7 +36,7 @@ RunningPd::RunningPd(const Study& study, const BatchPlan& plan, const std::strin
     const auto place = static_cast<std::size_t>(
         std::find(study.features.use.begin(), study.features.use.end(), feature_name_) -
         study.features.use.begin());
-    alarm_ = analysis::alarm_of(*used.at(place));
+    alarm_ = used.at(place)->alarm;
     requested_half_width_ = until.half_width;
     level_ = level_next_to(request_.noise_levels, requested_half_width_ ? until.noise_level : 1.0);
     group_ = request_.groups.size() - 1;

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/detection/alarm.hpp"
 #include "features/feature.hpp"
 #include "mc/study/distributions/distribution.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -182,7 +183,7 @@ OrderedJson feature_json(const features::Feature& feature) {
     json["name"] = std::string(feature.name);
     json["title"] = std::string(feature.title);
     json["unit"] = std::string(feature.unit);
-    json["alarm"] = feature.alarm == features::AlarmSide::high ? "high" : "low";
+    json["alarm"] = analysis::alarm_name(feature.alarm);
     json["basic"] = feature.basic();
     json["from_sensor"] = feature.from_sensor;
     json["compared"] = feature.baseline_use == features::BaselineUse::nothing    ? "nothing"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "analysis/monitoring/baseline_deviations.hpp"
 #include "analysis/monitoring/monitor_ranking.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -18,7 +17,7 @@ class LifeMonitor::MonitoredDeviations {
                         std::vector<std::size_t> features)
         : study_(study), features_(std::move(features)) {
         for (const features::Feature* feature : used_features(study)) {
-            alarms_.push_back(analysis::alarm_of(*feature));
+            alarms_.push_back(feature->alarm);
         }
         threshold_lives_ = healthy(campaign.threshold_lives);
         healthy_ = healthy(campaign.healthy);

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "analysis/detection/feature_alarm.hpp"
 #include "mc/files/sha256.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/input/wrapped_text.hpp"
@@ -208,10 +207,8 @@ Results recordings_results(const RecordingList& list,
         const features::Feature& feature = *features[f];
         if (any_value(measured, f)) {
             used.push_back(f);
-            results.features.push_back({std::string(feature.name),
-                                        std::string(feature.unit),
-                                        analysis::alarm_of(feature),
-                                        {}});
+            results.features.push_back(
+                {std::string(feature.name), std::string(feature.unit), feature.alarm, {}});
         }
     }
     std::string names, gearboxes, alignments, maps;

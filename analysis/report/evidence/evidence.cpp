@@ -150,8 +150,7 @@ Table indicator_table(const std::vector<std::string>& names) {
         }
         table.rows.push_back({name, std::string(feature->title),
                               feature->unit == "1" ? "ratio" : std::string(feature->unit),
-                              feature->alarm == features::AlarmSide::high ? "high" : "low",
-                              std::string(feature->doc)});
+                              alarm_name(feature->alarm), std::string(feature->doc)});
     }
     return table;
 }

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/detection/feature_alarm.hpp"
 #include "analysis/detection/reliable_size.hpp"
 #include "analysis/detection/threshold.hpp"
 
@@ -172,11 +171,6 @@ TEST_CASE("The reliable size needs all larger sizes above it and is never the he
     CHECK(reliable_size(level, 0.9)->high == 1e-3);
     level.cells.back().lower = kNan;
     CHECK(!reliable_size(level, 0.9));
-}
-
-TEST_CASE("Features keep their alarm side in detection") {
-    CHECK(alarm_of(*features::find_feature("te_fc")) == Alarm::low);
-    CHECK(alarm_of(*features::find_feature("te_rms")) == Alarm::high);
 }
 
 }  // namespace
