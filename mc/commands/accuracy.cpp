@@ -27,12 +27,9 @@ struct AccuracyOptions {
 };
 
 int accuracy_command(const AccuracyOptions& options) {
-    std::vector<FileRole> others{{"the study", options.study.path}, {"--peers", options.peers}};
-    const bool json_good =
-        can_write({"--json", options.json}, others, {json_output(), options.force});
-    others.push_back({"--json", options.json});
-    const bool writable =
-        can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
+    const bool writable = can_write_json_and_page(
+        options.json, options.html, {{"the study", options.study.path}, {"--peers", options.peers}},
+        options.force);
     const auto made = load_scene(options.study);
     if (!made || !writable) {
         return kBadInput;

@@ -137,12 +137,7 @@ int compare_command(const CompareOptions& options) {
     for (const std::string& path : options.results) {
         read.push_back({"the results file", path});
     }
-    std::vector<FileRole> with_json = read;
-    const FileRole json_role{"--json", options.json};
-    with_json.push_back(json_role);
-    const bool json_good = can_write(json_role, read, {json_output(), options.force});
-    if (!can_write({"--html", options.html}, with_json, {page_output(), options.force}) ||
-        !json_good) {
+    if (!can_write_json_and_page(options.json, options.html, std::move(read), options.force)) {
         return kBadInput;
     }
     if (options.results.size() < 2) {

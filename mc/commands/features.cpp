@@ -128,8 +128,6 @@ int features_command(const FeaturesOptions& options) {
             fmt::print("{}", decisions_text(*found.against, found.signal, *scene));
         }
         return kDone;
-    } catch (const SignalError& error) {
-        fmt::print(stderr, "{}\n", error.what());
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
     }

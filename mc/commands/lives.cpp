@@ -44,24 +44,6 @@ struct LivesOutputs {
     bool force = false;
 };
 
-// Writes the evidence pack. Returns false after printing a problem.
-bool write_lives_evidence(const LivesOutputs& outputs, const LifeMonitor& monitor,
-                          const Results& frame, nlohmann::json& json) {
-    json["evidence"] =
-        evidence_json(analysis::EvidenceKind::lives, lives_report(monitor, outputs.shows_withheld),
-                      monitor.study().features.use, outputs.results, &frame);
-    const auto files = evidence_files(json);
-    if (!can_write_folder({"--evidence", outputs.evidence}, files,
-                          {{"the results file", outputs.results},
-                           {"--json", outputs.json},
-                           {"--html", outputs.html}},
-                          outputs.force)) {
-        return false;
-    }
-    write_files(outputs.evidence, files);
-    return true;
-}
-
 // Evaluates the rows and writes the requested outputs. Returns kBadInput after printing a problem,
 // or if the results are withheld.
 int write_outputs(const Study& study, const Results& frame, const RowSource& rows,
@@ -71,8 +53,17 @@ int write_outputs(const Study& study, const Results& frame, const RowSource& row
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty() ||
         !outputs.evidence.empty()) {
         auto json = lives_json(monitor, outputs.shows_withheld);
-        if (!outputs.evidence.empty() && !write_lives_evidence(outputs, monitor, frame, json)) {
-            return kBadInput;
+        if (!outputs.evidence.empty()) {
+            json["evidence"] = evidence_json(analysis::EvidenceKind::lives,
+                                             lives_report(monitor, outputs.shows_withheld),
+                                             monitor.study().features.use, outputs.results, &frame);
+            if (!write_evidence(outputs.evidence, json,
+                                {{"the results file", outputs.results},
+                                 {"--json", outputs.json},
+                                 {"--html", outputs.html}},
+                                outputs.force)) {
+                return kBadInput;
+            }
         }
         if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
             return kBadInput;
@@ -247,13 +238,11 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
     const auto tiles = made ? std::make_unique<LifeTiles>(*made.scene) : nullptr;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
-        const FileRole study{"the study", run.study.path}, results{"--out", results_path(run)},
-            json{"--json", options.json};
-        const bool good_json = can_write(json, {study, results}, {json_output(), run.force});
-        const bool good_page =
-            can_write({"--html", options.html}, {study, results, json}, {page_output(), run.force});
+        const bool good_outputs = can_write_json_and_page(
+            options.json, options.html,
+            {{"the study", run.study.path}, {"--out", results_path(run)}}, run.force);
         const bool good_out = check_output(run), good_progress = check_progress(run);
-        if (tiles && good_limit && good_json && good_page && good_out && good_progress) {
+        if (tiles && good_limit && good_outputs && good_out && good_progress) {
             checkpoint = lives_checkpoint(run, made.scene->study());
         }
     }
@@ -287,23 +276,18 @@ int report_lives(const ReportOptions& options) {
             options.results);
         return kBadInput;
     }
-    try {
-        const Results frame = read_frame(options.results);
-        const FileRows rows(options.results, frame);
-        check_lives(options.results, frame, rows);
-        const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
-        return write_outputs(*study, frame, rows,
-                             {.json = options.json,
-                              .html = options.html,
-                              .figures = options.figures,
-                              .shows_withheld = options.shows_withheld,
-                              .results = options.results,
-                              .evidence = options.evidence,
-                              .force = options.force});
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;
-    }
+    const Results frame = read_frame(options.results);
+    const FileRows rows(options.results, frame);
+    check_lives(options.results, frame, rows);
+    const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
+    return write_outputs(*study, frame, rows,
+                         {.json = options.json,
+                          .html = options.html,
+                          .figures = options.figures,
+                          .shows_withheld = options.shows_withheld,
+                          .results = options.results,
+                          .evidence = options.evidence,
+                          .force = options.force});
 }
 
 }  // namespace gearpod::mc

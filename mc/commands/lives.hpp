@@ -18,7 +18,8 @@ struct LivesOptions {
 
 // Runs `lives` on the given MPI ranks. Every rank must call it. Returns the exit code.
 int lives_study(const LivesOptions& options, const Ranks& ranks);
-// Reports a results file written by `lives`. `report` calls it for such a file.
+// Reports a results file written by `lives`. `report` calls it for such a file, and prints what it
+// throws.
 int report_lives(const ReportOptions& options);
 
 }  // namespace gearpod::mc

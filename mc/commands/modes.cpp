@@ -113,12 +113,8 @@ void print_critical_speeds(const Study& study, const Modes& modes) {
 }
 
 int modes_command(const ModesOptions& options) {
-    std::vector<FileRole> others{{"the study", options.study.path}};
-    const bool json_good =
-        can_write({"--json", options.json}, others, {json_output(), options.force});
-    others.push_back({"--json", options.json});
-    const bool writable =
-        can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
+    const bool writable = can_write_json_and_page(
+        options.json, options.html, {{"the study", options.study.path}}, options.force);
     const auto study = load_study(options.study);
     if (!study || !writable) {
         return kBadInput;

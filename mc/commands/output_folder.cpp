@@ -6,6 +6,7 @@
 
 #include "mc/files/atomic_file.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/report/evidence.hpp"
 #include "mc/run/output_kind.hpp"
 
 namespace gearpod::mc {
@@ -48,6 +49,16 @@ bool can_write_folder(const FileRole& folder, const std::vector<NamedFile>& file
         }
     }
     return good;
+}
+
+bool write_evidence(const std::string& folder, const nlohmann::json& report,
+                    const std::vector<FileRole>& others, bool force) {
+    const auto files = evidence_files(report);
+    if (!can_write_folder({"--evidence", folder}, files, others, force)) {
+        return false;
+    }
+    write_files(folder, files);
+    return true;
 }
 
 }  // namespace gearpod::mc

@@ -9,7 +9,6 @@
 #include "mc/commands/output_folder.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
-#include "mc/input/bad_input.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/library/inspection_table.hpp"
@@ -30,10 +29,8 @@ struct PodOptions : InspectionOptions {
 };
 
 int pod_command(const PodOptions& options) {
-    const FileRole read{"the table", options.table}, json{"--json", options.json};
-    const bool json_good = can_write(json, {read}, {json_output(), options.force});
-    if (!can_write({"--html", options.html}, {read, json}, {page_output(), options.force}) ||
-        !json_good) {
+    const FileRole read{"the table", options.table};
+    if (!can_write_json_and_page(options.json, options.html, {read}, options.force)) {
         return kBadInput;
     }
     try {
@@ -44,12 +41,11 @@ int pod_command(const PodOptions& options) {
                 analysis::EvidenceKind::inspections,
                 inspection_report(inspected.request, inspected.result, inspected.names), {},
                 options.table, nullptr);
-            const auto evidence = evidence_files(all);
-            if (!can_write_folder({"--evidence", options.evidence}, evidence,
-                                  {read, json, {"--html", options.html}}, options.force)) {
+            if (!write_evidence(options.evidence, all,
+                                {read, {"--json", options.json}, {"--html", options.html}},
+                                options.force)) {
                 return kBadInput;
             }
-            write_files(options.evidence, evidence);
         }
         if (!options.html.empty() && !write_text_to(options.html, report_page(json_text(all)))) {
             return kBadInput;
@@ -66,9 +62,6 @@ int pod_command(const PodOptions& options) {
         }
     } catch (const SignalError& error) {
         fmt::print(stderr, "{}\n", printable(error.what()));
-        return kBadInput;
-    } catch (const BadInput& error) {
-        fmt::print(stderr, "{}\n", error.what());
         return kBadInput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));

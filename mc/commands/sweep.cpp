@@ -9,6 +9,7 @@
 #include <set>
 
 #include "mc/commands/commands.hpp"
+#include "mc/commands/lives.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/json_text.hpp"
@@ -260,10 +261,7 @@ bool can_write_outputs(const SweepOptions& options, const std::vector<SweepPoint
     for (const SweepPoint& point : points) {
         others.push_back({"the results of " + point.name, results_path(run_of(options, point))});
     }
-    const FileRole json{"--json", options.json};
-    const bool json_good = can_write(json, others, {json_output(), options.force});
-    others.push_back(json);
-    return can_write({"--html", options.html}, others, {page_output(), options.force}) && json_good;
+    return can_write_json_and_page(options.json, options.html, std::move(others), options.force);
 }
 
 int sweep_command(const SweepOptions& options) {

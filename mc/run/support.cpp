@@ -79,6 +79,13 @@ bool can_write(const FileRole& output, const std::vector<FileRole>& others,
     return why.empty();
 }
 
+bool can_write_json_and_page(const std::string& json, const std::string& html,
+                             std::vector<FileRole> read, bool force) {
+    const bool json_good = can_write({"--json", json}, read, {json_output(), force});
+    read.push_back({"--json", json});
+    return can_write({"--html", html}, read, {page_output(), force}) && json_good;
+}
+
 bool write_text_to(const std::string& path, const std::string& text) {
     if (path == "-") {
         fmt::print("{}", text);

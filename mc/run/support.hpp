@@ -42,6 +42,10 @@ bool can_write(const FileRole& output, const std::vector<FileRole>& others);
 bool can_write(const FileRole& output, const std::vector<FileRole>& others,
                const Overwriting& overwriting);
 
+// The same for the outputs --json and --html of a command that reads other files.
+bool can_write_json_and_page(const std::string& json, const std::string& html,
+                             std::vector<FileRole> read, bool force);
+
 // Reason why a results file (HDF5) should not have this name: its extension belongs to another
 // format. The text suggests a name and a command that creates the other format. "" if the name is
 // acceptable.
