@@ -7,18 +7,11 @@
 #include "analysis/detection/reliable_size.hpp"
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/pod/outcomes.hpp"
+#include "analysis/statistics/every_nth.hpp"
 #include "machine/team.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-std::vector<double> column(std::span<const double> values, std::size_t level, std::size_t levels) {
-    std::vector<double> out;
-    for (std::size_t i = level; i < values.size(); i += levels) {
-        out.push_back(values[i]);
-    }
-    return out;
-}
 
 // Values of all healthy gearboxes and of all faulty ones, for AUC and ranking.
 struct HealthyAndFaulty {
@@ -27,7 +20,7 @@ struct HealthyAndFaulty {
 
 HealthyAndFaulty healthy_and_faulty(const ReliabilityData& data, const FeatureColumns& feature,
                                     std::size_t level, std::size_t levels) {
-    HealthyAndFaulty values{column(feature.healthy, level, levels), {}};
+    HealthyAndFaulty values{every_nth(feature.healthy, level, levels), {}};
     for (std::size_t i = 0; i < data.graded_size.size(); ++i) {
         (data.graded_size[i] > 0.0 ? values.faulty : values.healthy)
             .push_back(feature.graded[i * levels + level]);
@@ -49,8 +42,8 @@ LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feat
     LevelValues values;
     values.all = healthy_and_faulty(data, feature, level, levels);
     values.thresholds =
-        column(feature.records.empty() ? feature.healthy : feature.records, level, levels);
-    values.graded = column(feature.graded, level, levels);
+        every_nth(feature.records.empty() ? feature.healthy : feature.records, level, levels);
+    values.graded = every_nth(feature.graded, level, levels);
     values.by_size.resize(groups);
     for (std::size_t i = 0; i < values.graded.size(); ++i) {
         if (data.graded_size[i] > 0.0 && group[i] != kNoGroup) {
@@ -127,8 +120,8 @@ CombinedDetector combined_at(const ReliabilityData& data, std::size_t level,
     std::vector<std::vector<double>> healthy, graded;
     std::vector<CombinedFeature> features;
     for (const FeatureColumns& feature : data.features) {
-        healthy.push_back(column(feature.healthy, level, levels));
-        graded.push_back(column(feature.graded, level, levels));
+        healthy.push_back(every_nth(feature.healthy, level, levels));
+        graded.push_back(every_nth(feature.graded, level, levels));
     }
     for (std::size_t f = 0; f < data.features.size(); ++f) {
         features.push_back({data.features[f].name, data.features[f].alarm, healthy[f], graded[f]});
@@ -151,7 +144,7 @@ LevelSensitivity sensitivity_at(const ReliabilityData& data,
     }
     const auto f = static_cast<std::size_t>(best - data.features.begin());
     const LevelDetection& detection = detections[f].levels[level];
-    const auto values = column(best->graded, level, request.noise_levels.size());
+    const auto values = every_nth(best->graded, level, request.noise_levels.size());
     return level_sensitivity(best->name, values, outcomes(values, detection.threshold, best->alarm),
                              {request.size.name, request.size.unit, data.graded_size}, data.inputs,
                              detection, request.confidence);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "analysis/detection/clustered_rate.hpp"
+#include "analysis/statistics/every_nth.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -41,10 +42,7 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
         if (std::isnan(level.threshold)) {
             continue;
         }
-        std::vector<double> values;
-        for (std::size_t i = 0; i < gearbox.size(); ++i) {
-            values.push_back(healthy.values[i * levels + n]);
-        }
+        const std::vector<double> values = every_nth(healthy.values, n, levels);
         if (tied_within_one(values, gearbox, level.threshold)) {
             const std::string tie = fmt::format(
                 "noise level {:g}: healthy records equal the threshold", level.noise_level);

@@ -10,6 +10,7 @@
 #include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/statistics/every_nth.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "machine/upper_median.hpp"
 
@@ -34,15 +35,6 @@ void check_request(const DetectionRequest& request) {
             throw std::invalid_argument("detection: the size groups must ascend");
         }
     }
-}
-
-std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
-    std::vector<double> values;
-    values.reserve(sample.fault_size.size());
-    for (std::size_t i = 0; i < sample.fault_size.size(); ++i) {
-        values.push_back(sample.values[i * levels + level]);
-    }
-    return values;
 }
 
 double finite_median(std::vector<double> values) {
@@ -223,7 +215,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     for (std::size_t n = 0; n < levels; ++n) {
         LevelDetection level;
         level.noise_level = request.noise_levels[n];
-        const std::vector<double> sample = column(healthy, n, levels);
+        const std::vector<double> sample = every_nth(healthy.values, n, levels);
         const HealthyThresholds thresholds(
             {sample, healthy.weights.empty() ? none : healthy.gearbox, healthy.weights}, alarm);
         const Threshold threshold = thresholds.at(request.false_alarm_rate, request.confidence);

@@ -10,6 +10,7 @@
 #include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/upper_tail.hpp"
 #include "analysis/statistics/wilson.hpp"
+#include "features/statistics/median.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -48,11 +49,6 @@ std::vector<double> sorted(std::vector<double> values) {
     return values;
 }
 
-double median(std::span<const double> ascending) {
-    const std::size_t n = ascending.size();
-    return 0.5 * (ascending[(n - 1) / 2] + ascending[n / 2]);
-}
-
 std::vector<InputBin> bins_of(const std::vector<double>& values, const Outcomes& outcomes,
                               const SizeGroup& range, double confidence) {
     std::vector<double> inside;
@@ -75,7 +71,7 @@ std::vector<InputBin> bins_of(const std::vector<double>& values, const Outcomes&
         const std::vector<double> ascending = sorted(members[b]);
         bin.low = ascending.front();
         bin.high = ascending.back();
-        bin.middle = median(ascending);
+        bin.middle = features::median(ascending);
         bin.tested = static_cast<long>(ascending.size());
         bin.pd = static_cast<double>(bin.detected) / static_cast<double>(bin.tested);
         bin.bounds = wilson_interval(bin.detected, bin.tested, confidence);
@@ -213,11 +209,6 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
         effect.a90.push_back(reachable ? curve.a90(value, pod.smallest, pod.largest, confidence)
                                        : SizeBounds{never, never, never});
     }
-}
-
-bool varies(const std::vector<double>& values) {
-    return !values.empty() && std::any_of(values.begin(), values.end(),
-                                          [&](double value) { return value != values.front(); });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 // uses the sample as it is, without further runs or a model.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,11 @@ struct InputColumn {
     std::string unit;
     std::span<const double> values;  // one per gearbox
 };
+
+// True if the values are not all equal.
+inline bool varies(std::span<const double> values) {
+    return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
+}
 
 struct InputInfluence {
     std::string name;

@@ -15,11 +15,6 @@ namespace {
 constexpr std::size_t kFewestGearboxes = 100;
 constexpr std::size_t kMost = 20000;
 
-bool varies(std::span<const double> values) {
-    return std::any_of(values.begin(), values.end(),
-                       [&](double value) { return value != values.front(); });
-}
-
 // Spearman's rank correlation of largest magnitude.
 struct Dependence {
     std::size_t first = 0, second = 0;

@@ -73,11 +73,6 @@ double quantile(std::vector<double>& values, double share) {
     return values[static_cast<std::size_t>(at)];
 }
 
-bool varies(const InputColumn& input) {
-    return std::ranges::any_of(input.values,
-                               [&](double value) { return value != input.values.front(); });
-}
-
 }  // namespace
 
 EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int> hit,
@@ -85,7 +80,7 @@ EpistemicBand epistemic_band(std::span<const double> sizes, std::span<const int>
     EpistemicBand result;
     std::vector<const InputColumn*> varying;
     for (const InputColumn& input : inputs) {
-        if (varies(input)) {
+        if (varies(input.values)) {
             varying.push_back(&input);
             result.inputs.push_back(input.name);
         }

@@ -2,20 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/statistics/clopper_pearson.hpp"
+#include "features/statistics/median.hpp"
 
 namespace gearpod::analysis {
-namespace {
-
-double middle_value(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return values.size() % 2 == 1 ? *middle
-                                  : 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-}  // namespace
 
 int SustainedRule::needed() const {
     constexpr double kRounding = 1e-9;
@@ -117,8 +109,8 @@ Drift drift_of(std::span<const double> values) {
     // Variance of the score of independent values without ties, with the correction of continuity.
     const double deviation = std::sqrt(n * (n - 1.0) * (2.0 * n + 5.0) / 18.0);
     const double z = std::max(0.0, std::abs(score) - 1.0) / deviation;
-    return {middle_value(slopes) * (n - 1.0) / middle_value(used), score / (0.5 * n * (n - 1.0)),
-            std::erfc(z / std::sqrt(2.0))};
+    return {features::median(std::move(slopes)) * (n - 1.0) / features::median(std::move(used)),
+            score / (0.5 * n * (n - 1.0)), std::erfc(z / std::sqrt(2.0))};
 }
 
 }  // namespace gearpod::analysis

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "analysis/calibration/regression_abc.hpp"
+#include "analysis/statistics/every_nth.hpp"
 #include "analysis/statistics/midranks.hpp"
 
 namespace gearpod::mc {
@@ -46,18 +47,10 @@ SetsInRegion sets_in_region(const PriorRegion& region, std::span<const Simulated
     return in_region;
 }
 
-std::vector<double> column(const std::vector<double>& table, std::size_t width, std::size_t which) {
-    std::vector<double> values;
-    for (std::size_t i = which; i < table.size(); i += width) {
-        values.push_back(table[i]);
-    }
-    return values;
-}
-
 // Posterior sample of parameter p, given in a region, as quantiles of the prior.
 std::vector<double> in_prior(const analysis::AbcPosterior& posterior, const PriorRegion& region,
                              std::size_t p) {
-    std::vector<double> values = column(posterior.unit, region.low.size(), p);
+    std::vector<double> values = analysis::every_nth(posterior.unit, p, region.low.size());
     for (double& value : values) {
         value = region.low[p] + value * (region.high[p] - region.low[p]);
     }
