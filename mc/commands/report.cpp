@@ -22,7 +22,6 @@
 #include "mc/report/failures.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
-#include "mc/report/run_report.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -50,8 +49,9 @@ std::vector<std::string> feature_names(const Results& results) {
 // Writes the requested JSON, tables, page, sheet, figures and evidence. Returns false after
 // printing a problem.
 bool write_report_files(const ReportOptions& options, const Results& results, const RowSource& rows,
-                        const std::optional<analysis::Reliability>& reliability) {
-    nlohmann::json json = report_json(results, rows, reliability);
+                        const std::optional<analysis::Reliability>& reliability,
+                        const RunFindings& run) {
+    nlohmann::json json = report_json(results, rows, reliability, run);
     json["results"] = options.results;
     const auto tables =
         options.csv.empty() ? std::vector<NamedFile>{} : table_files(report_tables(json));
@@ -60,8 +60,7 @@ bool write_report_files(const ReportOptions& options, const Results& results, co
         const bool recorded = subject_of(results) == analysis::Subject::recordings;
         json["evidence"] = evidence_json(
             recorded ? analysis::EvidenceKind::recordings : analysis::EvidenceKind::gearboxes,
-            results_report(results, rows, reliability), feature_names(results), options.results,
-            &results);
+            run.report, feature_names(results), options.results, &results);
         evidence = evidence_files(json);
     }
     const auto others = other_files(options);
@@ -134,10 +133,11 @@ int report_command(const ReportOptions& options) {
         results.detection = detect_all(results, rows);
         const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
                                                 kMostAssessedValues, costs);
+        const RunFindings run = findings_of_run(results, rows, reliability);
         if (!options.json.empty() || !options.html.empty() || !options.pdf.empty() ||
             !options.csv.empty() || !options.figures.empty() || !options.evidence.empty() ||
             !options.dataset.empty()) {
-            if (!write_report_files(options, results, rows, reliability)) {
+            if (!write_report_files(options, results, rows, reliability, run)) {
                 return kBadInput;
             }
         }
@@ -151,7 +151,7 @@ int report_command(const ReportOptions& options) {
                        printable(results.provenance_value("gearboxes_asked_for")),
                        printable(state));
         }
-        fmt::print("{}", report_text(results_report(results, rows, reliability)));
+        fmt::print("{}", report_text(run.report));
         const std::pair<const char*, const std::string&> written[] = {
             {"page", options.html},         {"sheet", options.pdf},
             {"tables", options.csv},        {"figures", options.figures},

@@ -7,20 +7,11 @@
 #include "analysis/report/reliability_json.hpp"
 #include "features/feature.hpp"
 #include "mc/gearbox/record_window.hpp"
-#include "mc/numerics/numerical_error.hpp"
-#include "mc/report/alarms_over_time.hpp"
-#include "mc/report/contact_loss.hpp"
 #include "mc/report/example_gearboxes.hpp"
-#include "mc/report/failures.hpp"
-#include "mc/report/monitoring_over_time.hpp"
-#include "mc/report/other_fault.hpp"
-#include "mc/report/run_report.hpp"
-#include "mc/report/sensors.hpp"
 #include "mc/results/numerical_groups.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -64,9 +55,9 @@ Json numerical_json(const Results& frame, const std::vector<NumericalContributio
 
 // Contact loss ratio of each mesh; null if teeth cannot separate or an earlier version wrote the
 // file.
-Json contact_loss_json(const Results& frame, const RowSource& rows) {
+Json contact_loss_json(const std::vector<ContactLossSummary>& meshes) {
     Json json = Json::array();
-    for (const ContactLossSummary& mesh : summarise_contact_loss(frame, rows)) {
+    for (const ContactLossSummary& mesh : meshes) {
         json.push_back({{"mesh", mesh.mesh},
                         {"mean", mesh.mean},
                         {"lower", mesh.lower},
@@ -113,9 +104,9 @@ Json sensors_json(const std::vector<SensorDetection>& sensors) {
 }
 
 // Alarms of healthy gearboxes with another fault; null without one.
-Json other_fault_json(const Results& frame, const RowSource& rows) {
+Json other_fault_json(const Results& frame, const std::vector<OtherFaultAlarms>& alarms) {
     Json json = Json::array();
-    for (const OtherFaultAlarms& one : other_fault_alarms(frame, rows)) {
+    for (const OtherFaultAlarms& one : alarms) {
         json.push_back({{"feature", frame.features[one.feature].name},
                         {"noise_level", frame.noise_levels[one.level]},
                         {"alarms", one.alarms},
@@ -158,9 +149,10 @@ Json noise_json(const Results& frame, const std::optional<Study>& study) {
 }  // namespace
 
 nlohmann::json report_json(const Results& frame, const RowSource& rows,
-                           const std::optional<analysis::Reliability>& reliability) {
+                           const std::optional<analysis::Reliability>& reliability,
+                           const RunFindings& run) {
     Json json = examples_json(frame, rows);
-    const auto study = read_study_text(frame.provenance_value("study"), "").study;
+    const std::optional<Study>& study = run.study;
     json["title"] = study ? study->title : "";
     json["assumptions"] = study ? run_conditions(*study) : "";
     json["fault"] = study && study->fault.kind ? Json(study->fault.kind->words()) : Json(nullptr);
@@ -169,21 +161,19 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
     json["smallest_fault"] =
         analysis::smallest_faults_json(frame.detection, reliability ? &*reliability : nullptr);
-    json["findings"] = analysis::findings_json(results_report(frame, rows, reliability));
-    json["numerical"] = numerical_json(frame, numerical_contributions(frame, rows, reliability));
+    json["findings"] = analysis::findings_json(run.report);
+    json["numerical"] = numerical_json(frame, run.numerical);
     json["step_error"] = step_error_json(frame);
-    json["contact_loss"] = contact_loss_json(frame, rows);
-    json["sensors"] = sensors_json(sensor_detections(frame, rows));
-    json["other_fault"] = other_fault_json(frame, rows);
+    json["contact_loss"] = contact_loss_json(run.contact_loss);
+    json["sensors"] = sensors_json(run.sensors);
+    json["other_fault"] = other_fault_json(frame, run.other_fault);
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);
-    const Failures failures = failures_of(frame, rows);
-    json["failures"] = failures_json(frame, failures);
-    json["over_time"] = alarms_json(frame, alarms_over_time(frame, rows));
-    const auto monitoring = monitoring_over_time(frame, rows);
-    json["monitoring"] = monitoring ? monitoring_json(*monitoring) : Json(nullptr);
+    json["failures"] = failures_json(frame, run.failures);
+    json["over_time"] = alarms_json(frame, run.over_time);
+    json["monitoring"] = run.monitoring ? monitoring_json(*run.monitoring) : Json(nullptr);
     json["gearboxes"] = json["failures"]["gearboxes"];
-    json["failed"] = failures.counts.failed();
+    json["failed"] = run.failures.counts.failed();
     json["provenance"] = Json::object();
     for (const auto& [name, value] : frame.provenance) {
         json["provenance"][name] = value;
@@ -193,6 +183,11 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
         json["timing"][timing.name] = timing.seconds;
     }
     return json;
+}
+
+nlohmann::json report_json(const Results& frame, const RowSource& rows,
+                           const std::optional<analysis::Reliability>& reliability) {
+    return report_json(frame, rows, reliability, findings_of_run(frame, rows, reliability));
 }
 
 }  // namespace gearpod::mc

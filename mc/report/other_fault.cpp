@@ -20,8 +20,7 @@ std::size_t other_fault_variant(const Results& frame) {
 }
 
 // The other fault in words; "another fault" if the study cannot be read.
-std::string fault_text(const Results& frame) {
-    const auto study = read_study_text(frame.provenance_value("study"), "").study;
+std::string fault_text(const std::optional<Study>& study) {
     const std::string text = study ? other_fault_text(*study) : "";
     return text.empty() ? "another fault" : text;
 }
@@ -76,7 +75,8 @@ std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const Row
     return all;
 }
 
-std::string other_fault_limit(const Results& frame, const std::vector<OtherFaultAlarms>& alarms,
+std::string other_fault_limit(const Results& frame, const std::optional<Study>& study,
+                              const std::vector<OtherFaultAlarms>& alarms,
                               const std::string& feature, std::size_t level) {
     const auto found = std::ranges::find_if(alarms, [&](const OtherFaultAlarms& one) {
         return frame.features[one.feature].name == feature && one.level == level;
@@ -84,7 +84,7 @@ std::string other_fault_limit(const Results& frame, const std::vector<OtherFault
     if (found == alarms.end()) {
         return "";
     }
-    std::string fault = fault_text(frame);
+    std::string fault = fault_text(study);
     fault.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(fault.front())));
     return fmt::format(
         "{} raises this alarm in {} of {} healthy gearboxes ({}; {} at {} confidence), against {} "
@@ -93,7 +93,7 @@ std::string other_fault_limit(const Results& frame, const std::vector<OtherFault
         analysis::percent_text(frame.request.confidence), found->without);
 }
 
-analysis::Section other_fault_section(const Results& frame,
+analysis::Section other_fault_section(const Results& frame, const std::optional<Study>& study,
                                       const std::vector<OtherFaultAlarms>& alarms) {
     analysis::Section section{"other_fault", "Alarms raised by another fault", {}};
     if (alarms.empty()) {
@@ -107,7 +107,7 @@ analysis::Section other_fault_section(const Results& frame,
     section.state("other_fault.how",
                   fmt::format("The healthy gearboxes that set the thresholds, with {}: the same "
                               "records, with its vibration added.",
-                              fault_text(frame)));
+                              fault_text(study)));
     analysis::Table table{
         "other_fault",
         "Healthy gearboxes with the other fault that alarm",

@@ -2,12 +2,14 @@
 // (SourceRole::other_fault).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/report/report.hpp"
 #include "analysis/statistics/interval.hpp"
 #include "mc/results/row_source.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
@@ -23,10 +25,12 @@ struct OtherFaultAlarms {
 // fault.
 std::vector<OtherFaultAlarms> other_fault_alarms(const Results& frame, const RowSource& rows);
 
-// Sentence on the alarms of one feature at one noise level; "" without them.
-std::string other_fault_limit(const Results& frame, const std::vector<OtherFaultAlarms>& alarms,
+// Sentence on the alarms of one feature at one noise level; "" without them. `study` is empty if it
+// cannot be read.
+std::string other_fault_limit(const Results& frame, const std::optional<Study>& study,
+                              const std::vector<OtherFaultAlarms>& alarms,
                               const std::string& feature, std::size_t level);
-analysis::Section other_fault_section(const Results& frame,
+analysis::Section other_fault_section(const Results& frame, const std::optional<Study>& study,
                                       const std::vector<OtherFaultAlarms>& alarms);
 
 }  // namespace gearpod::mc

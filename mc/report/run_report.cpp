@@ -13,20 +13,12 @@
 #include "analysis/report/wording.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/input/printable.hpp"
-#include "mc/report/alarms_over_time.hpp"
-#include "mc/report/contact_loss.hpp"
-#include "mc/report/failures.hpp"
 #include "mc/report/feature_values.hpp"
-#include "mc/report/monitoring_over_time.hpp"
-#include "mc/report/numerical_section.hpp"
-#include "mc/report/other_fault.hpp"
-#include "mc/report/sensors.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
-#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -154,19 +146,19 @@ std::string numerical_of(const analysis::Findings& findings,
 
 // Alarms of the answer's feature that another fault raises; "" without one.
 std::string other_fault_of(const analysis::Findings& findings, const Results& frame,
-                           const std::vector<OtherFaultAlarms>& others) {
-    if (others.empty() || findings.order.empty() || findings.order[findings.reference].empty()) {
+                           const RunFindings& run) {
+    if (run.other_fault.empty() || findings.order.empty() ||
+        findings.order[findings.reference].empty()) {
         return "";
     }
-    return other_fault_limit(frame, others, findings.name(findings.best(findings.reference)),
-                             findings.reference);
+    return other_fault_limit(frame, run.study, run.other_fault,
+                             findings.name(findings.best(findings.reference)), findings.reference);
 }
 
-}  // namespace
-
-analysis::Report results_report(const Results& frame, const RowSource& rows,
-                                const std::optional<analysis::Reliability>& reliability) {
-    const auto study = read_study_text(frame.provenance_value("study"), "").study;
+analysis::Report report_of(const Results& frame, const RowSource& rows,
+                           const std::optional<analysis::Reliability>& reliability,
+                           const RunFindings& run) {
+    const std::optional<Study>& study = run.study;
     std::vector<std::string> units;
     for (const FeatureResult& feature : frame.features) {
         units.push_back(feature.unit);
@@ -177,15 +169,12 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
          reference_level(frame.noise_levels), units, [&study](double size) {
              return study && study->fault.kind ? study->fault.kind->share_text(*study, size) : "";
          }});
-    const Failures failures = failures_of(frame, rows);
-    const auto contributions = numerical_contributions(frame, rows, reliability);
     analysis::Report report;
-    report.add(state_section(frame, failures.counts));
+    report.add(state_section(frame, run.failures.counts));
     report.add(analysis::headline_section(findings, study ? run_conditions(*study) : "",
-                                          facts_text(findings, failures.counts, study)));
-    const auto others = other_fault_alarms(frame, rows);
-    report.add(analysis::limits_section(findings, numerical_of(findings, contributions),
-                                        other_fault_of(findings, frame, others)));
+                                          facts_text(findings, run.failures.counts, study)));
+    report.add(analysis::limits_section(findings, numerical_of(findings, run.numerical),
+                                        other_fault_of(findings, frame, run)));
     analysis::Section values = feature_values(frame, rows);
     if (values.blocks.empty()) {
         add_detection_sections(report, findings);
@@ -194,21 +183,37 @@ analysis::Report results_report(const Results& frame, const RowSource& rows,
     report.add(too_many_section(findings, frame));
     const std::vector<std::size_t> ranked =
         findings.order.empty() ? std::vector<std::size_t>{} : findings.order[findings.reference];
-    report.add(alarms_section(frame, alarms_over_time(frame, rows), ranked));
-    if (const auto monitoring = monitoring_over_time(frame, rows)) {
+    report.add(alarms_section(frame, run.over_time, ranked));
+    if (run.monitoring) {
         constexpr std::size_t kMostNamed = 3;
         std::vector<std::string> best;
         for (std::size_t i = 0; i < std::min(kMostNamed, ranked.size()); ++i) {
             best.push_back(frame.features[ranked[i]].name);
         }
-        report.add(monitoring_section(*monitoring, best));
+        report.add(monitoring_section(*run.monitoring, best));
     }
-    report.add(sensors_section(frame, sensor_detections(frame, rows)));
-    report.add(other_fault_section(frame, others));
-    report.add(contact_section(summarise_contact_loss(frame, rows)));
-    report.add(numerical_section(frame, contributions));
-    report.add(failures_section(frame, failures));
+    report.add(sensors_section(frame, run.sensors));
+    report.add(other_fault_section(frame, run.study, run.other_fault));
+    report.add(contact_section(run.contact_loss));
+    report.add(numerical_section(frame, run.numerical));
+    report.add(failures_section(frame, run.failures));
     return report;
+}
+
+}  // namespace
+
+RunFindings findings_of_run(const Results& frame, const RowSource& rows,
+                            const std::optional<analysis::Reliability>& reliability) {
+    RunFindings run{.study = read_study_text(frame.provenance_value("study"), "").study,
+                    .failures = failures_of(frame, rows),
+                    .numerical = numerical_contributions(frame, rows, reliability),
+                    .other_fault = other_fault_alarms(frame, rows),
+                    .over_time = alarms_over_time(frame, rows),
+                    .monitoring = monitoring_over_time(frame, rows),
+                    .sensors = sensor_detections(frame, rows),
+                    .contact_loss = summarise_contact_loss(frame, rows)};
+    run.report = report_of(frame, rows, reliability, run);
+    return run;
 }
 
 std::string headline_text(const analysis::Report& report) {

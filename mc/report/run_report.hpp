@@ -6,14 +6,42 @@
 #include "analysis/reliability.hpp"
 #include "analysis/report/report.hpp"
 #include "mc/ensemble/ensemble.hpp"
+#include "mc/report/alarms_over_time.hpp"
+#include "mc/report/contact_loss.hpp"
+#include "mc/report/failures.hpp"
+#include "mc/report/monitoring_over_time.hpp"
+#include "mc/report/numerical_section.hpp"
+#include "mc/report/other_fault.hpp"
+#include "mc/report/sensors.hpp"
 #include "mc/results/row_source.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Everything that a results file tells, in the order of the page. `frame.detection` must be up to
-// date (detect_all). `reliability` is empty if the ensemble is too large.
-analysis::Report results_report(const Results& frame, const RowSource& rows,
-                                const std::optional<analysis::Reliability>& reliability);
+// Everything that a results file tells: the report, in the order of the page, and the numbers
+// behind it.
+struct RunFindings {
+    std::optional<Study> study;  // empty if it cannot be read
+    Failures failures;
+    std::vector<NumericalContribution> numerical;
+    std::vector<OtherFaultAlarms> other_fault;
+    std::vector<TimeGroup> over_time;
+    std::optional<MonitoringOverTime> monitoring;
+    std::vector<SensorDetection> sensors;
+    std::vector<ContactLossSummary> contact_loss;
+    analysis::Report report = {};
+};
+
+// `frame.detection` must be up to date (detect_all). `reliability` is empty if the ensemble is too
+// large.
+RunFindings findings_of_run(const Results& frame, const RowSource& rows,
+                            const std::optional<analysis::Reliability>& reliability);
+
+// Only the report.
+inline analysis::Report results_report(const Results& frame, const RowSource& rows,
+                                       const std::optional<analysis::Reliability>& reliability) {
+    return findings_of_run(frame, rows, reliability).report;
+}
 
 // The answer for the end of a run: its sentence, the conditions for which it holds, and a warning
 // of too few healthy gearboxes.
