@@ -15,12 +15,9 @@ MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 def _limits(axes, report):
     largest = max((c["size_high"] for f in report.detection for level in f["levels"]
                    for c in level["sizes"]), default=0)
-    axes.set_xlim(0, report.sizes.shown(largest) * 1.03 or 1)
-    axes.set_ylim(-0.02, 1.03)
-    axes.set_yticks([0, 0.25, 0.5, 0.75, 0.9, 1])
-    axes.set_yticklabels(["0", "0.25", "0.5", "0.75", "0.9", "1"])
-    axes.set_xlabel(report.sizes.axis())
-    axes.set_ylabel("Probability of detection")
+    axes.set(xlim=(0, report.sizes.shown(largest) * 1.03 or 1), ylim=(-0.02, 1.03),
+             xlabel=report.sizes.axis(), ylabel="Probability of detection")
+    axes.set_yticks([0, 0.25, 0.5, 0.75, 0.9, 1], ["0", "0.25", "0.5", "0.75", "0.9", "1"])
 
 
 def _curve(axes, report, pod, paint, line, label, band):
@@ -196,15 +193,13 @@ def heat_maps(report, page):
             for i, c in enumerate(row):
                 known = c["pd"] is not None
                 cell(axes, i, n, between(MISSED, FOUND, c["pd"]) if known else GAP, rate(c["pd"]))
-        axes.set_xlim(0, max(1, len(sizes)))
-        axes.set_ylim(0, max(1, len(cells)))
+        axes.set(xlim=(0, max(1, len(sizes))), ylim=(0, max(1, len(cells))),
+                 xlabel=report.sizes.axis(), ylabel="noise")
         axes.set_xticks([i + 0.5 for i in range(len(sizes))], sizes,
                         rotation=40 if any(len(s) > 5 for s in sizes) else 0)
         axes.set_yticks([n + 0.5 for n in range(len(cells))],
                         [f"× {number(level)}" for level in report.levels])
         axes.tick_params(length=0)
-        axes.set_xlabel(report.sizes.axis())
-        axes.set_ylabel("noise")
         axes.set_title(report.names[f], fontsize=10, loc="left")
         about = "; ".join(
             f"{noise(level)}: " + ", ".join(rate(c["pd"]) for c in cells[n])
@@ -237,10 +232,8 @@ def roc(report, page):
                       color=colour(f), linestyle=dash(f),
                       label=f"{report.names[f]}  {number(auc['auc'])}")
             texts.append(f"{report.names[f]}: area {number(auc['auc'])}")
-        axes.set_xlim(-0.01, 1.01)
-        axes.set_ylim(-0.01, 1.02)
-        axes.set_xlabel("False-alarm rate")
-        axes.set_ylabel("Detection rate")
+        axes.set(xlim=(-0.01, 1.01), ylim=(-0.01, 1.02), xlabel="False-alarm rate",
+                 ylabel="Detection rate")
         axes.set_title(f"noise × {number(level)}", fontsize=10, loc="left")
         if axes.get_legend_handles_labels()[0]:
             options = {"title": "feature, area", "title_fontsize": 9, "handlelength": 2.4,
@@ -284,8 +277,7 @@ def ranking(report, page):
                   linestyle="none", marker=marker(n), markersize=4.5, color=paint,
                   label=f"× {number(level)}")
     axes.set_yticks(range(len(order)), [report.names[f] for f in order])
-    axes.set_ylim(len(order) - 0.45, -0.55)
-    axes.set_xlabel("Area under the ROC")
+    axes.set(ylim=(len(order) - 0.45, -0.55), xlabel="Area under the ROC")
     if levels:
         legend_below(axes, min(levels, 5), title="noise", title_fontsize=9, handletextpad=0.1,
                      columnspacing=1)
@@ -321,9 +313,7 @@ def over_time(report, page, groups):
                  group["alarms"][name] / group["values"][name] for group in groups]
         axes.plot(middle, share, color=colour(position), linestyle=dash(position),
                   marker=marker(position), markersize=4.5, markeredgewidth=0, label=name)
-    axes.set_ylim(-0.03, 1.03)
-    axes.set_xlabel("Time")
-    axes.set_ylabel("Share of recordings that alarm")
+    axes.set(ylim=(-0.03, 1.03), xlabel="Time", ylabel="Share of recordings that alarm")
     legend_below(axes, 1)
     about = "; ".join(f"{name}: {caption_text(groups[-1], name)} at the end" for name in names)
     svg = to_svg(figure, "Alarms over time", about, page.names)

@@ -49,9 +49,8 @@ def _miss_chart(report, page, f):
                       markersize=4.5, color=paint)
     axes.set_yticks(range(len(inputs)), [input_name(i["name"], i["unit"]) for i in inputs],
                     fontsize=9)
-    axes.set_ylim(len(inputs) - 0.4, -0.6)
-    axes.set_xlim(0, 1)
-    axes.set_xlabel("Probability that missed is larger")
+    axes.set(ylim=(len(inputs) - 0.4, -0.6), xlim=(0, 1),
+             xlabel="Probability that missed is larger")
     figure.suptitle(f"{report.names[f]}, {_range(report, found)}: {found['misses']} of "
                     f"{found['misses'] + found['hits']} missed", fontsize=10, x=0.01, ha="left")
     texts = [f"{input_name(i['name'], i['unit'])} {number(i['larger_in_misses'], 2)}"
@@ -86,10 +85,8 @@ def false_alarm_curves(report, page):
                           color=colour(f), alpha=0.16, linewidth=0)
         axes.plot(rates, _sizes(points, report, "estimate"), color=colour(f), linestyle=dash(f),
                   marker=marker(f), markersize=4, label=report.names[f])
-    axes.set_xscale("log")
+    axes.set(xscale="log", xlabel="False-alarm rate", ylabel="a90, " + report.sizes.axis().lower())
     axes.invert_xaxis()
-    axes.set_xlabel("False-alarm rate")
-    axes.set_ylabel("a90, " + report.sizes.axis().lower())
     legend_below(axes, 1, handlelength=2.8)
     svg = to_svg(figure, f"Size found with 90 % probability over the false-alarm rate at "
                  f"{noise(report.levels[n])}",

@@ -54,9 +54,8 @@ def _index_chart(report, page, feature, what, indices):
                   linestyle="none", marker=mark, markersize=4.5, color=paint, label=label)
     axes.set_yticks(range(len(inputs)), [input_name(i["name"], i["unit"]) for i in inputs],
                     fontsize=9)
-    axes.set_ylim(len(inputs) - 0.4, -0.6)
-    axes.set_xlim(left=min(-0.02, axes.get_xlim()[0]))
-    axes.set_xlabel("Share of the variance")
+    axes.set(ylim=(len(inputs) - 0.4, -0.6), xlim=(min(-0.02, axes.get_xlim()[0]), None),
+             xlabel="Share of the variance")
     axes.legend(loc="lower right")
     figure.suptitle(f"{feature}: {what}", fontsize=10, x=0.01, ha="left")
     top = "; ".join(f"{input_name(i['name'], i['unit'])} {number(i['total'], 2)}"
@@ -111,9 +110,8 @@ def _bin_chart(report, page, f, effect):
                         [max(0.0, b["high"] - b["middle"]) * factor for b in bins]],
                   fmt="none", ecolor=MUTED, elinewidth=1)
     axes.plot(x, [b["pd"] for b in bins], color=colour(0), marker="o", markersize=4.5, linewidth=1)
-    axes.set_ylim(-0.03, 1.03)
-    axes.set_xlabel(input_name(name, unit).capitalize() + (f", {shown}" if shown else ""))
-    axes.set_ylabel("Detection rate")
+    axes.set(ylim=(-0.03, 1.03), ylabel="Detection rate",
+             xlabel=input_name(name, unit).capitalize() + (f", {shown}" if shown else ""))
     axes.locator_params(axis="x", nbins=6)
     about = "; ".join(f"{quantity(b['middle'], unit)}: "
                       f"{rate_with_bounds(b['pd'], b['lower'], b['upper'])}" for b in bins)
@@ -184,15 +182,13 @@ def _map_chart(report, page, f, name, entry):
             cell(axes, i, n, between(SMALL, LARGE, share) if known else GAP, text)
             row.append(text)
         texts.append(f"{noise(report.levels[n])}: {', '.join(row)}")
-    axes.set_xlim(0, len(values))
-    axes.set_ylim(0, len(levels))
     factor, shown = _axis_scale([{"high": v} for v in values], entry["unit"])
+    axes.set(xlim=(0, len(values)), ylim=(0, len(levels)), ylabel="noise",
+             xlabel=input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
     axes.set_xticks([i + 0.5 for i in range(len(values))], [number(v * factor) for v in values])
     axes.set_yticks([n + 0.5 for n in range(len(levels))],
                     [f"× {number(level)}" for level in report.levels])
     axes.tick_params(length=0)
-    axes.set_xlabel(input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
-    axes.set_ylabel("noise")
     axes.set_title(f"a90, {report.sizes.unit or report.sizes.name}", fontsize=10, loc="left")
     return to_svg(figure, f"a90 of {report.names[f]} over noise and "
                   f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)
@@ -220,9 +216,7 @@ def combined(report, page):
                   markersize=4.5, color=paint, label=label)
     axes.axhline(0.5, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     axes.set_xticks(range(len(graded)), [f"× {number(report.levels[n])}" for n, _ in graded])
-    axes.set_xlim(-0.5, len(graded) - 0.5)
-    axes.set_xlabel("noise")
-    axes.set_ylabel("Area under the ROC")
+    axes.set(xlim=(-0.5, len(graded) - 0.5), xlabel="noise", ylabel="Area under the ROC")
     legend_below(axes, 2)
     texts = []
     for n, c in graded:

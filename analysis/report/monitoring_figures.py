@@ -49,8 +49,8 @@ def _draw_indicators(axes, monitoring, series, names):
             about.append(f"{name}: sustained alarm at recording {at + 1}")
     axes.set_yscale("symlog", linthresh=3)
     _boundary(axes, series, MUTED)
-    axes.set_xlabel("Recording, in time order")
-    axes.set_ylabel("Deviation from the first recordings,\nstandard deviations")
+    axes.set(xlabel="Recording, in time order",
+             ylabel="Deviation from the first recordings,\nstandard deviations")
     return "; ".join(about) or "no sustained alarm"
 
 
@@ -91,8 +91,7 @@ def _draw_teeth(axes, series):
     axes.figure.colorbar(image, ax=axes, label="Tooth RMS over the median tooth's")
     _boundary(axes, series, PAPER)
     axes.grid(False)
-    axes.set_xlabel("Recording, in time order")
-    axes.set_ylabel("Tooth, from the baseline's start")
+    axes.set(xlabel="Recording, in time order", ylabel="Tooth, from the baseline's start")
     last = columns[-1]
     known = [value for value in last if not math.isnan(value)]
     return (f"in the last recording tooth {last.index(max(known)) + 1} stands out, "

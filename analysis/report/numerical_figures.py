@@ -35,11 +35,9 @@ def _chart(page, shares):
         points = [(max(s[key], LEAST), row) for row, s in enumerate(shares) if s[key] is not None]
         axes.plot([x for x, _ in points], [row for _, row in points], linestyle="none", marker=mark,
                   markersize=5, color=paint, label=label)
-    axes.set_xscale("log")
-    axes.set_xlim(LEAST / 2, 1)
     axes.set_yticks(range(len(shares)), [s["feature"] for s in shares])
-    axes.set_ylim(len(shares) - 0.5, -0.5)
-    axes.set_xlabel("Error of the detection rate")
+    axes.set(xscale="log", xlim=(LEAST / 2, 1), ylim=(len(shares) - 0.5, -0.5),
+             xlabel="Error of the detection rate")
     legend_below(axes, 2)
     about = "; ".join(f"{s['feature']}: numerical {number(s['pd'])}, statistical "
                       f"{number(s['pd_half_width'])}" for s in shares)

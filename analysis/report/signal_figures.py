@@ -37,10 +37,8 @@ def _time_charts(report, page, key, scale, axis, what):
                   color=NOISY, linewidth=0.6, label=f"with {noise(level)}")
         axes.plot(g[key]["clean"]["mesh"], [scale * v for v in g[key]["clean"]["value"]],
                   color=colour(0), linewidth=0.9, label="without noise")
-        axes.set_xlim(0, turn)
-        axes.set_ylim(-1.05 * largest or -1, 1.05 * largest or 1)
-        axes.set_xlabel("Mesh periods of one turn of the monitored gear")
-        axes.set_ylabel(axis)
+        axes.set(xlim=(0, turn), ylim=(-1.05 * largest or -1, 1.05 * largest or 1),
+                 xlabel="Mesh periods of one turn of the monitored gear", ylabel=axis)
         axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
         legend_above(axes)
         clean = [scale * v for v in g[key]["clean"]["value"]]
@@ -125,10 +123,8 @@ def spectrogram(report, page):
         for order in range(1, int(lines[-1] / max(given["mesh_Hz"])) + 1):
             axes.plot(times, [order * f for f in given["mesh_Hz"]], color="white", linewidth=0.5,
                       linestyle=(0, (1, 3)))
-        axes.set_ylim(lines[0], lines[-1])
+        axes.set(ylim=(lines[0], lines[-1]), xlabel="Time, s", ylabel="Frequency, Hz")
         axes.grid(False)
-        axes.set_xlabel("Time, s")
-        axes.set_ylabel("Frequency, Hz")
         axes.set_title(_name(report, g), fontsize=10, loc="left")
         slowest, fastest = min(given["mesh_Hz"]), max(given["mesh_Hz"])
         rows.append([_name(report, g), number(slowest, 4), number(fastest, 4),
@@ -157,12 +153,10 @@ def _spectrum_chart(report, page, g, band, largest):
         axes.plot(lines["frequency_Hz"], [max(v, 1e-7 * largest) for v in lines["amplitude"]],
                   color=paint, linewidth=0.8, label=label)
     lines = g["spectrum"][band]["clean"]
-    axes.set_yscale("log")
-    axes.set_ylim(1e-5 * largest, 2 * largest)
-    axes.set_xlim(0 if band == "whole" else min(lines["frequency_Hz"], default=0),
-                  max(lines["frequency_Hz"], default=1))
-    axes.set_xlabel("Frequency, Hz")
-    axes.set_ylabel("Amplitude, m/s²")
+    lowest = 0 if band == "whole" else min(lines["frequency_Hz"], default=0)
+    axes.set(yscale="log", ylim=(1e-5 * largest, 2 * largest),
+             xlim=(lowest, max(lines["frequency_Hz"], default=1)), xlabel="Frequency, Hz",
+             ylabel="Amplitude, m/s²")
     closer = "" if band == "whole" else ", closer"
     axes.set_title(_name(report, g) + closer, fontsize=10, loc="left", pad=16)
     legend_above(axes)
@@ -194,9 +188,8 @@ def tooth_rms(report, page):
                       marker="o", markersize=3.4, linewidth=1, label=label)
             head.append(f"{_name(report, g)}, {label}, m/s²")
             columns.append(values)
-        axes.set_ylim(lowest - 0.06 * (highest - lowest), highest + 0.1 * (highest - lowest))
-        axes.set_xlabel("Tooth of the monitored gear")
-        axes.set_ylabel("RMS over median")
+        axes.set(ylim=(lowest - 0.06 * (highest - lowest), highest + 0.1 * (highest - lowest)),
+                 xlabel="Tooth of the monitored gear", ylabel="RMS over median")
         axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
         legend_above(axes)
         values = g["tooth_rms"]["noisy"]
@@ -241,11 +234,8 @@ def sensors(report, page):
             rows.append([_name(report, g), name, number(lines["amplitude"][top]),
                          number(orders[top], 5), str(worst + 1),
                          number(values[worst] / (_median(values) or 1), 4)])
-        axes.set_yscale("log")
-        axes.set_ylim(1e-4 * largest, 2 * largest)
-        axes.set_xlim(0, orders[-1])
-        axes.set_xlabel("Mesh orders")
-        axes.set_ylabel("Amplitude, m/s²")
+        axes.set(yscale="log", ylim=(1e-4 * largest, 2 * largest), xlim=(0, orders[-1]),
+                 xlabel="Mesh orders", ylabel="Amplitude, m/s²")
         axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
         legend_above(axes)
         charts.append(to_svg(figure, f"Order spectrum of every sensor, {_name(report, g)}",
@@ -257,8 +247,7 @@ def sensors(report, page):
             values = one["tooth_rms"]["noisy"]
             axes.plot(range(1, len(values) + 1), [v / (_median(values) or 1) for v in values],
                       color=colour(i), marker=marker(i), markersize=3.4, linewidth=1, label=name)
-        axes.set_xlabel("Tooth of the monitored gear")
-        axes.set_ylabel("RMS over median")
+        axes.set(xlabel="Tooth of the monitored gear", ylabel="RMS over median")
         axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
         legend_above(axes)
         charts.append(to_svg(figure, f"RMS of each tooth at every sensor, {_name(report, g)}",
@@ -309,10 +298,7 @@ def stiffness(report, page):
         values = pair["stiffness"]
         rows.append([pair["name"], number(min(values) / 1e9), number(sum(values) / len(values) / 1e9),
                      number(max(values) / 1e9)])
-    axes.set_ylim(0, None)
-    axes.set_xlim(0, 1)
-    axes.set_xlabel("Mesh period")
-    axes.set_ylabel("Stiffness, GN/m")
+    axes.set(ylim=(0, None), xlim=(0, 1), xlabel="Mesh period", ylabel="Stiffness, GN/m")
     axes.set_title("healthy pairs", fontsize=10, loc="left")
     axes.legend(loc="lower right")
     charts.append(to_svg(figure, "Stiffness of healthy gear pairs over a mesh period",
@@ -357,10 +343,8 @@ def _passage(report, page, passage):
                    for f, h in zip(curve["stiffness"], passage["healthy"]))
         rows.append([passage["pair"], report.sizes.text(curve["size"]),
                      number(min(curve["stiffness"]) / 1e9), f"{number(100 * loss)} %"])
-    axes.set_ylim(0, None)
-    axes.set_xlim(passage["mesh"][0], passage["mesh"][-1])
-    axes.set_xlabel("Mesh periods since the faulty tooth engaged")
-    axes.set_ylabel("Stiffness, GN/m")
+    axes.set(ylim=(0, None), xlim=(passage["mesh"][0], passage["mesh"][-1]),
+             xlabel="Mesh periods since the faulty tooth engaged", ylabel="Stiffness, GN/m")
     axes.set_title(f"{passage['pair']} with the faulty tooth", fontsize=10, loc="left")
     axes.legend(loc="lower right", ncol=2, fontsize=8, columnspacing=1, handlelength=1.5)
     about = "; ".join(f"{r[1]}: smallest {r[2]} GN/m, loses up to {r[3]}" for r in rows)

@@ -140,14 +140,12 @@ def _by_noise(axes, report):
         if f is None:
             axes.annotate("none", (n, 0), xytext=(0, 4), textcoords="offset points", ha="center",
                           fontsize=8, color=MUTED)
-    axes.set_xlim(-0.5, len(report.levels) - 0.5)
-    axes.set_ylim(0, 1.15 * (report.sizes.shown(largest) or 1))
+    axes.set(xlim=(-0.5, len(report.levels) - 0.5), xlabel="Noise", ylabel=report.sizes.axis(),
+             ylim=(0, 1.15 * (report.sizes.shown(largest) or 1)))
     step = max(1, -(-len(report.levels) // MOST_LEVELS))
     axes.set_xticks(range(0, len(report.levels), step),
                     [f"× {number(level)}" for level in report.levels[::step]])
     axes.grid(axis="x", visible=False)
-    axes.set_xlabel("Noise")
-    axes.set_ylabel(report.sizes.axis())
     axes.set_title("Smallest fault found", fontsize=10, loc="left")
 
 

@@ -56,9 +56,7 @@ def _depths(campaign, best, page):
             found += 1
             axes.plot([alarm], [_depth_at(life, alarm)], marker="o", color=colour(1),
                       markersize=4.5, markeredgewidth=0, zorder=4)
-    axes.set_xlabel("Machine hours")
-    axes.set_ylabel("Depth of the crack, mm")
-    axes.set_ylim(bottom=0)
+    axes.set(xlabel="Machine hours", ylabel="Depth of the crack, mm", ylim=(0, None))
     return to_svg(figure, "Depth of the crack over machine hours",
                   f"{min(DRAWN, len(campaign.worked))} lives, {found} of them found", page.names)
 
@@ -85,8 +83,8 @@ def _deviations(campaign, best, page):
     if largest > 50.0:
         _set_decades(axes)
     axes.axvline(campaign.crack_h, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
-    axes.set_xlabel("Machine hours (dashed: crack initiation)")
-    axes.set_ylabel("Deviation, standard deviations")
+    axes.set(xlabel="Machine hours (dashed: crack initiation)",
+             ylabel="Deviation, standard deviations")
     axes.set_title(name, fontsize=10, color=INK, loc="left")
     return to_svg(figure, f"{name}: deviation from the baseline over machine hours",
                   f"{len(one['lives'])} lives with cracks, and the band of 90\u00a0% of the "
@@ -123,10 +121,8 @@ def warning_times(campaign, page):
                   label=f"{name}, {best['detector']}")
         rows.append([name, best["detector"], f"{best['found']}/{best['ended']}",
                      _hours(best["warning_50_h"]), _hours(best["warning_90_h"])])
-    axes.set_xlabel("Hours before the tooth breaks")
-    axes.set_ylabel("Share found by then")
-    axes.set_xlim(longest * 1.02, 0)
-    axes.set_ylim(0, 1.02)
+    axes.set(xlabel="Hours before the tooth breaks", ylabel="Share found by then",
+             xlim=(longest * 1.02, 0), ylim=(0, 1.02))
     legend_below(axes, 1)
     svg = to_svg(figure, "Share of cracks found against the time that is left",
                  "; ".join(f"{r[0]}: {r[2]} found" for r in rows), page.names)
@@ -162,10 +158,8 @@ def trade_off(campaign, page):
                          "50 % found by, mm", "90 % found by, mm"], rows)
     if not drawn:
         return blocks.note("The healthy lives are too few for a threshold at any of these rates.") + data
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1.05 * campaign.last_mm)
-    axes.set_xlabel("False alarms per 1000 hours")
-    axes.set_ylabel("90 % found by, mm")
+    axes.set(xscale="log", ylim=(0, 1.05 * campaign.last_mm),
+             xlabel="False alarms per 1000 hours", ylabel="90 % found by, mm")
     legend_below(axes, 1)
     svg = to_svg(figure, "Depth at detection against false alarms per 1000 hours",
                  "; ".join(f"{one['feature']} by {one['detector']}"

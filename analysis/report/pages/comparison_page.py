@@ -53,10 +53,9 @@ def _forest(compared, page, key, axis, scale):
         _interval(axes, y, scale * entry["difference"], ends, k)
     axes.set_yticks(range(len(drawn)), [name if len(compared.files) == 2 else
                                         f"{name}, {letter(k)}" for k, name, _, _ in drawn])
-    axes.set_ylim(len(drawn) - 0.5, -0.5)
+    axes.set(ylim=(len(drawn) - 0.5, -0.5), xlabel=axis)
     axes.margins(x=0.15)
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel(axis)
     svg = to_svg(figure, title, "; ".join(f"{name}, {letter(k)}: {text}"
                                           for k, name, _, text in drawn), page.names)
     return page.figure(title, [svg], "Each file's value minus A's, with its interval; right of the "
@@ -78,9 +77,8 @@ def _rates(compared, page, k):
         axes.plot(x, [s["difference"] for s in sizes], linestyle="none", marker="o", markersize=4.5,
                   markeredgewidth=0, color=colour(k))
         reach = max(0.05, *(abs(v) for s in sizes for v in (s["lower"], s["upper"])))
-        axes.set_ylim(-1.05 * reach, 1.05 * reach)
-        axes.set_xlabel(compared.sizes.axis())
-        axes.set_ylabel(f"Detection rate, {letter(k)} minus A")
+        axes.set(ylim=(-1.05 * reach, 1.05 * reach), xlabel=compared.sizes.axis(),
+                 ylabel=f"Detection rate, {letter(k)} minus A")
         axes.set_title(feature["name"], fontsize=10, color=INK, loc="left")
         charts.append(to_svg(figure, f"{feature['name']}: detection rate, {letter(k)} minus A",
                              "; ".join(f"{compared.sizes.group(s['size_low'], s['size_high'])}: "

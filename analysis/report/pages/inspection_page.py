@@ -65,9 +65,7 @@ def draw_curve(axes, inspection):
         axes.annotate(inspection.sizes.text(upper["size"], DIGITS), (at, 0.05), xytext=(4, 0), textcoords="offset points",
                       fontsize=9, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none",
                                                    "pad": 1.2, "alpha": 0.85})
-    axes.set_ylim(-0.02, 1.03)
-    axes.set_xlabel(inspection.sizes.axis())
-    axes.set_ylabel("Probability of detection")
+    axes.set(ylim=(-0.02, 1.03), xlabel=inspection.sizes.axis(), ylabel="Probability of detection")
 
 
 def _curve(inspection, page):
@@ -134,10 +132,8 @@ def _trade_off(inspection, page):
                 if p["a90"][name]["where"] == "reached" else nothing for p in points]
     axes.plot(x, sizes_of("estimate"), color=colour(0), label="a90")
     axes.plot(x, sizes_of("upper"), color=colour(1), linestyle=dash(1), label=inspection.bound)
-    if known:
-        axes.set_xscale("log")
-    axes.set_xlabel("False-call probability" if known else "Threshold")
-    axes.set_ylabel(inspection.sizes.axis())
+    axes.set(xscale="log" if known else "linear", ylabel=inspection.sizes.axis(),
+             xlabel="False-call probability" if known else "Threshold")
     legend_below(axes, 2)
     svg = to_svg(figure, "What another threshold would trade",
                  "Detectable size against " + ("false calls" if known else "threshold"), page.names)

@@ -34,10 +34,8 @@ def _diagram(data, page):
               linestyle="none", marker="o", markersize=4, color=INK, label="critical speed")
     axes.axvline(abs(campbell["nominal_rpm"]), color=INK, linestyle=":", linewidth=0.9,
                  label="nominal speed")
-    axes.set_xlim(0, rpm[-1])
-    axes.set_ylim(0, highest)
-    axes.set_xlabel(f"Speed of the {member}, rpm")
-    axes.set_ylabel("Frequency, Hz")
+    axes.set(xlim=(0, rpm[-1]), ylim=(0, highest), xlabel=f"Speed of the {member}, rpm",
+             ylabel="Frequency, Hz")
     legend_below(axes, 2)
     rows = [[number(one["rpm"], 5), number(one["rpm"] / campbell["nominal_rpm"], 4),
              str(one["harmonic"]), number(one["frequency_Hz"], 5), str(one["modes"])]

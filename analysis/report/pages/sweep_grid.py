@@ -162,8 +162,7 @@ def charts_of(swept, page, title, axis, lines, limits=None):
                             if math.isinf(end):
                                 open_end(axes, (place, at), (0, direction), colour(i))
         swept.along.set_axis(axes)
-        axes.set_ylim(low, high)
-        axes.set_ylabel(axis)
+        axes.set(ylim=(low, high), ylabel=axis)
         legend_above(axes)
         if text:
             axes.set_title(text, fontsize=10, color=INK, loc="left",
