@@ -30,12 +30,10 @@ class Page:
                 f'<details><summary>Numbers of {label.lower()}</summary>{data}</details></figure>')
 
 
-def table(caption, head, rows, first_is_header=True):
+def table(caption, head, rows):
     """HTML of a table. `rows`: lists of cells; cells are text, not HTML."""
-    tag = 'th scope="row"' if first_is_header else "td"
-    close = "th" if first_is_header else "td"
     body = "".join(
-        "<tr>" + f"<{tag}>{escape(row[0])}</{close}>"
+        f'<tr><th scope="row">{escape(row[0])}</th>'
         + "".join(f"<td>{escape(cell)}</td>" for cell in row[1:]) + "</tr>" for row in rows)
     columns = "".join(f'<th scope="col">{escape(cell)}</th>' for cell in head)
     return (f'<div class="scroll" role="region" tabindex="0" aria-label="{escape(caption)}"><table>'

@@ -84,7 +84,10 @@ def legend_below(axes, columns, **options):
                 bbox_transform=axes.transAxes + below, **options)
 
 
-def legend_above(axes):
+def legend_above(axes, title, pad=16):
+    """Legend above the axes, and the title above it."""
+    if title:
+        axes.set_title(title, fontsize=10, loc="left", pad=pad)
     axes.legend(loc="lower right", bbox_to_anchor=(1.02, 0.98), ncol=2, borderpad=0,
                 columnspacing=1, handlelength=1.6)
 
@@ -120,6 +123,17 @@ def cell(axes, column, row, fill, text):
     # Not INK: the text is on the square, whatever the page's scheme.
     axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=9,
               color="#101418" if bright else "#fefefe")
+
+
+def map_axes(axes, title, columns, rows, axis, rotation=0):
+    """Axes of a map of squares over noise, with the names of its columns and rows."""
+    axes.set(xlim=(0, max(1, len(columns))), ylim=(0, max(1, len(rows))), xlabel=axis,
+             ylabel="noise")
+    axes.set_xticks([i + 0.5 for i in range(len(columns))], columns, rotation=rotation)
+    axes.set_yticks([i + 0.5 for i in range(len(rows))], rows)
+    axes.tick_params(length=0)
+    axes.grid(False)
+    axes.set_title(title, fontsize=10, loc="left")
 
 
 class SvgNames:

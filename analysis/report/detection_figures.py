@@ -2,8 +2,8 @@
 
 import math
 
-from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below, marker,
-                    panel, shade, to_svg)
+from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below,
+                    map_axes, marker, panel, shade, to_svg)
 from words import joined, noise, number, percent, rate
 
 REJECTED = "Dotted: curves that do not fit the hits and misses, without bounds."
@@ -188,19 +188,12 @@ def heat_maps(report, page):
         sizes = [report.sizes.group(c["size_low"], c["size_high"]).replace(
             f"\u00a0{report.sizes.unit}", "") for c in cells[0]]
         figure, axes = panel(0.95 + 0.36 * len(cells))
-        axes.grid(False)
         for n, row in enumerate(cells):
             for i, c in enumerate(row):
                 known = c["pd"] is not None
                 cell(axes, i, n, between(MISSED, FOUND, c["pd"]) if known else GAP, rate(c["pd"]))
-        axes.set(xlim=(0, max(1, len(sizes))), ylim=(0, max(1, len(cells))),
-                 xlabel=report.sizes.axis(), ylabel="noise")
-        axes.set_xticks([i + 0.5 for i in range(len(sizes))], sizes,
-                        rotation=40 if any(len(s) > 5 for s in sizes) else 0)
-        axes.set_yticks([n + 0.5 for n in range(len(cells))],
-                        [f"× {number(level)}" for level in report.levels])
-        axes.tick_params(length=0)
-        axes.set_title(report.names[f], fontsize=10, loc="left")
+        map_axes(axes, report.names[f], sizes, [f"× {number(level)}" for level in report.levels],
+                 report.sizes.axis(), rotation=40 if any(len(s) > 5 for s in sizes) else 0)
         about = "; ".join(
             f"{noise(level)}: " + ", ".join(rate(c["pd"]) for c in cells[n])
             for n, level in enumerate(report.levels))
@@ -251,12 +244,12 @@ def roc(report, page):
                        "".join(report.table(f"curves.{n}") for n in range(len(report.levels))))
 
 
-def rate_3(value, lower, upper):
-    if value is None:
+def area_text(area):
+    if area["auc"] is None:
         return "–"
-    if lower is None or upper is None:
-        return f"{value:.3f}"
-    return f"{value:.3f} [{lower:.3f}, {upper:.3f}]"
+    if area["lower"] is None or area["upper"] is None:
+        return f"{area['auc']:.3f}"
+    return f"{area['auc']:.3f} [{area['lower']:.3f}, {area['upper']:.3f}]"
 
 
 def ranking(report, page):
@@ -282,7 +275,7 @@ def ranking(report, page):
         legend_below(axes, min(levels, 5), title="noise", title_fontsize=9, handletextpad=0.1,
                      columnspacing=1)
     ranks = report.reliability["levels"][report.reference]["ranking"]
-    about = "; ".join(f"{r['name']} {rate_3(r['auc'], r['lower'], r['upper'])}"
+    about = "; ".join(f"{r['name']} {area_text(r)}"
                       for r in ranks["ranks"]) or str(ranks["refusal"])
     svg = to_svg(figure, f"Ranking of the features, by area under the ROC at "
                  f"{noise(report.levels[report.reference])}", about, page.names)

@@ -2,17 +2,12 @@
 bins, and a90 as a map over noise and input."""
 
 from blocks import note
-from charts import GAP, MUTED, between, cell, colour, legend_below, panel, to_svg
+from charts import GAP, MUTED, between, cell, colour, legend_below, map_axes, panel, to_svg
+from detection_figures import area_text, best
 from words import input_name, noise, number, percent, quantity, rate_with_bounds
 
 MOST_CHARTS = 6
 SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
-
-
-def _headline_feature(report):
-    """Number of the feature in the headline, otherwise of the best ranked feature."""
-    found = report.smallest[report.reference]
-    return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
 
 
 def sensitivity(report, page):
@@ -82,7 +77,7 @@ def _clear(effects):
 def rates_by_input(report, page):
     if not report.reliability.get("robustness"):
         return ""
-    f, n = _headline_feature(report), report.reference
+    f, n = best(report), report.reference
     effects = [e for e in _effects(report, f, n) if e[2]["bins"]]
     shown = (_clear(effects) or effects[:3])[:MOST_CHARTS]
     if not shown:
@@ -137,7 +132,7 @@ def a90_maps(report, page):
     maps = report.reliability.get("a90_maps")
     if not maps:
         return ""
-    f, n = _headline_feature(report), report.reference
+    f, n = best(report), report.reference
     names = [e[0] for e in _clear(_effects(report, f, n))]
     shown = [name for name in names if any(
         level["a90"] for level in maps[name]["features"][f]["levels"])][:MOST_CHARTS]
@@ -167,7 +162,6 @@ def _map_chart(report, page, f, name, entry):
     values = max((level["values"] for level in levels), key=len)
     largest = max((c["size_high"] for c in report.cells(f, 0)), default=1) or 1
     figure, axes = panel(0.95 + 0.36 * len(levels))
-    axes.grid(False)
     texts = []
     for n, level in enumerate(levels):
         row = []
@@ -183,13 +177,9 @@ def _map_chart(report, page, f, name, entry):
             row.append(text)
         texts.append(f"{noise(report.levels[n])}: {', '.join(row)}")
     factor, shown = _axis_scale([{"high": v} for v in values], entry["unit"])
-    axes.set(xlim=(0, len(values)), ylim=(0, len(levels)), ylabel="noise",
-             xlabel=input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
-    axes.set_xticks([i + 0.5 for i in range(len(values))], [number(v * factor) for v in values])
-    axes.set_yticks([n + 0.5 for n in range(len(levels))],
-                    [f"× {number(level)}" for level in report.levels])
-    axes.tick_params(length=0)
-    axes.set_title(f"a90, {report.sizes.unit or report.sizes.name}", fontsize=10, loc="left")
+    map_axes(axes, f"a90, {report.sizes.unit or report.sizes.name}",
+             [number(v * factor) for v in values], [f"× {number(v)}" for v in report.levels],
+             input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
     return to_svg(figure, f"a90 of {report.names[f]} over noise and "
                   f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)
 
@@ -220,18 +210,10 @@ def combined(report, page):
     legend_below(axes, 2)
     texts = []
     for n, c in graded:
-        texts.append(f"{noise(report.levels[n])}: {_area(c['single']['auc'])} single, "
-                     f"{_area(c['detector']['auc'])} combined")
+        texts.append(f"{noise(report.levels[n])}: {area_text(c['single']['auc'])} single, "
+                     f"{area_text(c['detector']['auc'])} combined")
     svg = to_svg(figure, "Area under the ROC of all features together and of the best single one",
                  "; ".join(texts), page.names)
     return page.figure("All features as one detector", [svg], report.text("combined.text"),
                        report.table("combined") + report.tables("weights.")
                        + report.notes("combined.note.")) + refused
-
-
-def _area(auc):
-    if auc["auc"] is None:
-        return "–"
-    if auc["lower"] is None:
-        return f"{auc['auc']:.3f}"
-    return f"{auc['auc']:.3f} [{auc['lower']:.3f}, {auc['upper']:.3f}]"

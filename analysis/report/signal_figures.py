@@ -1,5 +1,7 @@
 """Figures of the signals of the two example gearboxes, and of the mesh stiffness."""
 
+from statistics import median
+
 from blocks import note, paragraph, table
 from charts import INK, NOISY, colour, dash, legend_above, marker, panel, shade, to_svg
 from words import input_name, noise, number, quantity
@@ -39,8 +41,7 @@ def _time_charts(report, page, key, scale, axis, what):
                   color=colour(0), linewidth=0.9, label="without noise")
         axes.set(xlim=(0, turn), ylim=(-1.05 * largest or -1, 1.05 * largest or 1),
                  xlabel="Mesh periods of one turn of the monitored gear", ylabel=axis)
-        axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
-        legend_above(axes)
+        legend_above(axes, _name(report, g))
         clean = [scale * v for v in g[key]["clean"]["value"]]
         at = max(range(len(clean)), key=lambda i: abs(clean[i]))
         peak = (f"largest {number(clean[at])} {axis.rsplit(', ', 1)[-1]} at mesh "
@@ -158,8 +159,7 @@ def _spectrum_chart(report, page, g, band, largest):
              xlim=(lowest, max(lines["frequency_Hz"], default=1)), xlabel="Frequency, Hz",
              ylabel="Amplitude, m/s²")
     closer = "" if band == "whole" else ", closer"
-    axes.set_title(_name(report, g) + closer, fontsize=10, loc="left", pad=16)
-    legend_above(axes)
+    legend_above(axes, _name(report, g) + closer)
     about = ", ".join(f"{number(lines['amplitude'][i])} m/s² at "
                       f"{number(lines['frequency_Hz'][i], 5)} Hz" for i in _largest(lines, 3))
     return to_svg(figure, f"Spectrum of the sensor signal{closer}, {_name(report, g)}",
@@ -173,7 +173,7 @@ def tooth_rms(report, page):
     lowest, highest = 0.99, 1.02
     for g in gearboxes:
         for part in ("clean", "noisy"):
-            values, middle = g["tooth_rms"][part], _median(g["tooth_rms"][part])
+            values, middle = g["tooth_rms"][part], median(g["tooth_rms"][part])
             if middle > 0:
                 lowest = min(lowest, min(values) / middle)
                 highest = max(highest, max(values) / middle)
@@ -182,7 +182,7 @@ def tooth_rms(report, page):
         for part, paint, line, label in (("noisy", NOISY, "none", f"with {noise(level)}"),
                                          ("clean", colour(0), "-", "without noise")):
             values = g["tooth_rms"][part]
-            middle = _median(values) or 1.0
+            middle = median(values) or 1.0
             ratio = [v / middle for v in values]
             axes.plot(range(1, len(values) + 1), ratio, color=paint, linestyle=line,
                       marker="o", markersize=3.4, linewidth=1, label=label)
@@ -190,14 +190,13 @@ def tooth_rms(report, page):
             columns.append(values)
         axes.set(ylim=(lowest - 0.06 * (highest - lowest), highest + 0.1 * (highest - lowest)),
                  xlabel="Tooth of the monitored gear", ylabel="RMS over median")
-        axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
-        legend_above(axes)
+        legend_above(axes, _name(report, g))
         values = g["tooth_rms"]["noisy"]
         worst = max(range(len(values)), key=lambda i: values[i])
         charts.append(to_svg(
             figure, f"RMS of each tooth's signal, {_name(report, g)}",
             f"With {noise(level)} tooth {worst + 1} has the largest, "
-            f"{number(values[worst] / (_median(values) or 1), 4)} times the median", page.names))
+            f"{number(values[worst] / (median(values) or 1), 4)} times the median", page.names))
     count = max((len(c) for c in columns), default=0)
     rows = [[str(i + 1)] + [number(c[i], 4) for c in columns] for i in range(count)]
     how = ("Windowing collects the sensor signal of each tooth, as in Liang (2016), Fig. 5.8. A "
@@ -233,11 +232,10 @@ def sensors(report, page):
             worst = max(range(len(values)), key=lambda k: values[k])
             rows.append([_name(report, g), name, number(lines["amplitude"][top]),
                          number(orders[top], 5), str(worst + 1),
-                         number(values[worst] / (_median(values) or 1), 4)])
+                         number(values[worst] / (median(values) or 1), 4)])
         axes.set(yscale="log", ylim=(1e-4 * largest, 2 * largest), xlim=(0, orders[-1]),
                  xlabel="Mesh orders", ylabel="Amplitude, m/s²")
-        axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
-        legend_above(axes)
+        legend_above(axes, _name(report, g))
         charts.append(to_svg(figure, f"Order spectrum of every sensor, {_name(report, g)}",
                              "Largest lines without noise, in mesh orders: " + "; ".join(about),
                              page.names))
@@ -245,11 +243,10 @@ def sensors(report, page):
         figure, axes = panel(2.7)
         for i, (name, one) in enumerate(_by_sensor(g)):
             values = one["tooth_rms"]["noisy"]
-            axes.plot(range(1, len(values) + 1), [v / (_median(values) or 1) for v in values],
+            axes.plot(range(1, len(values) + 1), [v / (median(values) or 1) for v in values],
                       color=colour(i), marker=marker(i), markersize=3.4, linewidth=1, label=name)
         axes.set(xlabel="Tooth of the monitored gear", ylabel="RMS over median")
-        axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
-        legend_above(axes)
+        legend_above(axes, _name(report, g))
         charts.append(to_svg(figure, f"RMS of each tooth at every sensor, {_name(report, g)}",
                              f"With {noise(level)}, over the median tooth", page.names))
     how = (f"The same gearboxes at every sensor: order spectrum without noise, and RMS of each "
@@ -259,14 +256,6 @@ def sensors(report, page):
         "Largest line and worst tooth at every sensor",
         ["gearbox", "sensor", "largest line, m/s²", "at mesh order", "worst tooth",
          "RMS over median"], rows)) if gearboxes else ""
-
-
-def _median(values):
-    ordered = sorted(values)
-    middle = len(ordered) // 2
-    if not ordered:
-        return 0.0
-    return ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle])
 
 
 def gearbox_table(report):

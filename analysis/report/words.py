@@ -74,12 +74,6 @@ def count(value):
     return f"{value:,}".replace(",", "\u202f")
 
 
-def p_value(value):
-    if value is None:
-        return "–"
-    return "< 0.0001" if value < 1e-4 else number(value, 2)
-
-
 def joined(texts):
     """Enumeration: "a", "a and b", "a, b and c"."""
     texts = list(texts)

@@ -1,6 +1,7 @@
 """Page of gearpod sweep --lives: cracks found in time over the values of some keys."""
 
 import blocks
+from lives.campaign_data import millimetres
 from pages import sweep_grid
 from pages.sweep_grid import MOST_LINES, Grid
 from words import number, percent
@@ -15,10 +16,6 @@ class SweptLives(Grid):
     def of(self, point, feature, detector):
         return next((one for one in point["monitored"] if one["unranked"] is None
                      and (one["feature"], one["detector"]) == (feature, detector)), None)
-
-
-def _mm(metres):
-    return None if metres is None else 1e3 * metres
 
 
 def _figure(swept, page, title, axis, how, value, limits=None):
@@ -56,8 +53,8 @@ def parts(data, page):
             swept, page, "90 % found by", "Depth, mm",
             "The depth by which 90\u00a0% of the cracks are found, with its upper bound at "
             f"{sure}. An arrow: too few lives for a bound. No mark: fewer are found.",
-            lambda one: (_mm(one["depth_90_m"]), _mm(one["depth_90_m"]),
-                         _mm(one["depth_90_bound_m"]))))
+            lambda one: (millimetres(one["depth_90_m"]), millimetres(one["depth_90_m"]),
+                         millimetres(one["depth_90_bound_m"]))))
         body += page.section("warning", "Warning times", _figure(
             swept, page, "Warning", "Hours before the tooth breaks",
             "Of the cracks found, the median of the hours left at the alarm; the line "

@@ -9,7 +9,7 @@ import re
 from matplotlib.ticker import MaxNLocator
 
 import blocks
-from charts import INK, colour, dash, legend_above, marker, open_end, panel, to_svg
+from charts import colour, dash, legend_above, marker, open_end, panel, to_svg
 from report import Findings
 from words import count, escape, number
 
@@ -163,10 +163,7 @@ def charts_of(swept, page, title, axis, lines, limits=None):
                                 open_end(axes, (place, at), (0, direction), colour(i))
         swept.along.set_axis(axes)
         axes.set(ylim=(low, high), ylabel=axis)
-        legend_above(axes)
-        if text:
-            axes.set_title(text, fontsize=10, color=INK, loc="left",
-                           pad=6 + 14 * ((len(lines) + 1) // 2))
+        legend_above(axes, text, pad=6 + 14 * ((len(lines) + 1) // 2))
         about = "; ".join(f"{name}: " + ", ".join(
             f"{number(at)} at {swept.along.labels[value['values'][swept.along.key]]}"
             for value, (_, at, _, _) in zip(chosen, line))
