@@ -97,6 +97,15 @@ inline std::string within_memory([[maybe_unused]] int kilobytes) {
 #endif
 }
 
+// Option of `describe` that lets it measure as much as a release build does in so many seconds.
+// The sanitizers make programs about fifteen times as slow.
+inline std::string measuring_for(int seconds) {
+#ifdef __SANITIZE_ADDRESS__
+    seconds *= 15;
+#endif
+    return " --seconds " + std::to_string(seconds);
+}
+
 // Runs the program. `describe` measures for 10 s of each thread by default, here for 3 s.
 inline Outcome program(const std::string& arguments) {
     const bool measures = arguments.starts_with("describe ") &&

@@ -28,9 +28,9 @@ TEST_CASE("describe names effects that change nothing and those that a study lac
 }
 
 TEST_CASE("describe measures effects on short records where every mesh period is integrated") {
-    const auto description = program("describe " + test::study("published/yang-pitch-errors.toml") +
-                                     " --set ensemble.instances=8 --set "
-                                     "ensemble.threshold_instances=20");
+    const auto description = program(
+        "describe " + test::study("published/yang-pitch-errors.toml") + test::measuring_for(3) +
+        " --set ensemble.instances=8 --set ensemble.threshold_instances=20");
     INFO(description.output);
     REQUIRE(description.code == 0);
     CHECK(description.mentions("s: 3 turns of "));

@@ -46,10 +46,10 @@ TEST_CASE("describe ends within its time and memory for any counts in a study") 
           std::string("numerics.tolerance=1e-9"),
           std::string("numerics.steps_per_mesh=1000000' --set 'numerics.max_meshes=1000000")}) {
         const double start_s = children_processor_s();
-        const Outcome outcome = bounded("describe " + study + " --seconds 3 --set '" + set + "'");
+        const Outcome outcome = bounded("describe " + study + " --seconds 2 --set '" + set + "'");
         INFO(set.substr(0, 40) << "\n" << outcome.output);
         CHECK((outcome.code == 0 || outcome.code == 2));
-        CHECK(children_processor_s() - start_s < 40);  // two threads for 3 s, and the set-up
+        CHECK(children_processor_s() - start_s < 40);  // two threads for 2 s, and the set-up
         CHECK_FALSE(outcome.mentions("std::"));
         CHECK_FALSE(outcome.mentions("nan"));
     }

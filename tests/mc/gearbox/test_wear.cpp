@@ -110,12 +110,12 @@ TEST_CASE("The transmission error of a pair varies the more the deeper its flank
 
 TEST_CASE("The baseline record of a worn gearbox is that of the gearbox without wear") {
     const auto tile_of = [](const std::string& depth) {
-        const Scene scene(test::study_of_text(
-            worn_example("\"sun\""),
-            {"fault.wear_um=20",
-             "random.fault.wear_um={distribution='levels',values=[" + depth + ",20]}",
-             "features.use=['change_sensor_rms','own_sensor_rms']", "sensor.sampling_Hz=5000",
-             "operation.carrier_speed_rpm=200"}));
+        std::vector<std::string> settings = kFast;
+        settings.insert(settings.end(),
+                        {"fault.wear_um=20",
+                         "random.fault.wear_um={distribution='levels',values=[" + depth + ",20]}",
+                         "features.use=['change_sensor_rms','own_sensor_rms']"});
+        const Scene scene(test::study_of_text(worn_example("\"sun\""), settings));
         const GearboxId first{Group::graded, 0};
         return run_gearboxes(scene, sensor_paths(scene), std::span(&first, 1), 1, {});
     };
