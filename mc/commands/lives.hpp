@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mc/commands/report.hpp"
+#include "mc/commands/report_options.hpp"
 #include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {

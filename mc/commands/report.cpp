@@ -1,5 +1,5 @@
-#include "mc/commands/report.hpp"
-
+// Command `report RESULTS`: detection rates, POD and ranking of the results of a run, as text,
+// JSON, page, sheet, tables, evidence pack and dataset.
 #include <fmt/core.h>
 
 #include <exception>
@@ -9,7 +9,9 @@
 #include <tuple>
 
 #include "mc/commands/commands.hpp"
+#include "mc/commands/lives.hpp"
 #include "mc/commands/output_folder.hpp"
+#include "mc/commands/report_options.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/atomic_file.hpp"

@@ -226,9 +226,11 @@ class InBrowser(unittest.TestCase):
         reached = []
         for _ in expected:
             ActionChains(self.browser).send_keys(Keys.TAB).perform()
-            reached.append(self.script("return document.activeElement.dataset.order"))
-            self.assertNotEqual(self.script(
-                "return getComputedStyle(document.activeElement).outlineStyle"), "none")
+            order, outline = self.script(
+                "const at = document.activeElement;"
+                "return [at.dataset.order, getComputedStyle(at).outlineStyle];")
+            reached.append(order)
+            self.assertNotEqual(outline, "none")
         self.assertEqual(reached, [str(i) for i in range(len(expected))])
         self.assertEqual(expected[0], "A")  # skips the header with one key
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/record_window.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "tests/mc/program.hpp"
