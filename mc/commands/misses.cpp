@@ -12,6 +12,7 @@
 #include "mc/commands/study_results.hpp"
 #include "mc/ensemble/miss_rate.hpp"
 #include "mc/input/wrapped_text.hpp"
+#include "mc/options/options.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/other_sources.hpp"
 #include "mc/study/schema/schema.hpp"

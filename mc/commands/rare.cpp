@@ -10,6 +10,7 @@
 #include "mc/commands/study_results.hpp"
 #include "mc/ensemble/rare_rate.hpp"
 #include "mc/input/wrapped_text.hpp"
+#include "mc/options/options.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mc/commands/commands.hpp"
+#include "mc/commands/features.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/signal_file.hpp"

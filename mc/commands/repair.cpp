@@ -16,6 +16,7 @@
 #include "mc/results/file_checksum.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
+#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 namespace {

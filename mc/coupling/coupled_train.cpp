@@ -9,6 +9,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/varying_forces.hpp"
+#include "mc/coupling/record_positions.hpp"
 #include "mc/study/other_sources.hpp"
 
 namespace gearpod::mc {
