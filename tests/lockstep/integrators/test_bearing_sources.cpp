@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
 #include "tests/lockstep/liang_train.hpp"
 

@@ -7,6 +7,7 @@
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/tile/excited_integrator.hpp"
 #include "lockstep/tile/mesh_integrator.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
 #include "stiffness/gapped_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"

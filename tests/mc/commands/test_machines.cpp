@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/reliability_json.hpp"
 #include "mc/results/reliability_of_results.hpp"
