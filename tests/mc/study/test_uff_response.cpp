@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "mc/files/signal_file.hpp"
+#include "mc/input/problems.hpp"
 #include "mc/study/elements/uff_response.hpp"
+#include "mc/study/study.hpp"
 #include "tests/mc/gearbox/small_runs.hpp"
 #include "tests/mc/recording_bytes.hpp"
 
