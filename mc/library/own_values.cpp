@@ -23,7 +23,7 @@ void check_own_values(const std::string& path, const Results& results, const Own
         throw BadInput(fmt::format("{}: has {} rows, but {} has {} values; give one per row", path,
                                    results.status.size(), own.name, own.values.size()));
     }
-    if (std::ranges::count(results.parameters, kNoiseWeight, &ParameterResult::name) > 0) {
+    if (results.parameter_index(kNoiseWeight)) {
         throw BadInput(path +
                        ": its threshold records are importance-sampled (ensemble.threshold_tilt), "
                        "so values without weights cannot be evaluated; run the study without it");

@@ -123,10 +123,7 @@ std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
         counts.near.assign(groups.size(), 0);
         counts.tested.assign(groups.size(), 0);
     }
-    std::size_t size_at = 0;
-    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
-        size_at = frame.parameters[p].name == frame.request.size.name ? p : size_at;
-    }
+    const std::size_t size_at = frame.parameter_index(frame.request.size.name).value_or(0);
     for_each_row(rows, [&](const ResultRow& row) {
         const bool graded = row.group == static_cast<int>(Group::graded);
         const auto group = analysis::group_of(row.values[size_at], groups);

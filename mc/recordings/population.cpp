@@ -95,10 +95,8 @@ Population read_population(const std::string& path, double noise_level, const St
     population.false_alarm_rate = results.request.false_alarm_rate;
     const std::size_t level = level_of(path, results, noise_level);
     std::vector<double> sizes(results.group.size(), 0.0);
-    for (const ParameterResult& parameter : results.parameters) {
-        if (parameter.name == results.request.size.name) {
-            sizes = parameter.values;
-        }
+    if (const auto size = results.parameter_index(results.request.size.name)) {
+        sizes = results.parameters[*size].values;
     }
     for (std::size_t f = 0; f < results.features.size(); ++f) {
         PopulationFeature feature = feature_of(results, f, level, sizes);

@@ -39,13 +39,13 @@ std::vector<OneSensor> sensors_of(const Results& frame, const RowSource& rows, s
             features.push_back(f);
         }
     }
-    const auto size =
-        std::ranges::find(frame.parameters, frame.request.size.name, &ParameterResult::name);
+    const auto size_at = frame.parameter_index(frame.request.size.name);
     std::vector<OneSensor> all;
     std::vector<std::size_t> variants;
     const auto add = [&](const std::string& name) {
         Results own;
-        own.parameters.push_back({size->name, size->unit, {}});
+        const ParameterResult& size = frame.parameters[*size_at];
+        own.parameters.push_back({size.name, size.unit, {}});
         own.noise_levels = {frame.noise_levels[level]};
         own.request = frame.request;
         own.request.noise_levels = own.noise_levels;
@@ -56,7 +56,7 @@ std::vector<OneSensor> sensors_of(const Results& frame, const RowSource& rows, s
         }
         all.push_back({name, std::move(own)});
     };
-    if (features.empty() || size == frame.parameters.end()) {
+    if (features.empty() || !size_at) {
         return all;
     }
     add("first");
@@ -66,13 +66,12 @@ std::vector<OneSensor> sensors_of(const Results& frame, const RowSource& rows, s
             add(frame.variants[v].name.substr(kSensorVariant.size()));
         }
     }
-    const auto size_at = static_cast<std::size_t>(size - frame.parameters.begin());
     for_each_row(rows, [&](const ResultRow& row) {
         for (std::size_t s = 0; s < all.size(); ++s) {
             Results& own = all[s].results;
             own.group.push_back(row.group);
             own.status.push_back(row.status);
-            own.parameters[0].values.push_back(row.values[size_at]);
+            own.parameters[0].values.push_back(row.values[*size_at]);
             for (std::size_t f = 0; f < features.size(); ++f) {
                 const std::size_t at =
                     s == 0 ? shape.value_of(features[f], level)

@@ -28,8 +28,8 @@ RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange
     read_rows(root, "status", {rows}, range, integers);
     block.status.assign(integers.begin(), integers.end());
     block.values.resize(range.count * row_shape(frame).values());
+    std::vector<double> values;
     for_each_column(frame, [&](const auto& column) {
-        std::vector<double> values;
         read_rows(root, column.dataset, column.by_level ? Shape{rows, column.width} : Shape{rows},
                   range, values);
         block.put(values.data(), column.first, column.width);

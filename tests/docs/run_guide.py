@@ -28,11 +28,10 @@ SMALL = {
               "--set", "life.depth_steps=4", "--set", "life.distinct_torques=2"],
     "describe": ["--seconds", "2"],
 }
-REAL_TEETH = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml", "studies/two-stages.toml",
-              "studies/real-teeth.toml", "studies/indicator-league.toml", "studies/worn-sun.toml", "stage.toml")
 # Studies of slow gearboxes, which turn faster here: a mesh period then has fewer samples and steps.
 SLOW = ("studies/planet-crack.toml", "studies/bearing-fault.toml", "studies/sensor-places.toml", "studies/two-stages.toml",
         "studies/planet-life.toml")
+REAL_TEETH = (*SLOW, "studies/real-teeth.toml", "studies/indicator-league.toml", "studies/worn-sun.toml", "stage.toml")
 FASTER = ["--set", "operation.carrier_speed_rpm=60"]
 LAUNCHER = """#!/usr/bin/python3 -Bs
 import os, sys
