@@ -123,11 +123,11 @@ std::optional<int> ListElement::choice(std::string_view name, std::span<const Ch
         }
         texts.push_back(choice.text);
     }
-    const std::string known = fmt::format("one of \"{}\"", fmt::join(texts, "\", \""));
     if (value->kind != Value::Kind::text) {
-        reject(fmt::format("{} must be a string, but is {}", name, value->shown()), known);
+        reject(fmt::format("{} must be a string, but is {}", name, value->shown()),
+               fmt::format("use one of {}", fmt::join(texts, ", ")));
     } else {
-        reject(fmt::format("{}: unknown value \"{}\" ({})", name, value->text, known),
+        reject(fmt::format("{}: unknown value \"{}\"", name, value->text),
                suggest(value->text, texts));
     }
     return std::nullopt;

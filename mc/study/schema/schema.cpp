@@ -88,12 +88,20 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     return std::string(indent, ' ') + wrapped_text(text, indent) + '\n';
 }
 
+// Whether a word of the text begins so, in capitals or not: "fault" is not in "default".
 bool contains(std::string_view text, std::string_view word) {
     const auto same = [](char a, char b) {
         return std::tolower(static_cast<unsigned char>(a)) ==
                std::tolower(static_cast<unsigned char>(b));
     };
-    return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+    auto from = text.begin();
+    while ((from = std::search(from, text.end(), word.begin(), word.end(), same)) != text.end()) {
+        if (from == text.begin() || std::isalnum(static_cast<unsigned char>(from[-1])) == 0) {
+            return true;
+        }
+        ++from;
+    }
+    return word.empty();
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ const Key* find_key(std::string_view path);
 std::string_view choice_text(const Study& study, std::string_view section, std::string_view name);
 
 // Reference of the keys for help, at most 80 columns wide: type, range and meaning. Lists the keys
-// with `word` in section, name or meaning, ignoring case; "" if there is none.
+// where a word of section, name or meaning begins with `word`, ignoring case; "" if there is none.
 std::string schema_help(std::string_view word = "");
 
 }  // namespace gearpod::mc
