@@ -2,7 +2,8 @@
 install(TARGETS gearpod RUNTIME)
 set(share ${CMAKE_INSTALL_DATADIR}/gearpod)
 install(DIRECTORY studies/ DESTINATION ${share}/studies
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.ipynb" PATTERN "figures.json" PATTERN "study.schema.json" PATTERN "*.csv")
+  FILES_MATCHING PATTERN "*.toml" PATTERN "own_features.py" PATTERN "*.ipynb" PATTERN "figures.json"
+  PATTERN "study.schema.json" PATTERN "*.csv")
 install(PROGRAMS studies/slurm.sh studies/slurm-array.sh DESTINATION ${share}/studies)
 install(DIRECTORY analysis/report/ DESTINATION ${share}/report
   FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "__pycache__" EXCLUDE)

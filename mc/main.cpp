@@ -1,11 +1,15 @@
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "mc/commands/commands.hpp"
 #include "mc/forecast/memory.hpp"
 #include "mc/help/man_page.hpp"
 #include "mc/help/reference.hpp"
+#include "mc/input/spelling.hpp"
 #include "mc/options/options.hpp"
 #include "mc/options/program.hpp"
 #include "mc/results/provenance.hpp"
@@ -16,14 +20,16 @@ using namespace gearpod::mc;
 
 // True if `name` is a command; otherwise prints an error.
 bool is_command(CLI::App& app, const std::string& name) {
-    std::string names;
+    std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) {
-        if (command->get_name() == name) {
-            return true;
-        }
-        names += (names.empty() ? "" : ", ") + command->get_name();
+        names.push_back(command->get_name());
     }
-    fmt::print(stderr, "{}: unknown command; the commands are {}\n", name, names);
+    if (std::ranges::find(names, name) != names.end()) {
+        return true;
+    }
+    const std::string meant = suggest(name, {names.begin(), names.end()});
+    fmt::print(stderr, "{}: unknown command; {}the commands are {}\n", name,
+               meant.starts_with("did you mean") ? meant + " " : "", fmt::join(names, ", "));
     return false;
 }
 
@@ -47,7 +53,7 @@ void add_descriptions(CLI::App& app) {
 
 int run_program(int argc, char** argv) {
     CLI::App app{
-        "gearpod: which gear-tooth cracks do a sensor, a feature and a threshold detect, and with "
+        "gearpod: which gear-tooth faults do a sensor, a feature and a threshold detect, and with "
         "what probability?"};
     app.set_version_flag("--version", build_text(), "print the version and the build settings");
     add_descriptions(app);

@@ -348,6 +348,12 @@ std::string target_text(const InspectionRequest& request, const InspectionResult
                                             : result.hit_miss.specimens_factor;
     const std::string bound = bound_name(request),
                       target = with_unit(*request.target, unit, kDigits);
+    if (std::isnan(factor)) {
+        return fmt::format(
+            "The number of specimens that {} at {} needs is computed for lines and hit/miss "
+            "curves only.",
+            bound, target);
+    }
     if (!std::isfinite(factor)) {
         return fmt::format("More specimens cannot bring {} to {}: a90 itself is not below it.",
                            bound, target);

@@ -122,7 +122,8 @@ def random_schema(reference):
     pair = {"type": "object",
             "properties": {"between": {"type": "array", "items": {"type": "string"},
                                        "minItems": 2, "maxItems": 2},
-                           "rank": {"type": "number", "minimum": -1, "maximum": 1}},
+                           "rank": {"type": "number", "exclusiveMinimum": -1,
+                                    "exclusiveMaximum": 1}},
             "required": ["between", "rank"], "additionalProperties": False}
     return {"type": "object", "additionalProperties": False,
             "properties": {**sections, "correlations": {"type": "array", "items": pair}}}

@@ -236,13 +236,13 @@ void print_fallback(const Study& study, const std::optional<Scene>& scene,
     }
 }
 
-// Prints all keys, or those whose section, name or explanation contains the word.
+// Prints all keys, or those where a word of section, name or explanation begins with `word`.
 int print_keys(const std::string& word) {
     const std::string keys = schema_help(word);
     if (keys.empty()) {
         fmt::print(stderr,
-                   "--keys {}: no section, key or explanation contains it; give a word like "
-                   "sensor or stiffness, or a section: {}\n",
+                   "--keys {}: no word of a section, key or explanation begins with it; give a "
+                   "word like sensor or stiffness, or a section: {}\n",
                    printable(word), fmt::join(section_names(), ", "));
         return kBadInput;
     }
@@ -324,7 +324,7 @@ void add_describe(CLI::App& app, int& code) {
     add_study(*command, options->study)->required(false);
     command->add_flag(
         "--keys", options->keys,
-        "print all keys of study files; `describe --keys WORD`: those with that word");
+        "print all keys of study files; `describe --keys WORD`: those with a word that begins so");
     add_number(*command, "--ranks", options->ranks,
                "also forecast a run with this many MPI ranks: time, memory per rank, disk, and the "
                "number of ranks from which rank 0 limits the speed",

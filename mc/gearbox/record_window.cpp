@@ -74,7 +74,7 @@ std::string record_conditions(const Study& study) {
     std::string text = fmt::format(
         " A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
         length.given() ? " and begins at a random tooth position" + shared_text(study)
-                       : ", until all teeth have met (sensor.record_s)",
+                       : ", until all teeth that can meet have met (sensor.record_s)",
         study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
         fmt::join(mates, " and "));
     if (const std::optional<double> interval_h = record_interval_h(study)) {
@@ -157,8 +157,9 @@ std::string record_length_text(const Scene& scene) {
     const double mesh_Hz = std::abs(scene.nominal_mesh_frequency_Hz());
     const int turns = length.given() ? whole_turns(length, span, mesh_Hz) : span.ring_teeth;
     return fmt::format(
-        "{:.3g} s: {} turns of {} mesh periods; all teeth have met after {}{}",
-        turns * span.planet_teeth / mesh_Hz, turns, span.planet_teeth, span.ring_teeth,
+        "{:.3g} s: {} turns of {} mesh periods; all teeth that can meet have met after {}{}",
+        turns * span.planet_teeth / mesh_Hz, turns, span.planet_teeth,
+        span.ring_teeth / std::gcd(span.planet_teeth, span.ring_teeth),
         length.given() ? ", from a random tooth position" + shared_text(scene.study()) : "");
 }
 

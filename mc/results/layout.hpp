@@ -12,7 +12,8 @@ inline constexpr const char* kStatusMeanings =
 inline constexpr const char* kContactLoss = "contact_loss";
 inline constexpr const char* kIntegration = "integration";
 inline constexpr const char* kSuperposedMeaning =
-    "1: the motion was superposed from unit responses; 0: all mesh periods were integrated";
+    "1: the motion was superposed from the effects of the gears' errors; 0: all mesh periods were "
+    "integrated";
 inline constexpr const char* kVariants = "variants";
 inline constexpr const char* kContactLossMeaning =
     "contact loss ratio: the share of its engagement, within the nominal path of contact, in which "

@@ -65,7 +65,7 @@ class Scene {
 
     const signals::SpanLayout& span() const { return span_; }
     // Number of mesh periods after which every tooth of the monitored gear has met every tooth of
-    // its mate.
+    // its mate that it can meet.
     int span_meshes() const { return span_.meshes(); }
     // Number of mesh periods of sensor signal from which records are taken: the span, or more for
     // the teeth of the sun or the ring, or the span and a record of given length.

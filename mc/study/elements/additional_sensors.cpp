@@ -58,19 +58,18 @@ std::vector<AdditionalSensor> read_additional_sensors(const Value& list,
                                                       const RejectElement& reject) {
     std::vector<AdditionalSensor> sensors;
     for (std::size_t i = 0; i < list.elements.size(); ++i) {
-        const std::string which = fmt::format("sensor {}", i + 1);
-        const ListElement element(list.elements[i], which, kSensorFields,
+        const ListElement element(list.elements[i], fmt::format("sensor {}", i + 1), kSensorFields,
                                   "write { name = \"side\", angle_deg = 90 }", reject);
         AdditionalSensor sensor;
         sensor.name = element.word("name");
         if (sensor.name == "first") {
-            reject(fmt::format("{}: the name \"first\" is that of the study's own sensor", which),
-                   "use another name");
+            element.reject("the name \"first\" is that of the study's own sensor",
+                           "use another name");
         }
         if (std::ranges::find(sensors, sensor.name, &AdditionalSensor::name) != sensors.end() &&
             !sensor.name.empty()) {
-            reject(fmt::format("{}: another one has the name \"{}\", too", which, sensor.name),
-                   "give each its own");
+            element.reject(fmt::format("another one has the name \"{}\", too", sensor.name),
+                           "give each its own");
         }
         sensor.angle_deg = element.number("angle_deg", {-360.0, 360.0});
         sensor.tangential = element.choice("direction", kDirections, false).value_or(0) == 1;

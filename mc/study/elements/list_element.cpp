@@ -19,27 +19,28 @@ ListElement::ListElement(const Value& table, std::string which, std::span<const 
     : table_(table), which_(std::move(which)), example_(std::move(example)), reject_(reject) {
     if (table.kind != Value::Kind::table) {
         spelled_ = false;
-        reject_(fmt::format("{} must be a table, but is {}", which_, table.shown()), example_);
+        reject_(table.position, fmt::format("{} must be a table, but is {}", which_, table.shown()),
+                example_);
     }
     std::vector<std::string_view> names;
     std::ranges::transform(fields, std::back_inserter(names), &TableField::name);
     for (const Entry& entry : table.entries) {
         if (std::ranges::find(names, entry.name) == names.end()) {
             spelled_ = false;
-            reject_(fmt::format("{}: unknown key {}", which_, entry.name),
+            reject_(entry.position, fmt::format("{}: unknown key {}", which_, entry.name),
                     suggest(entry.name, names));
         }
     }
 }
 
 void ListElement::reject(const std::string& what, const std::string& remedy) const {
-    reject_(fmt::format("{}: {}", which_, what), remedy);
+    reject_(table_.position, fmt::format("{}: {}", which_, what), remedy);
 }
 
 const Value* ListElement::find(std::string_view name, bool required) const {
     const Entry* entry = table_.find(name);
     if (entry == nullptr && required && spelled_) {
-        reject_(fmt::format("{} has no {}", which_, name), example_);
+        reject_(table_.position, fmt::format("{} has no {}", which_, name), example_);
     }
     return entry == nullptr ? nullptr : &entry->value;
 }

@@ -55,8 +55,8 @@ struct NumbersAccess {
     bool ascending = false;  // true: each value must exceed the previous one
 };
 using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
-// Called with a problem and a remedy.
-using RejectElement = std::function<void(std::string what, std::string remedy)>;
+// Called with the position of an element, a problem and a remedy.
+using RejectElement = std::function<void(const Position& at, std::string what, std::string remedy)>;
 // Field of a table such as { frequency_Hz = 50, amplitude_m_s2 = 0.1 }.
 struct TableField {
     enum class Kind { number, integer, text, numbers, word };  // word: lower-case, as for names

@@ -24,19 +24,6 @@ std::string shapeless_kinds() {
     return names;
 }
 
-void check_member(StudyDraft& draft) {
-    const Study& s = draft.study;
-    if (!s.fault.member || !draft.all_usable({"gearbox.kind", "fault.member"}) ||
-        has_toothed_member(s.gearbox.kind, *s.fault.member)) {
-        return;
-    }
-    const bool planetary = s.gearbox.kind == GearboxKind::planetary;
-    draft.reject("fault.member",
-                 fmt::format("is \"{}\", which a {} gearbox does not have",
-                             member_name(*s.fault.member), planetary ? "planetary" : "fixed-shaft"),
-                 planetary ? "use \"planet\", \"sun\" or \"ring\"" : "use \"pinion\" or \"gear\"");
-}
-
 void check_planet(StudyDraft& draft) {
     const Study& s = draft.study;
     if (s.fault.member != Member::planet || !draft.all_usable({"fault.member"})) {
@@ -149,12 +136,25 @@ void check_edges(StudyDraft& draft) {
 
 }  // namespace
 
+void check_faulty_member(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (!s.fault.member || !draft.is_given("gearbox.kind") ||
+        !draft.all_usable({"gearbox.kind", "fault.kind", "fault.member"}) ||
+        has_toothed_member(s.gearbox.kind, *s.fault.member)) {
+        return;
+    }
+    const bool planetary = s.gearbox.kind == GearboxKind::planetary;
+    draft.reject("fault.member",
+                 fmt::format("is \"{}\", which a {} gearbox does not have",
+                             member_name(*s.fault.member), planetary ? "planetary" : "fixed-shaft"),
+                 planetary ? "use \"planet\", \"sun\" or \"ring\"" : "use \"pinion\" or \"gear\"");
+}
+
 void check_fault(StudyDraft& draft) {
     if (!draft.all_usable({"fault", "fault.kind"})) {
         return;
     }
     if (draft.study.fault.kind != nullptr) {
-        check_member(draft);
         check_planet(draft);
         if (check_profile(draft)) {
             check_shape(draft);

@@ -245,13 +245,34 @@ void check_reliefs(StudyDraft& draft) {
     }
 }
 
+// Rejects a centre distance that makes gears impossible which are possible without it; then false.
+bool check_centre_distance(StudyDraft& draft) {
+    const auto impossible = [](const Study& study) {
+        return std::ranges::any_of(toothed_members(study), [&](Member member) {
+            return !gears::gear_problems(gear_of(study, member)).empty();
+        });
+    };
+    Study without = draft.study;
+    without.gearbox.centre_distance_m.reset();
+    if (!draft.study.gearbox.centre_distance_m || !impossible(draft.study) || impossible(without)) {
+        return true;
+    }
+    draft.reject(
+        "gearbox.centre_distance_mm",
+        fmt::format("at {:.6g} mm the profile shifts that it needs leave no possible gears",
+                    kMmPerM * *draft.study.gearbox.centre_distance_m),
+        fmt::format("the other keys give {:.6g} mm; correct it, or them",
+                    kMmPerM * centre_distance_m(without)));
+    return false;
+}
+
 // Where the stiffness is given, the teeth need not be geometrically possible.
 void check_gear_shapes(StudyDraft& draft) {
     if (stiffness_given(draft.study) || !teeth_usable(draft) || !has_gears(draft.study) ||
         !draft.all_usable({"gearbox.module_mm", "gearbox.pressure_angle_deg",
                            "gearbox.addendum_coefficient", "gearbox.dedendum_coefficient",
                            "gearbox.tooth_profile"}) ||
-        !draft.all_usable(shift_keys())) {
+        !draft.all_usable(shift_keys()) || !check_centre_distance(draft)) {
         return;
     }
     const std::size_t before = draft.problems.size();

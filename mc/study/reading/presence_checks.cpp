@@ -6,6 +6,7 @@
 namespace gearpod::mc {
 namespace {
 
+constexpr const char* kSpeedKeys = "one of sun_speed_rpm, ring_speed_rpm, carrier_speed_rpm";
 constexpr std::string_view kMembers[] = {"sun", "planet", "ring", "carrier"};
 
 std::vector<std::string> given_of(const StudyDraft& draft, const std::vector<std::string>& paths) {
@@ -45,7 +46,7 @@ void check_exclusive_keys(StudyDraft& draft) {
     reject_second(draft, speeds, "one speed determines all others");
     if (speeds.empty() && draft.usable("operation")) {
         draft.reject(draft.position("operation"), "operation", "no speed is given",
-                     "add one of sun_speed_rpm, ring_speed_rpm, carrier_speed_rpm");
+                     fmt::format("add {}", kSpeedKeys));
     }
 }
 
@@ -61,8 +62,11 @@ void check_sections(StudyDraft& draft) {
             }
         }
         if (!draft.sections.contains(section) && draft.usable(section) && !required.empty()) {
+            const bool needs_speed =
+                section == "operation" && draft.study.gearbox.kind == GearboxKind::planetary;
             draft.reject(draft.position(section), section, "the section is missing",
-                         fmt::format("add [{}] with {}", section, fmt::join(required, ", ")));
+                         fmt::format("add [{}] with {}{}", section, fmt::join(required, ", "),
+                                     needs_speed ? fmt::format(" and {}", kSpeedKeys) : ""));
         }
     }
 }

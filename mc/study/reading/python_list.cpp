@@ -25,13 +25,14 @@ class PythonList {
     PythonList(bool runs, const RejectElement& reject) : runs_(runs), reject_(reject) {}
 
     void add(const Value& element) {
+        at_ = element.position;
         if (element.kind == Value::Kind::text) {
             add_file(element);
         } else if (element.kind == Value::Kind::table) {
             add_table(element);
         } else {
-            reject_(fmt::format("must be a list of files, but contains {}", element.shown()),
-                    "write [\"my_features.py\"]");
+            reject(fmt::format("must be a list of files, but contains {}", element.shown()),
+                   "write [\"my_features.py\"]");
         }
     }
     std::vector<PythonFeature> take() && { return std::move(all_); }
@@ -39,9 +40,9 @@ class PythonList {
   private:
     void add_file(const Value& element) {
         if (!runs_) {
-            reject_(fmt::format("\"{}\" would be run, but the study is not in a file of its own",
-                                element.text),
-                    "name it in a study file");
+            reject(fmt::format("\"{}\" would be run, but the study is not in a file of its own",
+                               element.text),
+                   "name it in a study file");
             return;
         }
         const auto folder = std::filesystem::path(element.position.file).parent_path();
@@ -54,7 +55,7 @@ class PythonList {
                 add(function, path, file.hashes);
             }
         } catch (const PythonError& error) {
-            reject_(printable(error.what()), "");
+            reject(printable(error.what()), "");
         }
     }
 
@@ -67,10 +68,10 @@ class PythonList {
             }
             const auto known = std::ranges::find(kPythonNames, entry.name);
             if (known == kPythonNames.end()) {
-                reject_(fmt::format("unknown key {}", entry.name),
-                        suggest(entry.name, kPythonNames));
+                reject(fmt::format("unknown key {}", entry.name),
+                       suggest(entry.name, kPythonNames));
             } else if (entry.value.kind != Value::Kind::text) {
-                reject_(
+                reject(
                     fmt::format("{} must be a string, but is {}", entry.name, entry.value.shown()),
                     "");
             } else {
@@ -78,7 +79,7 @@ class PythonList {
             }
         }
         if (texts[0].empty() || texts[1].empty() || texts[2].empty()) {
-            reject_("a table needs name, file and sha256", "name the file as a string instead");
+            reject("a table needs name, file and sha256", "name the file as a string instead");
             return;
         }
         add({texts[0], texts[3], texts[4], texts[5], texts[6], texts[7], texts[8]}, texts[1],
@@ -94,8 +95,8 @@ class PythonList {
             std::ranges::any_of(texts, [](const std::string& text) {
                 return text.find(' ') == std::string::npos;
             })) {
-            reject_(fmt::format("{} must be a list of files with their hashes", kModules),
-                    "write [\"helper.py SHA-256\"]");
+            reject(fmt::format("{} must be a list of files with their hashes", kModules),
+                   "write [\"helper.py SHA-256\"]");
         }
         return texts;
     }
@@ -105,13 +106,13 @@ class PythonList {
             all_, [&](const PythonFeature& one) { return one.feature->name == function.name; });
         const auto built_in = features::all_features();
         if (same != all_.end()) {
-            reject_(fmt::format("{}: \"{}\" is also in {}", path, function.name, same->file),
-                    "rename one of them");
+            reject(fmt::format("{}: \"{}\" is also in {}", path, function.name, same->file),
+                   "rename one of them");
             return;
         }
         if (std::ranges::find(built_in, function.name, &Feature::name) != built_in.end()) {
-            reject_(fmt::format("{}: \"{}\" is a feature of the program", path, function.name),
-                    "rename the function");
+            reject(fmt::format("{}: \"{}\" is a feature of the program", path, function.name),
+                   "rename the function");
             return;
         }
         Feature feature{
@@ -130,8 +131,13 @@ class PythonList {
         all_.push_back({path, std::move(hashes), &features::declare_feature(feature)});
     }
 
+    void reject(std::string what, std::string remedy) const {
+        reject_(at_, std::move(what), std::move(remedy));
+    }
+
     const bool runs_;
     const RejectElement& reject_;
+    Position at_;  // of the element that is being read
     std::vector<PythonFeature> all_;
 };
 

@@ -264,6 +264,7 @@ StudyReading read_document(const Value& document, bool runs_python, Problems pro
     draft.sections[""] = document.position;
     read_sections(draft, document);
     fill_horizon(draft);
+    check_faulty_member(draft);
     check_presence(draft);
     fill_features(draft.study, draft.runs_python);
     fill_detectors(draft.study);

@@ -95,6 +95,7 @@ class ValueReader {
                 reject(fmt::format("must ascend, but {} is not above {}, the value before it",
                                    element.number, numbers.back()),
                        "sort the list and remove repeated values");
+                break;
             }
             numbers.push_back(element.number);
         }
@@ -200,8 +201,8 @@ class ValueReader {
     }
 
     RejectElement rejection() {
-        return [this](std::string what, std::string remedy) {
-            reject(std::move(what), std::move(remedy));
+        return [this](const Position& at, std::string what, std::string remedy) {
+            draft_.reject(at, key_.path(), std::move(what), std::move(remedy));
         };
     }
 

@@ -7,6 +7,7 @@
 #include "mc/study/false_alarm_target.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -284,11 +285,13 @@ Presence acceleration_detail(const Study& s) {
 Presence white_records(const Study& s) {
     constexpr std::string_view kRecords = "ensemble.threshold_records";
     constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
-    return only_if(s.ensemble.threshold_records != 1, "only with ensemble.threshold_records",
-                   {kRecords},
-                   only_if(!s.sensor.noise_density_m_s2_per_sqrt_Hz,
-                           "tilting needs white noise: noise_density_m_s2_per_sqrt_Hz colours it",
-                           {kDensity, kMotion}, acceleration_detail(s)));
+    return only_if(
+        s.ensemble.threshold_records != 1, "only with ensemble.threshold_records", {kRecords},
+        only_if(!s.sensor.noise_density_m_s2_per_sqrt_Hz,
+                "tilting needs white noise: noise_density_m_s2_per_sqrt_Hz colours it",
+                {kDensity, kMotion},
+                only_if(!has_background(s), "tilting needs white noise: background_Hz colours it",
+                        {"sensor.background_Hz", kMotion}, acceleration_detail(s))));
 }
 
 Presence acceleration(const Study& s) {

@@ -86,7 +86,7 @@ const Key kRunKeys[] = {
     {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
     {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
     {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on the noise of accelerometer and encoders, ascending"},
-    {"sensor", "record_s", number<&Sensor::record_s>, kS, kPositive, may, kShared, "length of a record, which begins at a random tooth position; without it and record_turns, a record lasts until every tooth of a planet has met every tooth of the ring (of a pinion, of the gear)"},
+    {"sensor", "record_s", number<&Sensor::record_s>, kS, kPositive, may, kShared, "length of a record, which begins at a random tooth position; without it and record_turns, a record has as many planet turns as the ring has teeth (turns of the pinion as the gear has): every tooth has then met every tooth of its mate that it can meet"},
     {"sensor", "record_turns", number<&Sensor::record_turns>, kNone, kPositive, planetary<may>, kShared, "length of a record in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
 
     {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z. change_... and own_... compare with a healthy baseline record of the same gearbox"},
@@ -140,7 +140,7 @@ const Key kRunKeys[] = {
     {"life", "distinct_speeds", integer<&Life::distinct_speeds>, kNone, from_to(2, 33), with_life, kShared, "the same as distinct_torques for the speed"},
     {"life", "linear_torques", integer<&Life::given_torques>, kNone, from_to(2, 16), with_life, kShared, "earlier alternative to integrated_torques: number of evenly spaced torques, with linear interpolation in between"},
     {"life", "linear_speeds", integer<&Life::given_speeds>, kNone, from_to(2, 16), with_life, kShared, "earlier alternative to integrated_speeds: number of evenly spaced speeds, with linear interpolation in between"},
-    {"life", "record_s", number<&Life::record_s>, kS, kPositive, with_life, kShared, "length of a recording, by default that of [sensor]; without both, every tooth of a planet meets every tooth of the ring once"},
+    {"life", "record_s", number<&Life::record_s>, kS, kPositive, with_life, kShared, "length of a recording, by default that of [sensor]; without both, a recording has as many planet turns as the ring has teeth, in which every tooth of a planet meets every ring tooth that it can meet"},
     {"life", "record_turns", number<&Life::record_turns>, kNone, kPositive, planetary<with_life>, kShared, "length of a recording in turns of the carrier relative to the fixed ring or sun; alternative to record_s"},
     {"life", "recordings", integer<&Life::recordings>, kNone, from_to(1, 1000), with_life, kShared, "number of recordings that a record averages; short ones each begin with other teeth in mesh"},
 

@@ -172,6 +172,10 @@ TEST_CASE("The page of responses that lie on no line shows a curve with its boun
     const std::string html = bytes_of(page);
     CHECK(html.find("Figure 1. Probability of detection") != std::string::npos);
     CHECK(html.find("The mean (a monotone curve)") != std::string::npos);
+    // More specimens would bring the bound down, but their number is not computed for a curve.
+    const auto text_of =
+        program("pod " + folder.file("curve.csv") + " --threshold 15 --target 1.2");
+    CHECK(text_of.mentions("is computed for lines and hit/miss curves only"));
 }
 
 // Shape of a test with seeded wear: 35 depths on one gear each, 8 records of each, and 250 records

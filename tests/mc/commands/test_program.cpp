@@ -97,13 +97,18 @@ TEST_CASE("The keys of study files are described without a study") {
     CHECK(some.code == 0);
     CHECK(mentions(some, "growth_depth_mm"));
     CHECK(!mentions(some, "noise_levels"));
+    CHECK(mentions(program("chek"), "chek: unknown command; did you mean check?"));
+    const Outcome fault = program("describe --keys fault");  // not every "default"
+    CHECK(mentions(fault, "\n  depth_mm\n"));
+    CHECK_FALSE(mentions(fault, "planet_positions_deg"));
     const Outcome weibull = program("describe --keys weibull");
     CHECK(weibull.mentions("distribution = \"weibull\""));
     CHECK(weibull.mentions("with scale (number > 0), shape (number"));
     CHECK(mentions(program("describe --keys empirical"), "column"));
     const Outcome none = program("describe --keys nonsense");
     CHECK(none.code == 2);
-    CHECK(mentions(none, "--keys nonsense: no section, key or explanation contains it"));
+    CHECK(
+        mentions(none, "--keys nonsense: no word of a section, key or explanation begins with it"));
 }
 
 TEST_CASE("Results under the name of another file type are refused with the right name") {

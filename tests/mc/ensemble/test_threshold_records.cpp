@@ -179,6 +179,10 @@ TEST_CASE("Tilting without records, with other counts or with coloured noise is 
                                   {"ensemble.threshold_tilt=true", "ensemble.threshold_records=8"})
                        .problems);
     CHECK_THAT(coloured, Catch::Contains("tilting needs white noise"));
+    CHECK_THAT(problem({"ensemble.threshold_tilt=true", "ensemble.threshold_records=8",
+                        "sensor.background_Hz=[10,500]",
+                        "sensor.background_density_m_s2_per_sqrt_Hz=[0.01,0.01]"}),
+               Catch::Contains("tilting needs white noise: background_Hz colours it"));
 }
 
 }  // namespace test_threshold_records

@@ -58,6 +58,8 @@ const BadScene kBadScenes[] = {
      "which a fixed-shaft gearbox does not have; use \"pinion\" or \"gear\""},
     {kExampleStudy, "member = \"planet\"\nside = \"ring\"", "member = \"gear\"", "fault.member",
      "is \"gear\", which a planetary gearbox does not have"},
+    {kExampleStudy, "member = \"planet\"", "member = \"gear\"", "fault.member",
+     "is \"gear\", which a planetary gearbox does not have"},
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 17", "fault.chip_mm",
      "17 mm is wider than the face, 16 mm; stay at or below 16 mm"},
     {kFixedShaftStudy, "chip_height_mm = 2", "chip_height_mm = 9", "fault.chip_height_mm",

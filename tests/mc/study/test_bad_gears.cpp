@@ -63,6 +63,16 @@ TEST_CASE("All gears that do not mesh are named, on the line of the angle or the
     }
 }
 
+TEST_CASE("A centre distance that no gears have is one problem, which names the fitting one") {
+    const std::string text = example_with("planets = 4", "planets = 4\ncentre_distance_mm = 70");
+    const auto problems = read_study_text(text, "bad.toml").problems;
+    INFO(format(problems));
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].key == "gearbox.centre_distance_mm");
+    CHECK(problems[0].line == line_of(text, "centre_distance_mm"));
+    CHECK(mentions(problems[0], "the other keys give 79.375 mm"));  // (19 + 31) 3.175 mm / 2
+}
+
 TEST_CASE("Gears without tooth contact at some phase are refused") {
     const auto problems =
         read_study_text(example_with("planets = 4", "planets = 4\naddendum_coefficient = 0.2"),

@@ -93,6 +93,8 @@ const BadFile kBadFiles[] = {
     {"instances = 100", "instances = 0", "instances = 0", "ensemble.instances", "must be between"},
     {"noise_levels = [0, 0.5, 1]", "noise_levels = [1, 0.5]", "noise_levels", "sensor.noise_levels",
      "must ascend"},
+    {"noise_levels = [0, 0.5, 1]", "noise_levels = [5, 2, 1]", "noise_levels",
+     "sensor.noise_levels", "2 is not above 5"},
     {"noise_levels = [0, 0.5, 1]", "noise_levels = []", "noise_levels", "sensor.noise_levels",
      "is an empty list"},
     {"[operation]", "[numerics]\nlanes = 2\n[operation]", "lanes", "numerics.lanes",
@@ -290,6 +292,19 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
                 "features.use: unknown feature \"te_rmss\""});
 }
 
+TEST_CASE("Problems of elements of a list have the line of the element") {
+    const std::string text =
+        example_with("noise_levels =",
+                     "tones = [{ frequency_Hz = 50, amplitude_m_s2 = 0.1 },\n"
+                     "{ frequency_Hz = 60, amplitude_m_s2 = -1 },\n"
+                     "{ frequency_Hz = 70, amplitude_m_s2 = 1, orders = 3 }]\nnoise_levels =");
+    const auto problems = read_study_text(text, "bad.toml").problems;
+    INFO(format(problems));
+    REQUIRE(problems.size() == 2);
+    CHECK(problems[0].line == line_of(text, "amplitude_m_s2 = -1"));
+    CHECK(problems[1].line == line_of(text, "orders"));
+}
+
 TEST_CASE("All problems of a file are reported at once, sorted by line, overrides last") {
     std::string text = example_with("planets = 4", "planets = 40");
     text.replace(text.find("seed = 7"), 8, "seed = -1");
@@ -336,6 +351,8 @@ TEST_CASE("An empty file lacks each section with required keys") {
                   return p.key == section && p.what == "the section is missing";
               }) == 1);
     }
+    CHECK(format(reading.problems).find("torque_N_m and one of sun_speed_rpm") !=
+          std::string::npos);
 }
 
 TEST_CASE("A file that cannot be read is one problem") {
