@@ -68,6 +68,10 @@ ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
         throw std::invalid_argument("condition detection: needs one condition per gearbox");
     }
     ConditionDetection result{feature, column.name, column.unit, alarm, {}, {}, {}};
+    if (!std::ranges::all_of(column.healthy, [](double value) { return std::isfinite(value); })) {
+        result.refusal = fmt::format("{} is not known of every healthy gearbox", column.name);
+        return result;
+    }
     const std::set<double> conditions(column.healthy.begin(), column.healthy.end());
     if (conditions.empty() || conditions.size() > kMostConditions) {
         result.refusal = conditions.empty() ? "no healthy gearboxes"

@@ -45,7 +45,9 @@ struct ConditionColumn {
     std::span<const std::size_t> gearbox = {};
 };
 
-// Refuses an input with more than 50 values: conditions must be levels, not a continuous input.
+// Refuses an input with more than 50 different values, because conditions must be levels, and one
+// that is not known of a healthy gearbox. Throws std::invalid_argument unless there is one
+// condition per gearbox.
 ConditionDetection detect_by_condition(const std::string& feature, Alarm alarm,
                                        const FeatureSample& healthy, const FeatureSample& graded,
                                        const ConditionColumn& column,

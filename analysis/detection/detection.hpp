@@ -23,7 +23,8 @@ struct FeatureSample {
 // Sets thresholds from all of `healthy`, whatever their fault_size (healthy_thresholds.hpp), and
 // computes rates from `graded`. Intervals assume independent values or importance-sampled records;
 // use detect_clustered() (clusters.hpp) for several plain records of each gearbox. Throws
-// std::invalid_argument if the shapes disagree.
+// std::invalid_argument if the shapes disagree, the false-alarm rate is not between 0 and 1, or the
+// size groups do not ascend.
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
                         const FeatureSample& graded, const DetectionRequest& request);
 

@@ -57,8 +57,8 @@ struct ImportanceSampledThreshold {
 // Results of one feature at one noise level.
 struct LevelDetection {
     double noise_level = 0.0;           // factor on the sensor and encoder noise
-    double threshold = 0.0;             // in the feature's unit; NaN if the sample was too small
-    long threshold_sample = 0;          // healthy gearboxes that set it
+    double threshold = 0.0;             // in the feature's unit; NaN without one
+    long threshold_sample = 0;          // healthy records with a value that set it
     long threshold_alarms = 0;          // number of them beyond the threshold
     std::optional<TailThreshold> tail;  // set if the threshold was extrapolated
     std::optional<ImportanceSampledThreshold> importance_sampled =
@@ -69,10 +69,10 @@ struct LevelDetection {
     Interval threshold_rate = {};
     // False-alarm rate of this threshold with the healthy test gearboxes included, its interval,
     // and the interval of the expected rate over repeated studies, threshold scatter included. The
-    // last is NaN without healthy test gearboxes and for an extrapolated threshold. Where healthy
-    // values tie with the threshold, only the upper bound of threshold_rate is valid,
-    // healthy_rate_bounds is the Clopper-Pearson interval of the test gearboxes and expected_rate
-    // is NaN.
+    // last is NaN without healthy test gearboxes and for an extrapolated or importance-sampled
+    // threshold. Where healthy values equal the threshold, only the upper bound of threshold_rate
+    // is valid and expected_rate is NaN. healthy_rate_bounds is then the Clopper-Pearson interval
+    // of the test gearboxes, or of the healthy sample if there are none.
     double healthy_rate = 0.0;
     Interval healthy_rate_bounds = {};
     Interval expected_rate = {};

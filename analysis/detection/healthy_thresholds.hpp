@@ -24,8 +24,7 @@ struct HealthyValues {
 // - Plain values: alarm_threshold().
 // - Several plain records per gearbox: the same order statistics, without extrapolation, because
 //   the tail of clustered values is not known (clustered_rate.hpp).
-// - Importance-sampled records: importance_sample.hpp. Where too few gearboxes contribute to the
-// rate,
+// - Importance-sampled records: importance_sample.hpp. Where too few gearboxes contribute,
 //   alarm_threshold() of the first record of each gearbox, which is plain.
 class HealthyThresholds {
   public:

@@ -40,7 +40,8 @@ class ImportanceSample {
 
     struct Estimate {
         double threshold = 0.0;
-        double expected = 0.0;      // estimated rate beyond the threshold
+        double expected =
+            0.0;  // rate beyond it: the requested or, for a given threshold, the estimated one
         Interval rate;              // interval of that rate
         double contributing = 0.0;  // effective number of contributing gearboxes
         double variance = 0.0;      // relative variance of `expected`

@@ -19,10 +19,10 @@ std::optional<SizeGroup> reliable_size(const LevelDetection& level, double pd);
 // 0.9 at 0.95, the classic demonstration (MIL-HDBK-1823A, section 4.5.2).
 long hits_in_a_row(double pd, double confidence);
 
-// Demonstrated size from individual gearboxes; `hit`: 1 detected, 0 missed, -1 no value. Returns
-// the size of the last of hits_in_a_row() gearboxes above the largest missed fault. Testing down
-// from the largest size, one gearbox at a time, is a sequence in an order fixed beforehand that
-// stops at the first failure. The confidence therefore holds for all tests together, if larger
+// Demonstrated size from individual gearboxes; `hit`: 1 detected, 0 missed, -1 no value. With N =
+// hits_in_a_row(), returns the N-th smallest detected size above the largest missed size. Testing
+// down from the largest size, one gearbox at a time, is a sequence in an order fixed beforehand
+// that stops at the first failure. The confidence therefore holds for all tests together, if larger
 // faults are not found less often. NaN if there are too few gearboxes.
 double size_beyond_misses(std::span<const double> sizes, std::span<const int> hit, double pd,
                           double confidence);

@@ -48,7 +48,8 @@ class TailFit {
     double scale() const { return scale_; }
 
     // Rate beyond a value at or above the order statistic: its expected rate, and its rate and
-    // interval updated by `alarms` of `tested` further healthy gearboxes.
+    // interval updated by `alarms` of `tested` further healthy gearboxes. NaN if that count
+    // contradicts the fit.
     double rate(double value) const;
     HealthyRate rate(double value, long alarms, long tested, double confidence) const;
     // Value whose expected rate is `rate`. The rate must not exceed that of the order statistic;

@@ -42,9 +42,8 @@ Baseline learn(std::span<const double> values, std::span<const double> condition
             good.push_back(i);
         }
     }
-    const double freedom = static_cast<double>(good.size()) - (condition.empty() ? 1.0 : 2.0);
     Baseline baseline_fit;
-    if (freedom < 2.0) {
+    if (good.size() < (condition.empty() ? 3U : 4U)) {
         return baseline_fit;
     }
     baseline_fit.count = static_cast<double>(good.size());
@@ -68,7 +67,8 @@ Baseline learn(std::span<const double> values, std::span<const double> condition
     }
     // The rounding residue of equal values is not scatter.
     const double least = kAlike * std::abs(baseline_fit.mean);
-    const double sd = std::sqrt(squares / freedom);
+    const double sd =
+        std::sqrt(squares / (baseline_fit.count - (baseline_fit.spread > 0.0 ? 2.0 : 1.0)));
     baseline_fit.sd = sd > least ? sd : kNan;
     return baseline_fit;
 }
@@ -130,6 +130,9 @@ std::vector<double> fused_deviations(const std::vector<std::vector<double>>& val
     std::vector<std::vector<double>> parts;
     for (std::size_t f = 0; f < values.size(); ++f) {
         check(values[f].size(), condition);
+        if (values[f].size() != values.front().size()) {
+            throw std::invalid_argument("baseline: needs as many values of every feature");
+        }
         auto part = residuals(values[f], condition, baseline, alarms[f]);
         if (std::any_of(part.begin(), part.end(), [](double one) { return !std::isnan(one); })) {
             parts.push_back(std::move(part));

@@ -63,7 +63,7 @@ double effect_size(std::span<const HealthyLife> healthy, std::span<const Cracked
         if (two_sided) {
             moved = std::max({moved, -shift, low - quantile_of(values, 0.1)});
         }
-        if (!(moved >= kEffectDeviations * deviation)) {
+        if (!(moved > 0.0 && moved >= kEffectDeviations * deviation)) {
             break;
         }
         smallest = records[begin].first;

@@ -20,8 +20,8 @@ struct Detector {
     bool two_sided = false;  // also alarms on falling values
 };
 
-// Parses "single", "2 of 3", "ewma 0.1", "cusum 0.5" or "trend 100", each optionally followed by "
-// two-sided". Empty for other text.
+// Parses "single", "2 of 3", "ewma 0.1", "cusum 0.5" or "trend 100"; "two-sided" may follow after a
+// space. Empty for other text.
 std::optional<Detector> parse_detector(std::string_view text);
 // Accepted forms, for messages: "single, 2 of 3, ...".
 std::string detector_forms();

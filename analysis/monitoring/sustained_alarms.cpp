@@ -64,19 +64,23 @@ HeldOutAlarms held_out_alarms(const Detector& detector, std::span<const HealthyL
     HeldOutAlarms held_out;
     for (const HealthyLife& life : lives) {
         const auto half = life.values.begin() + static_cast<std::ptrdiff_t>(life.values.size() / 2);
-        setting.push_back(
-            {{life.values.begin(), half}, static_cast<double>(half - life.values.begin())});
-        tested.push_back(
-            {{half, life.values.end()}, static_cast<double>(life.values.end() - half)});
         const auto with_value = [](double value) { return !std::isnan(value); };
-        records += std::count_if(life.values.begin(), half, with_value);
-        held_out.records += std::count_if(half, life.values.end(), with_value);
+        const long first = std::count_if(life.values.begin(), half, with_value),
+                   second = std::count_if(half, life.values.end(), with_value);
+        setting.push_back({{life.values.begin(), half}, static_cast<double>(first)});
+        tested.push_back({{half, life.values.end()}, static_cast<double>(second)});
+        records += first;
+        held_out.records += second;
     }
     if (records == 0 || held_out.records == 0) {
         return held_out;
     }
     held_out.rate = std::max(rate, smallest_rate(records));
     const double threshold = monitor_threshold(detector, setting, 1000.0 * held_out.rate).value;
+    if (std::isnan(threshold)) {
+        held_out.rate = kNan;
+        return held_out;
+    }
     for (const HealthyLife& life : tested) {
         held_out.alarms +=
             static_cast<long>(detector_alarms(detector, life.values, threshold).alarms.size());

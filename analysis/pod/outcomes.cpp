@@ -21,6 +21,10 @@ HitMissPod pod_of_outcomes(std::span<const double> sizes, const std::vector<int>
         pod.refusal = "no threshold";
         return pod;
     }
+    if (!(detection.healthy_rate >= 0.0 && detection.healthy_rate < 1.0)) {
+        pod.refusal = "the healthy test gearboxes contradict the threshold";
+        return pod;
+    }
     std::vector<double> tested;
     std::vector<char> detected;
     for (std::size_t i = 0; i < hit.size(); ++i) {

@@ -35,8 +35,8 @@ std::vector<SignalResponseFit> fit_scales(const ResponseRows& rows, bool by_spec
                                           const SignalResponseRequest& request,
                                           bool coarse = false);
 
-// The fit of least AIC among those not refused, and unless failed checks are accepted, that pass
-// the checks. Null if there is none.
+// Fit of least AIC among those not refused. Fits whose checks fail are left out unless
+// `accept_failed_checks`. Null if none is left.
 const SignalResponseFit* best_scale(const std::vector<SignalResponseFit>& fits,
                                     bool accept_failed_checks);
 

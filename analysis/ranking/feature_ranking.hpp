@@ -27,7 +27,7 @@ struct FeatureRank {
     std::string name;
     Auc auc;  // over the gearboxes for which all ranked features have a value
     // Adjusted p-values of the paired difference from every ranked feature, in order of rank; 1 for
-    // the feature itself.
+    // the feature itself, NaN where the difference has no variance but is not 0.
     std::vector<double> p_values;
 };
 

@@ -4,11 +4,10 @@
 //
 // Each slice of each tooth pair is a unilateral spring, which carries compression only. A spur pair
 // has one slice unless it is crowned. The slices of a helical pair are parts of its contact line
-// with similar gaps (helical_slices.hpp). Positions tau
-// count from the start of the extended engagement. The total is the secant stiffness under the
-// nominal force, which is the force over the approach of the gears, also while a fault passes. Mesh
-// damping is instead proportional to the sum of the stiffness on the nominal paths, as without
-// gaps.
+// with similar gaps (helical_slices.hpp). Positions tau count from the start of the extended
+// engagement. The total is the secant stiffness under the nominal force, which is the force over
+// the approach of the gears, also while a fault passes. Mesh damping is instead proportional to the
+// sum of the stiffness on the nominal paths, as without gaps.
 //
 // Pairs coupled through elastic bodies have the stiffness that they have while all pairs on their
 // paths are in contact.

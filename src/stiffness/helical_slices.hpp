@@ -24,8 +24,7 @@
 
 namespace gearpod::stiffness {
 
-// Largest number of springs of a gear pair that are used for accuracy. More are used where fewer
-// cuts than the least number would remain.
+// Largest number of springs of a gear pair, unless the least number of cuts needs more.
 inline constexpr int kMostSlicedSprings = 72;
 
 // Value type; threads may share its const members.

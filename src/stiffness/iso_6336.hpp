@@ -5,8 +5,8 @@
 //
 // z: virtual tooth numbers, x: profile shifts of pinion and wheel in normal modules, b: helix
 // angle, e_alpha: transverse contact ratio. An internal wheel has z2 = infinity. C_B is the
-// basic-rack factor. C_M = 0.8 is empirical: measured teeth are a fifth softer than the theory of
-// q'.
+// basic-rack factor of the pinion, also where the wheel has another rack. C_M = 0.8 is empirical:
+// measured teeth are a fifth softer than the theory of q'.
 #pragma once
 
 #include <optional>

@@ -21,7 +21,7 @@ namespace gearpod::stiffness {
 class SquareWaveMesh : public MeshStiffness {
   public:
     // 1 <= contact_ratio <= 2; stiffness in N/m, 0 < low <= high. pitch_position: half the contact
-    // ratio by default. Throws std::invalid_argument for other values.
+    // ratio by default, not checked. Throws std::invalid_argument for other levels and ratios.
     SquareWaveMesh(double low_N_m, double high_N_m, double contact_ratio,
                    std::optional<double> pitch_position = {});
     // Mesh of constant stiffness.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/reliability.hpp"
@@ -127,6 +128,39 @@ TEST_CASE("finite values never abort the analysis of a study") {
 TEST_CASE("finite values never abort the analysis of a large sample") {
     assess(kSizes[0], 20000, 0.05, 71);
     assess(kSizes[1], 3000, 0.01, 72);
+}
+
+TEST_CASE(
+    "Healthy test gearboxes that contradict the threshold end in a refusal, not in an error") {
+    std::mt19937_64 engine(5);
+    std::normal_distribution<double> normal;
+    std::vector<double> healthy_size(1500, 0.0), graded_size, constant(1500, 1.0), scattered;
+    for (std::size_t i = 0; i < healthy_size.size(); ++i) {
+        scattered.push_back(normal(engine));
+    }
+    std::vector<double> graded;  // every gearbox alarms, healthy or not
+    for (int i = 0; i < 2000; ++i) {
+        graded_size.push_back(i % 2 == 0 ? 0.0 : 1e-3 * (1 + i % 5));
+        graded.push_back(50.0 + normal(engine));
+    }
+    DetectionRequest request;
+    request.noise_levels = {1.0};
+    request.groups = {{0.0, 0.0}, {kLeast, kLargest}};
+    for (const auto& [healthy, rate] :
+         {std::pair{constant, 0.05}, std::pair{scattered, 0.05}, std::pair{scattered, 2e-4}}) {
+        request.false_alarm_rate = rate;
+        CAPTURE(rate);
+        ReliabilityData data;
+        data.healthy_size = healthy_size;
+        data.graded_size = graded_size;
+        data.features.push_back({"drifted", Alarm::high, healthy, graded});
+        const std::vector<FeatureDetection> detections{detect(
+            "drifted", Alarm::high, {healthy_size, healthy}, {graded_size, graded}, request)};
+        CHECK_FALSE(detections[0].levels[0].healthy_rate <= 0.05);  // NaN beyond the sample
+        Reliability found;
+        REQUIRE_NOTHROW(found = assess_reliability(data, detections, request, 1));
+        CHECK_FALSE(found.features[0].levels[0].hit_miss.refusal.empty());
+    }
 }
 
 TEST_CASE("rates have intervals at any count") {

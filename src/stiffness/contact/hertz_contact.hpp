@@ -1,7 +1,8 @@
 // Compliance of the contact of two teeth, m/N.
 //     linear          1 / k_h of material.hpp, independent of the load.
 //     load_dependent  k_h = E^0.9 L^0.8 F^0.1 / 1.37 with the pair's own force F; Yang (2022),
-//                     Eq. 19. Secant stiffness: F / k_h is the approach.
+//                     Eq. 19. Secant stiffness: F / k_h is the approach. For helical teeth times
+//                     Material::contact_factor^1.1.
 #pragma once
 
 #include "stiffness/teeth/material.hpp"

@@ -21,12 +21,13 @@
 
 namespace gearpod::stiffness {
 
-// Shape of a crack along the face width. Lengths in metres.
+// Shape of a crack along the face width. Lengths in metres. The reference section is the root
+// section, or by fracture mechanics the critical one.
 struct CrackSurface {
-    double depth_m = 0, end_depth_m = 0;      // q1, q2
-    double length_m = 0;                      // L_c, along the face width
-    double height_m = 0, end_height_m = 0;    // l1, l2, of the crack's start above the root section
-    double angle_rad = 0, end_angle_rad = 0;  // g1, g2
+    double depth_m = 0, end_depth_m = 0;       // q1, q2
+    double length_m = 0;                       // L_c, along the face width
+    double height_m = 0, end_height_m = 0;     // l1, l2, of the start above the reference section
+    double angle_rad = 0, end_angle_rad = 0;   // g1, g2
     double height_wave = 0, height_waves = 0;  // a, b; a = 0: no wave
     double face_width_m = 0;                   // L
 
@@ -38,7 +39,7 @@ struct CrackSurface {
     double place(double t) const;       // z
     double stretching(double t) const;  // dz/dt
     Crack crack(double t) const;
-    double height(double z) const;  // never below the root section
+    double height(double z) const;  // never below the reference section
 };
 
 // Stages of crack growth. At stage k = 1, 2, ... the crack is entry k - 1 of the lists. Between

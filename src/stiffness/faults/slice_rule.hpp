@@ -16,8 +16,9 @@ class SliceRule {
     const std::vector<double>& points() const { return points_; }
     // Writes the weights of the integral over all of [0, 1].
     void whole(std::span<double> weights) const;
-    // Writes the weights of the integral over the parts where seen(t) > 0. The zeros of `seen` are
-    // at least 1 / samples apart.
+    // Writes the weights of the integral over the parts where seen(t) > 0. `seen` is sampled at
+    // samples / panels points of every panel, rounded down; of two zeros between neighbouring
+    // points none is noticed.
     void where(const std::function<double(double)>& seen, int samples,
                std::span<double> weights) const;
 

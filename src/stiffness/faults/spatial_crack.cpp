@@ -260,7 +260,7 @@ class SpatialCrackFault : public ToothFault {
     std::vector<CrackedSections> slices_;
     std::vector<CrackCompliance> added_;  // added compliance of each slice, by fracture mechanics
     std::vector<double> lever_factor_;    // S / S'; 0 where the root is cut through
-    double lowest_ = 0, highest_ = 0;     // heights of the crack's start above the root section
+    double lowest_ = 0, highest_ = 0;     // heights of the crack's start, as in CrackSurface
     std::vector<double> breaks_;
     ToothPairCurve curve_;
 };

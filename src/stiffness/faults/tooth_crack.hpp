@@ -27,7 +27,7 @@ class ToothCrack : public ToothFaultFamily {
                int which, double crack_angle_rad, CrackLaw law = CrackLaw::sections);
 
     std::unique_ptr<const ToothFault> at(double depth_m) const override;
-    // Depth at which the tooth breaks: the chord at the crack's start / sin(angle).
+    // Depth at which the crack has cut the tooth by its law (max_crack_depth).
     double largest_size() const override;
 
   private:

@@ -58,7 +58,10 @@ double ParisGrowth::damage_to(double depth) const {
 }
 
 double ParisGrowth::depth_after(double damage) const {
-    if (!(damage > 0.0)) {
+    if (std::isnan(damage)) {
+        return damage;
+    }
+    if (damage <= 0.0) {
         return depth_.front();
     }
     if (damage >= damage_.back()) {

@@ -29,6 +29,7 @@ class ParisGrowth {
     // clamped to [first, last].
     double damage_to(double depth) const;
     // Depth after a sum of load^m over cycles; the last depth if the sum exceeds damage_to(last).
+    // NaN for NaN.
     double depth_after(double damage) const;
     // Sum of load^m over `cycles` cycles with this load.
     double damage_of(double load, double cycles) const;

@@ -27,7 +27,9 @@ class RootCrack {
     RootCrack(const gears::MeshGeometry& geometry, Profile profile, int which,
               double crack_angle_rad, double face_width_m, CrackLaw law = CrackLaw::sections);
 
-    double width() const { return width_; }  // depth that cuts the tooth, m
+    // Width of the strip in which the crack runs, m. By sections a crack may cut the tooth at a
+    // smaller depth (max_crack_depth).
+    double width() const { return width_; }
 
     // K_I, Pa m^(1/2), at a depth in [0, width) for a normal force in N on the tooth, tau mesh
     // periods after the start of its engagement. 0 where the force closes the crack.

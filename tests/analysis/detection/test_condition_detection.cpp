@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "analysis/detection/condition_detection.hpp"
 
@@ -51,6 +52,11 @@ TEST_CASE("Thresholds by condition reveal faults that the scatter of torque hide
     CHECK(own.levels[0].thresholds[1].sample == 199);
     CHECK(own.levels[0].cells[0].detected == 90);
     CHECK(own.levels[0].cells[0].tested == 90);
+    std::vector<double> unknown(healthy.torque);
+    unknown[7] = std::nan("");
+    CHECK(detect_by_condition("f", Alarm::high, one, other,
+                              {"torque_N_m", "N m", unknown, faulty.torque}, request())
+              .refusal == "torque_N_m is not known of every healthy gearbox");
 }
 
 // Seventy recordings of ten gearboxes, interleaved; the last gearbox has the highest values. Ten

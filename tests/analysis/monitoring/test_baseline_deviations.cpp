@@ -79,6 +79,14 @@ TEST_CASE("A baseline at one torque is valid at that torque alone, however many 
     }
 }
 
+TEST_CASE("A condition that does not vary costs no degree of freedom") {
+    const std::vector<double> values{9, 11, 8, 12, 30}, same(5, 400.0);
+    CHECK(baseline_deviations(values, same, 4, Alarm::high).back() ==
+          Approx(baseline_deviations(values, {}, 4, Alarm::high).back()));
+    const Alarm alarms[] = {Alarm::high, Alarm::high};
+    CHECK_THROWS_AS(fused_deviations({values, {1, 2, 3, 4}}, {}, 3, alarms), std::invalid_argument);
+}
+
 TEST_CASE("Fused features have unit variance and detect a common shift sooner") {
     constexpr std::size_t kBaseline = 2000, kRecords = 40'000;
     const double shared = 0.6;  // correlation 0.36

@@ -49,6 +49,15 @@ TEST_CASE("A crack's effect begins where the median has moved by half a standard
     CHECK(std::isinf(effect_size(none.healthy, none.cracked, true)));
     CHECK(std::isnan(effect_size({}, rising.cracked, false)));
     CHECK(std::isinf(effect_size(rising.healthy, {}, false)));
+    // Values that never vary show no effect, although they exceed a scatter of 0.
+    Lives constant = lives(0.0, 40);
+    for (HealthyLife& life : constant.healthy) {
+        life.values.assign(life.values.size(), 3.0);
+    }
+    for (CrackedLife& life : constant.cracked) {
+        life.values.assign(life.values.size(), 3.0);
+    }
+    CHECK(std::isinf(effect_size(constant.healthy, constant.cracked, true)));
     // Large cracks act at every size.
     const Lives steep = lives(1e3, 4);
     CHECK(effect_size(steep.healthy, steep.cracked, false) <= 1.2);

@@ -94,6 +94,25 @@ TEST_CASE("Held-out healthy records alarm at the smallest rate that the others c
     CHECK(held.bounds.lower > 0.15);
 }
 
+TEST_CASE(
+    "Held-out records without a value do not change the rate, and none is given without "
+    "threshold") {
+    HealthyLife life{normal_values(100, 5), 100.0}, gaps{{}, 200.0};
+    for (const double value : life.values) {
+        gaps.values.insert(gaps.values.end(), {value, std::nan("")});
+    }
+    const auto single = *parse_detector("single");
+    const auto all = held_out_alarms(single, {&life, 1}, 0.1, 0.95),
+               some = held_out_alarms(single, {&gaps, 1}, 0.1, 0.95);
+    CHECK(some.records == all.records);
+    CHECK(some.alarms == all.alarms);
+    CHECK(some.rate == all.rate);
+    life.values.resize(10);  // nine of ten records need more than the half of them
+    const auto none = held_out_alarms(*parse_detector("9 of 10"), {&life, 1}, 0.1, 0.95);
+    CHECK(std::isnan(none.rate));
+    CHECK(std::isnan(none.bounds.upper));
+}
+
 TEST_CASE("A drift is found with its size, and white noise has none") {
     auto values = normal_values(200, 3);
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -40,6 +40,7 @@ TEST_CASE("Growth with one geometry factor matches the closed integral", "[growt
                   Approx(depth).epsilon(1e-9));
         }
         CHECK(growth.depth_after(0.0) == first);
+        CHECK(std::isnan(growth.depth_after(std::nan(""))));
         CHECK(growth.depth_after(2.0 * growth.damage_to(last)) == last);
     }
 }
