@@ -48,13 +48,18 @@ file(CONFIGURE OUTPUT ${GEARPOD_GENERATED_DIR}/lockstep/integrators/all_integrat
 
 # Kernels are compiled with -O3. With sanitizers or full debug information, each would take minutes
 # per instruction set. Such builds have one instruction set with little or no optimisation, which
-# gives the same bits.
+# gives the same bits. Kernels with sanitizers integrate some twenty times as slowly, so that all tests
+# would take many hours.
+option(GEARPOD_SANITIZE_KERNELS "sanitizers in the kernels, too" ON)
 set(gearpod_kernel_options -O3)
 if(GEARPOD_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(gearpod_one_set ON)
-  set(gearpod_kernel_options -O0)
-  if(GEARPOD_SANITIZE)
+  if(NOT GEARPOD_SANITIZE)
+    set(gearpod_kernel_options -O0)
+  elseif(GEARPOD_SANITIZE_KERNELS)
     set(gearpod_kernel_options -O1)
+  else()
+    list(APPEND gearpod_kernel_options -fno-sanitize=all)
   endif()
   list(APPEND gearpod_kernel_options -DGEARPOD_KERNEL_SET=baseline)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
