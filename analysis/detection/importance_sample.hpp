@@ -40,8 +40,8 @@ class ImportanceSample {
 
     struct Estimate {
         double threshold = 0.0;
-        double expected =
-            0.0;  // rate beyond it: the requested or, for a given threshold, the estimated one
+        // Rate beyond the threshold: the requested one, or the estimate for a given threshold.
+        double expected = 0.0;
         Interval rate;              // interval of that rate
         double contributing = 0.0;  // effective number of contributing gearboxes
         double variance = 0.0;      // relative variance of `expected`

@@ -193,9 +193,9 @@ analysis::Section monitoring_section(const MonitoringOverTime& monitoring,
                 {one.feature, one.detector, analysis::number_text(one.threshold.value),
                  fmt::format("{} of {}", one.threshold.alarms, one.threshold.records),
                  std::to_string(one.healthy_sustained),
-                 held.records > 0 ? fmt::format("{} of {} {}", held.alarms, held.records,
-                                                percent_interval(held.bounds))
-                                  : "",
+                 std::isnan(held.rate) ? ""
+                                       : fmt::format("{} of {} {}", held.alarms, held.records,
+                                                     percent_interval(held.bounds)),
                  fmt::format("{} of {}", gearbox.alarms, gearbox.recordings),
                  (gearbox.name.empty() ? "" : gearbox.name + ": ") +
                      alarm_text(monitoring, gearbox.first),

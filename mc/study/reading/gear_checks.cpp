@@ -245,7 +245,8 @@ void check_reliefs(StudyDraft& draft) {
     }
 }
 
-// Rejects a centre distance that makes gears impossible which are possible without it; then false.
+// Rejects a centre distance that makes gears impossible which are possible without it. False if it
+// did.
 bool check_centre_distance(StudyDraft& draft) {
     const auto impossible = [](const Study& study) {
         return std::ranges::any_of(toothed_members(study), [&](Member member) {

@@ -88,7 +88,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     return std::string(indent, ' ') + wrapped_text(text, indent) + '\n';
 }
 
-// Whether a word of the text begins so, in capitals or not: "fault" is not in "default".
+// True if a word of the text begins with `word`, ignoring case: "fault" is not in "default".
 bool contains(std::string_view text, std::string_view word) {
     const auto same = [](char a, char b) {
         return std::tolower(static_cast<unsigned char>(a)) ==
