@@ -258,10 +258,17 @@ bool check_centre_distance(StudyDraft& draft) {
     if (!draft.study.gearbox.centre_distance_m || !impossible(draft.study) || impossible(without)) {
         return true;
     }
+    const MeshMembers mesh = meshes_of(without.gearbox.kind).front();
+    const double given = *draft.study.gearbox.centre_distance_m,
+                 base = gear_of(without, mesh.member_1).base_radius() +
+                        gear_of(without, mesh.member_2).base_radius();
     draft.reject(
         "gearbox.centre_distance_mm",
-        fmt::format("at {:.6g} mm the profile shifts that it needs leave no possible gears",
-                    kMmPerM * *draft.study.gearbox.centre_distance_m),
+        fmt::format(
+            "{:.6g} mm {}", kMmPerM * given,
+            given <= base
+                ? fmt::format("is no more than that of the base circles, {:.6g} mm", kMmPerM * base)
+                : "needs profile shifts with which no gears are possible"),
         fmt::format("the other keys give {:.6g} mm; correct it, or them",
                     kMmPerM * centre_distance_m(without)));
     return false;
