@@ -74,7 +74,7 @@ std::string record_conditions(const Study& study) {
     std::string text = fmt::format(
         " A record lasts {:.3g} s{}, in which {} tooth meets {}.", meshes / mesh_Hz,
         length.given() ? " and begins at a random tooth position" + shared_text(study)
-                       : ", until all teeth that can meet have met (sensor.record_s)",
+                       : " by default (sensor.record_s)",
         study.fault.kind != nullptr && !study.fault.kind->wears_flanks() ? "the faulty" : "a",
         fmt::join(mates, " and "));
     if (const std::optional<double> interval_h = record_interval_h(study)) {
