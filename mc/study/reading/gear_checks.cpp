@@ -1,11 +1,13 @@
 // Checks of the gears: possible shapes, meshing, assembly and gear bodies.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
+#include "gears/working_pair.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
@@ -260,8 +262,8 @@ bool check_centre_distance(StudyDraft& draft) {
     }
     const MeshMembers mesh = meshes_of(without.gearbox.kind).front();
     const double given = *draft.study.gearbox.centre_distance_m,
-                 base = gear_of(without, mesh.member_1).base_radius() +
-                        gear_of(without, mesh.member_2).base_radius();
+                 base = gears::base_centre_distance(gear_of(without, mesh.member_1),
+                                                    gear_of(without, mesh.member_2));
     draft.reject(
         "gearbox.centre_distance_mm",
         fmt::format(

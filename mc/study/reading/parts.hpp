@@ -48,7 +48,8 @@ void check_fluctuations(StudyDraft& draft);
 void check_numerics(StudyDraft& draft);
 
 // fault_checks.cpp: checks the fault against the tooth that carries it, and the size groups.
-void check_faulty_member(StudyDraft& draft);  // before presence: keys of a member are then unknown
+// The first one comes before check_presence(), which otherwise asks for the keys of a wrong member.
+void check_faulty_member(StudyDraft& draft);
 void check_fault(StudyDraft& draft);
 
 // life_checks.cpp: checks the crack of a life, its depths and the number of records.

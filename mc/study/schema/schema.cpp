@@ -89,7 +89,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
 }
 
 // True if a word of the text begins with `word`, ignoring case: "fault" is not in "default".
-bool contains(std::string_view text, std::string_view word) {
+bool begins_word(std::string_view text, std::string_view word) {
     const auto same = [](char a, char b) {
         return std::tolower(static_cast<unsigned char>(a)) ==
                std::tolower(static_cast<unsigned char>(b));
@@ -110,7 +110,8 @@ std::string schema_help(std::string_view word) {
     std::string text;
     std::string_view section;
     for (const Key& key : schema()) {
-        if (!contains(key.section, word) && !contains(key.name, word) && !contains(key.doc, word)) {
+        if (!begins_word(key.section, word) && !begins_word(key.name, word) &&
+            !begins_word(key.doc, word)) {
             continue;
         }
         if (key.section != section) {
@@ -127,8 +128,8 @@ std::string schema_help(std::string_view word) {
     bool random = false;
     for (const DistributionHelp& distribution : distribution_help()) {
         constexpr const char* kSection = "random";
-        if (!contains(kSection, word) && !contains(distribution.name, word) &&
-            !contains(distribution.parameters, word)) {
+        if (!begins_word(kSection, word) && !begins_word(distribution.name, word) &&
+            !begins_word(distribution.parameters, word)) {
             continue;
         }
         text += random ? "" : "[random]\n";
@@ -137,7 +138,7 @@ std::string schema_help(std::string_view word) {
             fmt::format("  SECTION.KEY = {{ distribution = \"{}\", ... }}\n", distribution.name) +
             wrapped("with " + distribution.parameters, 6);
     }
-    if (contains("random", word) || contains("per", word)) {
+    if (begins_word("random", word) || begins_word("per", word)) {
         text += std::string(random ? "" : "[random]\n") +
                 "  SECTION.KEY = { ..., per = \"record\" }\n" +
                 wrapped(
@@ -148,7 +149,7 @@ std::string schema_help(std::string_view word) {
                     6);
         random = true;
     }
-    if (contains("random", word) || contains("correlations", word)) {
+    if (begins_word("random", word) || begins_word("correlations", word)) {
         text +=
             std::string(random ? "" : "[random]\n") +
             "  correlations = [{ between = [\"SECTION.KEY\", \"SECTION.KEY\"], rank = R }, ...]\n" +
